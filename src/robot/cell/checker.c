@@ -5,28 +5,85 @@
 #include "base/environment.h"
 #include "base/error.h"
 
+#include <stddef.h>
 #include <string.h>
 
 // ---- memory
 
+// The counts of a checker's arrays.
+typedef enum array_count {
+    PER_FRAME,
+    PER_LINK,
+    PER_VALUE, // of the robot, padded
+    PER_VARIABLE,
+    PER_GROUP,
+    PER_ITEM,
+    PER_ITEM_AND_PART,
+    PER_PAIR,
+    TWO_PER_PAIR,
+    PER_GROUP_AND_PART,
+    PER_GROUP_PAIR,
+    ARRAY_COUNTS
+} array_count;
+
+#define ARRAY(member, count)                                                                                           \
+    { offsetof(ovoid_robot_checker, member), sizeof *((ovoid_robot_checker *)NULL)->member, count }
+static const struct {
+    size_t pointer, size; // where the checker has it, and the size of an item
+    array_count count;
+} arrays[] = {ARRAY(frames, PER_FRAME),
+              ARRAY(stamps, PER_FRAME),
+              ARRAY(frame_errors, PER_FRAME),
+              ARRAY(values, PER_VALUE),
+              ARRAY(cosines, PER_VALUE),
+              ARRAY(sines, PER_VALUE),
+              ARRAY(places, PER_GROUP),
+              ARRAY(errors, PER_ITEM),
+              ARRAY(group_errors, PER_GROUP),
+              ARRAY(part_proofs, PER_ITEM_AND_PART),
+              ARRAY(pair_proofs, PER_PAIR),
+              ARRAY(part_marks, PER_ITEM_AND_PART),
+              ARRAY(pair_marks, PER_PAIR),
+              ARRAY(near_keys, TWO_PER_PAIR),
+              ARRAY(values8, PER_VALUE),
+              ARRAY(frames8, PER_LINK),
+              ARRAY(near_row, PER_VARIABLE),
+              ARRAY(part_nears, PER_ITEM_AND_PART),
+              ARRAY(pair_nears, PER_PAIR),
+              ARRAY(balls, PER_ITEM),
+              ARRAY(ball_stamps, PER_ITEM),
+              ARRAY(spheres8, PER_GROUP),
+              ARRAY(filter.parts, PER_GROUP_AND_PART),
+              ARRAY(filter.pairs, PER_GROUP_PAIR)};
+
 static void release_all(ovoid_robot_checker *checker) {
-    void *all[] = {checker->frames,       checker->stamps,       checker->frame_errors, checker->values,
-                   checker->cosines,      checker->sines,        checker->places,       checker->errors,
-                   checker->group_errors, checker->part_proofs,  checker->pair_proofs,  checker->part_marks,
-                   checker->pair_marks,   checker->values8,      checker->frames8,      checker->spheres8,
-                   checker->near_keys,    checker->filter.parts, checker->filter.pairs, checker->balls,
-                   checker->ball_stamps,  checker->near_row,     checker->part_nears,   checker->pair_nears};
-    for (size_t i = 0; i < sizeof all / sizeof *all; i++) allocator_release(&checker->allocator, all[i]);
-    path_memory_destroy(checker->path);
+    allocator_release(&checker->allocator, checker->block);
+    if (checker->path) checker->path_destroy(checker->path);
     *checker =
         (ovoid_robot_checker){.cell = checker->cell, .allocator = checker->allocator, .kernels = checker->kernels};
 }
 
-// Cleared memory that is the checker's; *is_there becomes 0 where there is none.
-static void *take(const ovoid_robot_checker *checker, size_t count, size_t size, int *is_there) {
-    void *memory = allocator_allocate(&checker->allocator, count, size);
-    *is_there = *is_there && memory;
-    return memory ? memset(memory, 0, count * size) : NULL;
+// The next 64-byte boundary after an array; 0 where the sizes overflow.
+static size_t end_array(size_t begin, size_t count, size_t size) {
+    return count > (SIZE_MAX / 2 - begin) / size ? 0 : (begin + count * size + 63) / 64 * 64;
+}
+
+// All arrays in one block, cleared. 0 without memory.
+static int make_arrays(ovoid_robot_checker *checker, const size_t counts[ARRAY_COUNTS]) {
+    size_t total = 0;
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
+        size_t count = counts[arrays[i].count];
+        total = end_array(total, count, arrays[i].size);
+        if (!total && count) return 0;
+    }
+    char *at = checker->block = allocator_allocate(&checker->allocator, total, 1);
+    if (!at) return 0;
+    memset(at, 0, total);
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
+        memcpy((char *)checker + arrays[i].pointer, &at, sizeof at);
+        at += end_array(0, counts[arrays[i].count], arrays[i].size);
+    }
+    return 1;
 }
 
 static void forget(ovoid_robot_checker *checker) {
@@ -53,37 +110,18 @@ ovoid_code checker_renew(ovoid_robot_checker *made, ovoid_error *error) {
         return error_set(error, OVOID_ERROR_MEMORY, -1, "the cell's last change found no memory: change it again");
     if (made->version == c->version) return OVOID_OK;
     release_all(made);
-    int ok = 1;
-    size_t frames = c->frame_count, groups = c->groups.count, proofs = c->items.count * c->parts.count;
-    size_t values = (c->robot->value_count + ROBOT8 - 1) / ROBOT8 * ROBOT8;
-    made->frames = take(made, frames, sizeof *made->frames, &ok);
-    made->stamps = take(made, frames, sizeof *made->stamps, &ok);
-    made->frame_errors = take(made, frames, sizeof *made->frame_errors, &ok);
-    made->values = take(made, values, sizeof *made->values, &ok);
-    made->cosines = take(made, values, sizeof *made->cosines, &ok);
-    made->sines = take(made, values, sizeof *made->sines, &ok);
-    made->places = take(made, groups, sizeof *made->places, &ok);
-    made->errors = take(made, c->items.count, sizeof *made->errors, &ok);
-    made->group_errors = take(made, groups, sizeof *made->group_errors, &ok);
-    made->part_proofs = take(made, proofs, sizeof *made->part_proofs, &ok);
-    made->pair_proofs = take(made, c->pairs.count, sizeof *made->pair_proofs, &ok);
-    made->part_marks = take(made, proofs, sizeof *made->part_marks, &ok);
-    made->pair_marks = take(made, c->pairs.count, sizeof *made->pair_marks, &ok);
-    made->near_keys = take(made, 2 * checker_count_pairs(made), sizeof *made->near_keys, &ok);
-    made->values8 = take(made, values, sizeof *made->values8, &ok);
-    made->frames8 = take(made, c->robot->link_count, sizeof *made->frames8, &ok);
-    made->near_row = take(made, c->robot->variable_count, sizeof *made->near_row, &ok);
-    made->part_nears = take(made, proofs, sizeof *made->part_nears, &ok);
-    made->pair_nears = take(made, c->pairs.count, sizeof *made->pair_nears, &ok);
-    made->balls = take(made, c->items.count, sizeof *made->balls, &ok);
-    made->ball_stamps = take(made, c->items.count, sizeof *made->ball_stamps, &ok);
-    made->spheres8 = take(made, groups, sizeof *made->spheres8, &ok);
-    made->filter.parts = take(made, groups * c->parts.count, sizeof *made->filter.parts, &ok);
-    made->filter.pairs = take(made, c->group_pairs.count, sizeof *made->filter.pairs, &ok);
-    if (!ok) {
-        release_all(made);
-        return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for a checker");
-    }
+    const size_t counts[ARRAY_COUNTS] = {[PER_FRAME] = c->frame_count,
+                                         [PER_LINK] = c->robot->link_count,
+                                         [PER_VALUE] = (c->robot->value_count + ROBOT8 - 1) / ROBOT8 * ROBOT8,
+                                         [PER_VARIABLE] = c->robot->variable_count,
+                                         [PER_GROUP] = c->groups.count,
+                                         [PER_ITEM] = c->items.count,
+                                         [PER_ITEM_AND_PART] = c->items.count * c->parts.count,
+                                         [PER_PAIR] = c->pairs.count,
+                                         [TWO_PER_PAIR] = 2 * checker_count_pairs(made),
+                                         [PER_GROUP_AND_PART] = c->groups.count * c->parts.count,
+                                         [PER_GROUP_PAIR] = c->group_pairs.count};
+    if (!make_arrays(made, counts)) return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for a checker");
     made->version = c->version;
     made->level = made->lane = -1;
     made->frames[c->robot->root] = frame_make_world();

@@ -37,7 +37,6 @@ typedef struct pair_name {
 
 /// What the checker's searches of paths work with; made by the first of them.
 typedef struct path_memory path_memory;
-void path_memory_destroy(path_memory *memory);
 
 /// What is near in some of eight states: a group and a part, or a pair of groups.
 typedef struct near_lanes {
@@ -79,13 +78,15 @@ struct ovoid_robot_checker {
     inner_balls *balls;               ///< of each item, in the world, where `ball_stamps` say so
     uint64_t *ball_stamps;
     double *errors;                    ///< of each item: what its points may be off by
-    double *group_errors;              ///< the same of each group's
+    double *group_errors;              ///< of each group: what its points may be off by
     ovoid_proof *part_proofs;          ///< of item i and part k at i part_count + k
     ovoid_proof *pair_proofs;          ///< of each pair of items
     near_key *near_keys;               ///< two of each pair that there is
     double *near_row;                  ///< a row of gradients
     uint64_t *part_nears, *pair_nears; ///< of each pair: the last state in which it was found near
+    void *block;                       ///< the memory of all these arrays
     path_memory *path;                 ///< NULL: no path was searched since the cell has changed
+    void (*path_destroy)(path_memory *memory);
 };
 
 /// How many pairs there are to find.

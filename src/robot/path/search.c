@@ -428,8 +428,7 @@ static ovoid_code validate_options(const ovoid_robot_path *path, const ovoid_rob
 
 // ---- memory
 
-void path_memory_destroy(path_memory *m) {
-    if (!m) return;
+static void destroy_memory(path_memory *m) {
     ovoid_allocator memory = m->w.allocator;
     allocator_release(&memory, m->masks);
     allocator_release(&memory, m->states);
@@ -460,9 +459,10 @@ static ovoid_code get_memory(ovoid_robot_checker *checker, ovoid_error *error) {
     }
     if (allocate(m, checker->cell)) {
         checker->path = m;
+        checker->path_destroy = destroy_memory;
         return OVOID_OK;
     }
-    path_memory_destroy(m);
+    destroy_memory(m);
     return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for a path");
 }
 
