@@ -109,17 +109,68 @@ typedef struct alter_count {
     long told, refused, still_true;
 } alter_count;
 
-/// Counts a lie; 0 where it is false and was accepted.
+/// The lie at hand: what is altered, and how.
+static const char *alter_name = "", *alter_way = "";
+
+/// Counts a lie and checks that it is refused or may be true; 0 where it is not.
 static inline int alter_take(alter_count *n, int is_false, int is_refused) {
     n->told++;
     n->refused += is_refused;
     n->still_true += !is_refused && !is_false;
-    return is_refused || !is_false;
+    int is_noticed = CHECK(is_refused || !is_false);
+    if (!is_noticed && check_failed <= 20) printf("  accepted: %s, %s\n", alter_name, alter_way);
+    return is_noticed;
 }
 
 static inline void alter_print(const char *name, const alter_count *n) {
     printf("%-24s %7ld lies, %7ld refused, %7ld accepted as not shown to be false\n", name, n->told, n->refused,
            n->still_true);
+}
+
+/// The fields of a kind of record, and a count for each.
+typedef struct alter_table {
+    const alter_field *fields;
+    int count;
+    alter_count *counts;
+} alter_table;
+#define ALTER_TABLE(fields, counts)                                                                                    \
+    { fields, sizeof(fields) / sizeof *(fields), counts }
+
+static inline void alter_print_table(const alter_table *table) {
+    for (int i = 0; i < table->count; i++) alter_print(table->fields[i].name, &table->counts[i]);
+}
+
+/// A walk through all alterations of a record, of at most 4096 bytes, each in the record itself.
+typedef struct alter_walk {
+    const alter_table *table;
+    void *record;
+    const void *other; ///< another record of the type
+    size_t size;
+    double scale; ///< of the tolerances
+    int step;
+    unsigned char right[4096];
+} alter_walk;
+
+static inline alter_walk alter_walk_make(const alter_table *table, void *record, size_t size, const void *other) {
+    alter_walk w = {.table = table, .record = record, .other = other, .size = size, .scale = 1};
+    if (size > sizeof w.right) exit(2);
+    memcpy(w.right, record, size);
+    return w;
+}
+
+/// Alters the record in the next way: the count of its field. NULL at the end: the record is then as it was.
+static inline alter_count *alter_next(alter_walk *w) {
+    for (; w->step < w->table->count * ALTER_KINDS; w->step++) {
+        alter_field field = w->table->fields[w->step / ALTER_KINDS];
+        memcpy(w->record, w->right, w->size);
+        field.tolerance *= w->scale;
+        if (!alter_apply(w->record, w->other, &field, w->step % ALTER_KINDS)) continue;
+        alter_name = field.name;
+        alter_way = alter_names[w->step % ALTER_KINDS];
+        return &w->table->counts[w->step++ / ALTER_KINDS];
+    }
+    memcpy(w->record, w->right, w->size);
+    return NULL;
 }
 
 #endif

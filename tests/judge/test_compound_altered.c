@@ -42,51 +42,48 @@ static const alter_field part_fields[] = {
     ALTER_FIELD(ovoid_body_answer, common.x, ALTER_REAL, 1e-9)};
 enum { PART_FIELDS = sizeof part_fields / sizeof *part_fields };
 
-static alter_count of_answer, of_parts, of_fields[EXCLUSION_FIELDS], of_lists, of_cover;
+static alter_count of_answer[ALTER_ANSWER_FIELDS], of_parts[PART_FIELDS], of_fields[EXCLUSION_FIELDS], of_forged,
+    of_lists, of_cover;
+static const alter_table answer_table = ALTER_TABLE(alter_answer_fields, of_answer),
+                         part_table = ALTER_TABLE(part_fields, of_parts),
+                         exclusion_table = ALTER_TABLE(exclusion_fields, of_fields);
 
-static void tell(const told *t, const ovoid_body_answer *x, const ovoid_exclusions *all, alter_count *n,
-                 const char *what, const char *how) {
+static void tell(const told *t, const ovoid_body_answer *x, const ovoid_exclusions *all, alter_count *n) {
     ovoid_error why = {.message = ""};
     int is_refused = ovoid_body_verify(&t->pair, x, &t->options, all, NULL) != OVOID_OK;
     judge_set_options(court, &t->options);
     int is_lie = !is_refused && (judge_verify_compound(court, &t->pair, x, all, &why) != OVOID_OK ||
                                  alter_limit_is_false(&x->deciding, t->most, 0, t->options.cap));
-    if (!CHECK(alter_take(n, is_lie, is_refused)) && check_failed < 20)
-        printf("  accepted: %s %s: %s %s [%.17g, %.17g]: %s\n", what, how, ovoid_status_get_name(x->status),
-               ovoid_limit_get_name(x->limit), x->lower, x->upper, why.message);
+    if (!alter_take(n, is_lie, is_refused) && check_failed < 20)
+        printf("  %s %s [%.17g, %.17g]: %s\n", ovoid_status_get_name(x->status), ovoid_limit_get_name(x->limit),
+               x->lower, x->upper, why.message);
 }
 
 static void lie_about_answer(const told *t, const ovoid_body_answer *x, const ovoid_exclusions *all) {
-    for (int i = 0; i < ALTER_ANSWER_FIELDS; i++)
-        for (int kind = 0; kind < ALTER_KINDS; kind++) {
-            ovoid_body_answer y = *x;
-            if (!alter_apply(&y.deciding, &t->other.deciding, &alter_answer_fields[i], kind)) continue;
-            y = ovoid_body_answer_make(&y.deciding, y.part_a, y.part_b);
-            tell(t, &y, all, &of_answer, alter_answer_fields[i].name, alter_names[kind]);
-        }
-    for (int which = 0; which < ALTER_ANSWER_FORGERIES; which++) {
-        ovoid_body_answer y = *x;
-        if (!alter_answer_forge(&y.deciding, &t->other.deciding, t->counts, which)) continue;
-        y = ovoid_body_answer_make(&y.deciding, y.part_a, y.part_b);
-        tell(t, &y, all, &of_answer, "forged", "");
+    ovoid_answer deciding = x->deciding;
+    alter_walk of_deciding = alter_walk_make(&answer_table, &deciding, sizeof deciding, &t->other.deciding);
+    for (alter_count *n; (n = alter_next(&of_deciding));) {
+        const ovoid_body_answer y = ovoid_body_answer_make(&deciding, x->part_a, x->part_b);
+        tell(t, &y, all, n);
     }
-    for (int i = 0; i < PART_FIELDS; i++)
-        for (int kind = 0; kind < ALTER_KINDS; kind++) {
-            ovoid_body_answer y = *x;
-            if (alter_apply(&y, &t->other, &part_fields[i], kind))
-                tell(t, &y, all, &of_parts, "part", alter_names[kind]);
-        }
+    alter_name = "forged", alter_way = "";
+    for (int which = 0; which < ALTER_ANSWER_FORGERIES; which++, deciding = x->deciding) {
+        if (!alter_answer_forge(&deciding, &t->other.deciding, t->counts, which)) continue;
+        const ovoid_body_answer y = ovoid_body_answer_make(&deciding, x->part_a, x->part_b);
+        tell(t, &y, all, &of_forged);
+    }
+    ovoid_body_answer y = *x;
+    alter_walk w = alter_walk_make(&part_table, &y, sizeof y, &t->other);
+    for (alter_count *n; (n = alter_next(&w));) tell(t, &y, all, n);
 }
 
 static void lie_about_exclusions(const told *t, const ovoid_body_answer *x, const ovoid_exclusions *all, uint64_t *s) {
     ovoid_exclusions y = {altered, CAPACITY, all->count, all->cover};
     size_t at = random_next(s) % all->count, other = random_next(s) % all->count, bytes = all->count * sizeof *items;
-    for (int i = 0; i < EXCLUSION_FIELDS; i++)
-        for (int kind = 0; kind < ALTER_KINDS; kind++) {
-            memcpy(altered, items, bytes);
-            if (alter_apply(&altered[at], &items[other], &exclusion_fields[i], kind))
-                tell(t, x, &y, &of_fields[i], exclusion_fields[i].name, alter_names[kind]);
-        }
+    memcpy(altered, items, bytes);
+    alter_walk w = alter_walk_make(&exclusion_table, &altered[at], sizeof *altered, &items[other]);
+    for (alter_count *n; (n = alter_next(&w));) tell(t, x, &y, n);
+    alter_name = "exclusions", alter_way = "left out, doubled or swapped";
     for (int which = 0; which < 5; which++) {
         memcpy(altered, items, bytes);
         y.count = all->count, y.capacity = CAPACITY;
@@ -97,7 +94,7 @@ static void lie_about_exclusions(const told *t, const ovoid_body_answer *x, cons
         case 3: y.count = 0; break;
         default: y.capacity = all->count - 1; break;
         }
-        if (at != other || which > 2) tell(t, x, &y, &of_lists, "exclusions", "left out, doubled or swapped");
+        if (at != other || which > 2) tell(t, x, &y, &of_lists);
     }
 }
 
@@ -105,6 +102,7 @@ static void lie_about_cover(const told *t, const ovoid_body_answer *x, const ovo
     const ovoid_cover kept = cover;
     uint32_t point = (uint32_t)(random_next(s) % kept.point_count);
     uint16_t *triangle = cover.triangles[random_next(s) % kept.triangle_count];
+    alter_name = "cover", alter_way = "altered";
     for (int which = 0; which < 5; which++, cover = kept) {
         switch (which) {
         case 0: cover.triangle_count--; break;
@@ -113,7 +111,7 @@ static void lie_about_cover(const told *t, const ovoid_body_answer *x, const ovo
         case 3: cover.point_count = cover.triangle_count = 0; break;
         default: cover.b[point] = kept.b[(point + 1) % kept.point_count]; break;
         }
-        if (memcmp(&cover, &kept, sizeof kept) != 0) tell(t, x, all, &of_cover, "cover", "altered");
+        if (memcmp(&cover, &kept, sizeof kept) != 0) tell(t, x, all, &of_cover);
     }
 }
 
@@ -185,9 +183,10 @@ int main(int count, char **arguments) {
     if (!CHECK(court != NULL)) return check_end();
     time_t end = time(NULL) + (time_t)seconds;
     for (uint64_t round = 0; round == 0 || time(NULL) < end; round++) run_round((seed + round) * 1000003);
-    alter_print("the deciding pair", &of_answer);
-    alter_print("its parts", &of_parts);
-    for (int i = 0; i < EXCLUSION_FIELDS; i++) alter_print(exclusion_fields[i].name, &of_fields[i]);
+    alter_print_table(&answer_table);
+    alter_print("forged", &of_forged);
+    alter_print_table(&part_table);
+    alter_print_table(&exclusion_table);
     alter_print("list of exclusions", &of_lists);
     alter_print("cover", &of_cover);
     judge_destroy(court);

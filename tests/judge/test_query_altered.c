@@ -18,6 +18,7 @@ typedef struct told {
 } told;
 
 static alter_count counts[ALTER_ANSWER_FIELDS + 2];
+static const alter_table table = ALTER_TABLE(alter_answer_fields, counts);
 
 static int is_false(const told *t, const ovoid_answer *x, const ovoid_cover *cover) {
     judge_set_options(trial_judge, &t->options);
@@ -25,18 +26,18 @@ static int is_false(const told *t, const ovoid_answer *x, const ovoid_cover *cov
            alter_limit_is_false(x, t->most, t->wide, t->options.cap);
 }
 
-static void tell(const told *t, const ovoid_answer *x, const ovoid_cover *cover, alter_count *n, const char *what,
-                 const char *how) {
+static void tell(const told *t, const ovoid_answer *x, const ovoid_cover *cover, alter_count *n) {
     int is_refused = ovoid_answer_verify(&t->pair, x, &t->options, cover, NULL) != OVOID_OK;
     int is_lie = !is_refused && is_false(t, x, cover);
-    if (!CHECK(alter_take(n, is_lie, is_refused)) && check_failed < 20)
-        printf("  accepted: %s %s: %s %s [%.17g, %.17g] kind %s count %u\n", what, how,
-               ovoid_status_get_name(x->status), ovoid_limit_get_name(x->limit), x->lower, x->upper,
-               ovoid_proof_kind_get_name(x->proof.kind), x->proof.count);
+    if (!alter_take(n, is_lie, is_refused) && check_failed < 20)
+        printf("  %s %s [%.17g, %.17g] kind %s count %u\n", ovoid_status_get_name(x->status),
+               ovoid_limit_get_name(x->limit), x->lower, x->upper, ovoid_proof_kind_get_name(x->proof.kind),
+               x->proof.count);
 }
 
 static void lie_about_cover(const told *t, const ovoid_answer *x, const ovoid_cover *cover, uint64_t *s) {
     static ovoid_cover y;
+    alter_name = "cover", alter_way = "altered";
     for (int which = 0; which < 24; which++) {
         y = *cover;
         uint32_t point = (uint32_t)(random_next(s) % cover->point_count);
@@ -55,9 +56,10 @@ static void lie_about_cover(const told *t, const ovoid_answer *x, const ovoid_co
         case 10: y.triangle_count = 2 * OVOID_COVER_POINTS + 1; break;
         default: memcpy(triangle, y.triangles[0], sizeof *y.triangles); break;
         }
-        if (memcmp(&y, cover, sizeof y) != 0) tell(t, x, &y, &counts[ALTER_ANSWER_FIELDS + 1], "cover", "altered");
+        if (memcmp(&y, cover, sizeof y) != 0) tell(t, x, &y, &counts[ALTER_ANSWER_FIELDS + 1]);
     }
-    tell(t, x, NULL, &counts[ALTER_ANSWER_FIELDS + 1], "cover", "left out");
+    alter_way = "left out";
+    tell(t, x, NULL, &counts[ALTER_ANSWER_FIELDS + 1]);
 }
 
 static void lie_about(const told *t, const ovoid_answer *x, const ovoid_cover *cover, uint64_t *s) {
@@ -65,17 +67,12 @@ static void lie_about(const told *t, const ovoid_answer *x, const ovoid_cover *c
     if (!CHECK(ovoid_answer_verify(&t->pair, x, &t->options, cover, &error) == OVOID_OK)) puts(error.message);
     if (x->stage == OVOID_STAGE_NONE && x->lower == -INFINITY) return;
     CHECK(!alter_limit_is_false(x, t->most, t->wide, t->options.cap));
-    for (int i = 0; i < ALTER_ANSWER_FIELDS; i++)
-        for (int kind = 0; kind < ALTER_KINDS; kind++) {
-            ovoid_answer y = *x;
-            if (alter_apply(&y, &t->other, &alter_answer_fields[i], kind))
-                tell(t, &y, cover, &counts[i], alter_answer_fields[i].name, alter_names[kind]);
-        }
-    for (int which = 0; which < ALTER_ANSWER_FORGERIES; which++) {
-        ovoid_answer y = *x;
-        if (alter_answer_forge(&y, &t->other, t->counts, which))
-            tell(t, &y, cover, &counts[ALTER_ANSWER_FIELDS], "forged", "");
-    }
+    ovoid_answer y = *x;
+    alter_walk w = alter_walk_make(&table, &y, sizeof y, &t->other);
+    for (alter_count *n; (n = alter_next(&w));) tell(t, &y, cover, n);
+    alter_name = "forged", alter_way = "";
+    for (int which = 0; which < ALTER_ANSWER_FORGERIES; which++, y = *x)
+        if (alter_answer_forge(&y, &t->other, t->counts, which)) tell(t, &y, cover, &counts[ALTER_ANSWER_FIELDS]);
     if (x->proof.kind == OVOID_PROOF_COVER) lie_about_cover(t, x, cover, s);
 }
 
@@ -141,7 +138,7 @@ int main(int count, char **arguments) {
     time_t end = time(NULL) + (time_t)seconds;
     for (uint64_t round = 0; round == 0 || time(NULL) < end; round++)
         for (size_t i = 0; i < family_count; i++) run_family(&families[i], (seed + round) * 1000003 + i);
-    for (int i = 0; i < ALTER_ANSWER_FIELDS; i++) alter_print(alter_answer_fields[i].name, &counts[i]);
+    alter_print_table(&table);
     alter_print("forged", &counts[ALTER_ANSWER_FIELDS]);
     alter_print("cover", &counts[ALTER_ANSWER_FIELDS + 1]);
     judge_destroy(trial_judge);

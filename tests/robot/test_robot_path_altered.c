@@ -202,44 +202,39 @@ static const alter_field of_step[] = {OF_STEP(begin, ALTER_REAL, 1e-6),    OF_ST
                                       OF_STEP(normal.y, ALTER_REAL, 1e-3), OF_STEP(normal.z, ALTER_REAL, 1e-3)};
 enum { ANSWER_FIELDS = sizeof of_answer / sizeof *of_answer, STEP_FIELDS = sizeof of_step / sizeof *of_step };
 static alter_count answer_counts[ANSWER_FIELDS], step_counts[STEP_FIELDS], kind_counts;
+static const alter_table answer_table = ALTER_TABLE(of_answer, answer_counts),
+                         step_table = ALTER_TABLE(of_step, step_counts);
 
 // The answer alone: its steps stay, so what is more than they prove is not proven.
 static void lie_about_answer(const arm *m, const ovoid_robot_path_answer *x, const ovoid_robot_path_answer *other) {
-    for (int f = 0; f < ANSWER_FIELDS; f++)
-        for (int kind = 0; kind < ALTER_KINDS; kind++) {
-            ovoid_robot_path_answer lie = *x;
-            if (!alter_apply(&lie, other, &of_answer[f], kind)) continue;
-            if (!CHECK(alter_take(&answer_counts[f], answer_is_false(m, &lie), is_refused(m, &lie, steps))))
-                printf("  %s: %s\n", of_answer[f].name, alter_names[kind]);
-        }
+    ovoid_robot_path_answer lie = *x;
+    alter_walk w = alter_walk_make(&answer_table, &lie, sizeof lie, other);
+    for (alter_count *n; (n = alter_next(&w));) alter_take(n, answer_is_false(m, &lie), is_refused(m, &lie, steps));
 }
 
 static void take_step_lie(const arm *m, const ovoid_robot_path_answer *x, size_t at, const ovoid_robot_step *lie,
-                          alter_count *count, const char *name) {
+                          alter_count *count) {
     ovoid_robot_step kept = steps[at];
     steps[at] = *lie;
-    if (!CHECK(alter_take(count, step_is_false(m, lie), is_refused(m, x, steps)))) printf("  step: %s\n", name);
+    alter_take(count, step_is_false(m, lie), is_refused(m, x, steps));
     steps[at] = kept;
 }
 
 // One step, and one that says the same of a longer time: to the end of its segment, and to that of the path.
 static void lie_about_step(const arm *m, const ovoid_robot_path_answer *x, size_t at) {
     const ovoid_robot_step *other = &steps[(at + 1) % x->step_count];
-    ovoid_robot_step lie;
-    for (int f = 0; f < STEP_FIELDS; f++)
-        for (int kind = 0; kind < ALTER_KINDS; kind++) {
-            lie = steps[at];
-            if (alter_apply(&lie, other, &of_step[f], kind))
-                take_step_lie(m, x, at, &lie, &step_counts[f], of_step[f].name);
-        }
+    ovoid_robot_step lie = steps[at];
+    alter_walk w = alter_walk_make(&step_table, &lie, sizeof lie, other);
+    for (alter_count *n; (n = alter_next(&w));) take_step_lie(m, x, at, &lie, n);
+    alter_name = "kind, mask, longer", alter_way = "";
     for (unsigned kind = 0; kind < 6; kind++) {
         lie = steps[at], lie.kind = (uint16_t)kind;
-        if (kind != steps[at].kind) take_step_lie(m, x, at, &lie, &kind_counts, "kind");
+        if (kind != steps[at].kind) take_step_lie(m, x, at, &lie, &kind_counts);
         lie = steps[at], lie.mask = (uint16_t)(kind < 5 ? lie.mask << kind | kind : 256);
-        if (lie.mask != steps[at].mask) take_step_lie(m, x, at, &lie, &kind_counts, "mask");
+        if (lie.mask != steps[at].mask) take_step_lie(m, x, at, &lie, &kind_counts);
         lie = steps[at], lie.kind = (uint16_t)(1 + kind % 3);
         if (kind > 2) lie.end = kind == 3 ? floor(lie.begin) + 1 : get_last(m);
-        if (kind > 2) take_step_lie(m, x, at, &lie, &kind_counts, "longer");
+        if (kind > 2) take_step_lie(m, x, at, &lie, &kind_counts);
     }
 }
 
@@ -358,8 +353,8 @@ int main(int argc, char **argv) {
     test_forged(seed, (int)cases);
     test_gaps(seed, (int)cases);
     test_random(seed, (int)cases);
-    for (int f = 0; f < ANSWER_FIELDS; f++) alter_print(of_answer[f].name, &answer_counts[f]);
-    for (int f = 0; f < STEP_FIELDS; f++) alter_print(of_step[f].name, &step_counts[f]);
+    alter_print_table(&answer_table);
+    alter_print_table(&step_table);
     alter_print("kind, mask, longer", &kind_counts);
     return check_end();
 }

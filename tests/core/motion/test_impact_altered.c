@@ -151,21 +151,14 @@ static int approach_is_false(const truth *t, const ovoid_approach *x, const ovoi
 
 // ---- lies
 
-static const char *lie_name = "", *lie_kind = "";
-
-static void take(int is_false, ovoid_code code, alter_count *n) {
-    int is_noticed = alter_take(n, is_false, code != OVOID_OK);
-    if (!CHECK(is_noticed) && check_failed <= 20) printf("  accepted: %s, %s\n", lie_name, lie_kind);
-}
-
 static void tell_impact(const truth *t, const ovoid_impact *x, size_t checked, alter_count *n) {
     ovoid_code code = ovoid_impact_verify(&t->c.a, &t->c.b, t->margin, x, t->told, steps, NULL);
-    take(impact_is_false(t, x, steps, checked), code, n);
+    alter_take(n, impact_is_false(t, x, steps, checked), code != OVOID_OK);
 }
 static void tell_approach(const truth *t, const ovoid_approach *x, const ovoid_approach *right, size_t checked,
                           alter_count *n) {
     ovoid_code code = ovoid_approach_verify(&t->c.a, &t->c.b, x, t->told, steps, NULL);
-    take(approach_is_false(t, x, right, steps, checked), code, n);
+    alter_take(n, approach_is_false(t, x, right, steps, checked), code != OVOID_OK);
 }
 
 enum { IMPACT_FIELDS = 13, APPROACH_FIELDS = 11, STEP_FIELDS = 5, FORGED = 11 };
@@ -199,50 +192,39 @@ static const alter_field step_fields[STEP_FIELDS] = {
 static alter_count impact_counts[IMPACT_FIELDS], approach_counts[APPROACH_FIELDS], step_counts[STEP_FIELDS],
     forged_counts[FORGED];
 
-// A record of the motion's other half, for "another's".
-static ovoid_impact find_other(const truth *t) {
-    ovoid_motion_options o = {.begin = t->first, .end = t->first + 0.5 * (t->last - t->first)};
-    return ovoid_impact_find(&t->c.a, &t->c.b, t->margin, &o);
+static const alter_table impact_table = ALTER_TABLE(impact_fields, impact_counts),
+                         approach_table = ALTER_TABLE(approach_fields, approach_counts),
+                         step_table = ALTER_TABLE(step_fields, step_counts);
+
+// The options of a record of the motion's other half, for "another's".
+static ovoid_motion_options get_other(const truth *t) {
+    return (ovoid_motion_options){.begin = t->first, .end = t->first + 0.5 * (t->last - t->first)};
 }
 
 static void lie_about_impact(const truth *t, const ovoid_impact *right) {
-    ovoid_impact other = find_other(t), x;
-    for (int f = 0; f < IMPACT_FIELDS; f++)
-        for (int kind = 0; kind < ALTER_KINDS; kind++) {
-            x = *right;
-            if (!alter_apply(&x, &other, &impact_fields[f], kind) || x.step_count > CAPACITY) continue;
-            lie_name = impact_fields[f].name;
-            lie_kind = alter_names[kind];
-            tell_impact(t, &x, right->step_count, &impact_counts[f]);
-        }
+    const ovoid_motion_options half = get_other(t);
+    ovoid_impact other = ovoid_impact_find(&t->c.a, &t->c.b, t->margin, &half), x = *right;
+    alter_walk w = alter_walk_make(&impact_table, &x, sizeof x, &other);
+    for (alter_count *n; (n = alter_next(&w));)
+        if (x.step_count <= CAPACITY) tell_impact(t, &x, right->step_count, n);
 }
 
 static void lie_about_approach(const truth *t, const ovoid_approach *right) {
-    ovoid_motion_options half = {.begin = t->first, .end = t->first + 0.5 * (t->last - t->first)};
-    ovoid_approach other = ovoid_approach_find(&t->c.a, &t->c.b, &half), x;
-    for (int f = 0; f < APPROACH_FIELDS; f++)
-        for (int kind = 0; kind < ALTER_KINDS; kind++) {
-            x = *right;
-            if (!alter_apply(&x, &other, &approach_fields[f], kind) || x.step_count > CAPACITY) continue;
-            lie_name = approach_fields[f].name;
-            lie_kind = alter_names[kind];
-            tell_approach(t, &x, right, right->step_count, &approach_counts[f]);
-        }
+    const ovoid_motion_options half = get_other(t);
+    ovoid_approach other = ovoid_approach_find(&t->c.a, &t->c.b, &half), x = *right;
+    alter_walk w = alter_walk_make(&approach_table, &x, sizeof x, &other);
+    for (alter_count *n; (n = alter_next(&w));)
+        if (x.step_count <= CAPACITY) tell_approach(t, &x, right, right->step_count, n);
 }
 
 // The first, the last and one step in between.
 static void lie_about_steps(const truth *t, const ovoid_impact *right) {
     const size_t count = right->step_count, which[3] = {0, count / 2, count - 1};
-    for (int k = 0; k < 3 && count; k++)
-        for (int f = 0; f < STEP_FIELDS; f++)
-            for (int kind = 0; kind < ALTER_KINDS; kind++) {
-                ovoid_step before = steps[which[k]];
-                if (!alter_apply(&steps[which[k]], &steps[(which[k] + 1) % count], &step_fields[f], kind)) continue;
-                lie_name = step_fields[f].name;
-                lie_kind = alter_names[kind];
-                tell_impact(t, right, count, &step_counts[f]);
-                steps[which[k]] = before;
-            }
+    for (int k = 0; k < 3 && count; k++) {
+        const ovoid_step other = steps[(which[k] + 1) % count];
+        alter_walk w = alter_walk_make(&step_table, &steps[which[k]], sizeof *steps, &other);
+        for (alter_count *n; (n = alter_next(&w));) tell_impact(t, right, count, n);
+    }
 }
 
 // ---- forgeries
@@ -257,8 +239,8 @@ static ovoid_impact make_free(const truth *t, double begin, double end) {
 }
 
 static void forge(const truth *t, const char *name, int which, const ovoid_impact *x) {
-    lie_name = name;
-    lie_kind = "forged";
+    alter_name = name;
+    alter_way = "forged";
     tell_impact(t, x, CAPACITY, &forged_counts[which]);
 }
 
@@ -365,8 +347,8 @@ static void forge_refusals(const truth *t) {
         for (int status = OVOID_UNDECIDED; status <= OVOID_OVERLAPPING; status++) {
             ovoid_approach y = {
                 .status = (ovoid_status)status, .limit = (ovoid_limit)limit, .lower = -INFINITY, .upper = INFINITY};
-            lie_name = "approach refused";
-            lie_kind = "forged";
+            alter_name = "approach refused";
+            alter_way = "forged";
             tell_approach(t, &y, &y, 0, &forged_counts[6]);
         }
     }
@@ -375,17 +357,17 @@ static void forge_refusals(const truth *t) {
 // A wide bracket around 0, as bodies that touch; one that is not around 0, as undecided.
 static void forge_touching(const truth *t, const ovoid_approach *right) {
     ovoid_approach x = *right;
-    lie_kind = "forged";
-    lie_name = "undecided of a decided bracket";
+    alter_way = "forged";
+    alter_name = "undecided of a decided bracket";
     x.status = OVOID_UNDECIDED;
     tell_approach(t, &x, right, right->step_count, &forged_counts[10]);
-    lie_name = "a bracket farther away";
+    alter_name = "a bracket farther away";
     x = *right;
     x.lower = x.upper = right->upper + t->c.size;
     x.status = x.lower > 0 ? OVOID_SEPARATED : OVOID_OVERLAPPING;
     tell_approach(t, &x, right, right->step_count, &forged_counts[10]);
     x = *right;
-    lie_name = "touching within a wide bracket";
+    alter_name = "touching within a wide bracket";
     x.status = OVOID_TOUCHING;
     x.lower = fmin(x.lower, -t->c.size);
     x.upper = fmax(x.upper, t->c.size);
@@ -400,8 +382,8 @@ static void forge_nearest(const truth *t, const ovoid_approach *right, double ti
     x.upper = x.answer.upper + t->slack;
     x.lower = fmin(x.lower, x.upper);
     x.status = x.upper < 0 ? OVOID_OVERLAPPING : x.lower > 0 ? OVOID_SEPARATED : OVOID_UNDECIDED;
-    lie_name = "nearest outside of the times";
-    lie_kind = "forged";
+    alter_name = "nearest outside of the times";
+    alter_way = "forged";
     tell_approach(t, &x, right, right->step_count, &forged_counts[7]);
 }
 
@@ -466,9 +448,9 @@ int main(int count, char **arguments) {
         moving_destroy(&t.c);
     }
     check_seed = 0;
-    for (int i = 0; i < IMPACT_FIELDS; i++) alter_print(impact_fields[i].name, &impact_counts[i]);
-    for (int i = 0; i < STEP_FIELDS; i++) alter_print(step_fields[i].name, &step_counts[i]);
-    for (int i = 0; i < APPROACH_FIELDS; i++) alter_print(approach_fields[i].name, &approach_counts[i]);
+    alter_print_table(&impact_table);
+    alter_print_table(&step_table);
+    alter_print_table(&approach_table);
     const char *const names[FORGED] = {"free for no time",
                                        "hit before the beginning",
                                        "hit after the end",
