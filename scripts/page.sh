@@ -35,5 +35,5 @@ cp $out/page.html build/release/page.html
 [ "${1:-}" = --template ] && exit 0
 
 OVOID=$PWD/build/release/ovoid PLAYWRIGHT=$PWD/$out/web/page/node_modules/playwright-core/index.mjs \
-    node --test web/page/test >$out/test.log 2>&1 || { cat $out/test.log >&2 && exit 1; }
+    node --test web/page/test/*.test.mjs >$out/test.log 2>&1 || { cat $out/test.log >&2 && exit 1; }
 grep -E '^# (pass|fail|skipped) ' $out/test.log | awk '{ n[$2] = $3 } END { printf "%d passed, %d failed, %d skipped\n", n["pass"], n["fail"], n["skipped"] }'

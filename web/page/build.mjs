@@ -7,8 +7,8 @@ const [wasm, output] = process.argv.slice(2), here = new URL('.', import.meta.ur
 const read = (name) => readFileSync(new URL(name, here), 'utf8');
 const script = await build({
   entryPoints: [new URL('src/main.mjs', here).pathname], bundle: true, minify: true, format: 'iife', target: 'es2022', write: false, legalComments: 'inline',
-  // The module's bytes are in the page; what would load them from elsewhere is left out.
-  define: { 'import.meta.url': '"about:blank"' }, external: ['node:fs/promises'], logLevel: 'warning',
+  // The module's bytes are in the page; no address is needed.
+  define: { 'import.meta.url': '"about:blank"' }, logLevel: 'warning',
 });
 const licence = `/* three.js: ${readFileSync(new URL('node_modules/three/LICENSE', here), 'utf8').replaceAll('*/', '')} */\n`;
 const parts = {

@@ -1,4 +1,5 @@
 // The data of a page (format 1), decoded.
+import { shorten } from './text.mjs';
 
 export function decodeBytes(text) {
   const binary = atob(text), bytes = new Uint8Array(binary.length);
@@ -44,6 +45,10 @@ export function readData(text) {
   if (!data) throw new Error('this page has no data: it is a template, which ovoid view --html fills');
   if (data.format !== 1) throw new Error(`the data have format ${data.format}, this page reads 1`);
   addRobot(data);
+  data.title = shorten(data.title ?? 'scene');
+  data.command = shorten(data.command ?? '', 2000);
+  // Names of any length come from files: the keys stay, what is shown is cut.
+  for (const body of data.bodies) body.name = shorten(body.name);
   for (const shape of data.shapes) {
     shape.bytes = decodeBytes(shape.bytes);
     if (shape.mesh) shape.mesh = { points: decode(Float32Array, shape.mesh.points), triangles: decode(Uint32Array, shape.mesh.triangles) };
@@ -52,5 +57,7 @@ export function readData(text) {
   }
   if (data.motion) data.motion.poses = decode(Float64Array, data.motion.poses);
   data.pairs ??= [];
+  // JSON has no infinities.
+  for (const { answer } of data.pairs) Object.assign(answer, { lower: answer.lower ?? -Infinity, upper: answer.upper ?? Infinity });
   return data;
 }

@@ -1,7 +1,8 @@
 // A robot: a slider for each joint; links follow, what is near is asked live, and so is whether the state is free.
 import { sideKey } from './data.mjs';
 import { compose } from './model.mjs';
-import { element, formatBracket, formatLength } from './panel.mjs';
+import { element } from './panel.mjs';
+import { formatBracket, formatLength, shorten } from './text.mjs';
 
 const COUNTS = { revolute: 1, continuous: 1, prismatic: 1, planar: 3, floating: 7 };
 const format = (x) => String(Number(x.toPrecision(6)));
@@ -27,7 +28,7 @@ export class Joints {
   #make() {
     const { elements, held = [], obstacles = [], paddings = [] } = this.given;
     const shape = (e) => this.model.shapes[e.shape].shape, solid = (e) => (e.solid ? this.model.shapes[e.shape].solid : null);
-    this.robot = new this.model.ovoid.Robot({ ...this.given, elements: elements.map((e) => ({ ...e, shape: shape(e), solid: solid(e) })) });
+    this.robot = new this.model.ovoid.Robot({ links: this.given.links, joints: this.given.joints, disabled: this.given.disabled, elements: elements.map((e) => ({ link: e.link, pose: e.pose, shape: shape(e), solid: solid(e) })) });
     this.links = new Map(this.given.links.map((name, i) => [name, i]));
     this.ids = new Map();
     for (const h of held) this.ids.set(this.robot.attach(h.link, solid(h) ?? shape(h), h.pose, h.touching), h.key);
@@ -67,19 +68,23 @@ export class Joints {
     const limits = isFree ? [-Math.PI, Math.PI] : [joint.lower, joint.upper], unit = joint.type === 'prismatic' ? this.model.unit : 'rad';
     // A state outside the limits is shown where it is.
     const min = given.reduce((x, y) => Math.min(x, y), limits[0]), max = given.reduce((x, y) => Math.max(x, y), limits[1]);
-    const value = element('output', {}), row = element('label', { className: 'row joint' });
-    const input = element('input', {
-      type: 'range', min, max, step: 'any', 'aria-label': joint.name,
-      oninput: () => {
-        this.q[at] = Number(input.value);
-        this.onChange?.();
-        this.move();
-      },
-    });
-    row.append(element('span', { textContent: joint.name }), input, value);
+    const name = shorten(joint.name, 60), row = element('div', { className: 'joint' }), angle = element('span', { className: 'soft' });
+    const take = (value) => {
+      this.q[at] = value;
+      this.onChange?.();
+      this.move();
+    };
+    const input = element('input', { type: 'range', min, max, step: 'any', 'aria-label': joint.name.length > 60 ? name : joint.name, oninput: () => take(Number(input.value)) });
+    const number = element('input', { type: 'number', step: 'any', className: 'value', 'aria-label': `${name}, ${unit || 'length'}`, onchange: () => Number.isFinite(number.valueAsNumber) && take(number.valueAsNumber) });
+    const end = (x) => element('span', { className: 'soft', textContent: Number(x.toFixed(2)) });
+    row.append(
+      element('span', { className: 'name', textContent: name, title: name }), number, element('span', { textContent: unit }), angle,
+      element('div', { className: 'row' }, end(min), input, end(max)),
+    );
     const show = () => {
       input.value = this.q[at];
-      value.textContent = `${format(this.q[at])} ${unit}`;
+      if (document.activeElement !== number) number.value = format(this.q[at]);
+      angle.textContent = unit === 'rad' ? `${((180 * this.q[at]) / Math.PI).toFixed(1)}°` : '';
       row.classList.toggle('outside', !isFree && (this.q[at] < joint.lower || this.q[at] > joint.upper));
     };
     this.inputs.push(show);
@@ -114,7 +119,7 @@ export class Joints {
     this.model.pairs = near.map(({ a, b, ...answer }) => ({ a: this.find(a), b: this.find(b), answer: { ...answer, stage: 'robot' }, isLive: true }));
     this.model.byBody = new Map(this.model.bodies.map((body) => [body, this.model.pairs.filter((p) => p.a === body || p.b === body)]));
     this.answer = this.robot.collide(this.q, this.margin, this.given.limit_slack ?? 0);
-    this.verdict.textContent = `This state: ${this.describe(this.answer, near[0])}`;
+    this.verdict.textContent = `This state: ${this.describe(this.answer, this.model.pairs[0])}`;
     this.verdict.className = this.answer.status;
     this.onMove();
   }
@@ -122,7 +127,7 @@ export class Joints {
   /** An answer to a state in words. */
   describe({ status, a, b, code, variable, ...bracket }, nearest) {
     const { unit } = this.model, hulls = this.hulls ? ` (${this.hulls} bodies count as their hulls here: their triangles are too many for the page)` : '';
-    if (status === 'free') return `free; nearest ${nearest ? formatBracket(nearest, unit) : `beyond ${formatLength(this.shown, unit)}`}${hulls}`;
+    if (status === 'free') return `free; nearest ${nearest ? `${nearest.a.name} – ${nearest.b.name}, ${formatBracket(nearest.answer, unit)}` : `beyond ${formatLength(this.shown, unit, 3)}`}${hulls}`;
     if (status === 'refused') return `refused: ${this.describeVariable(variable)}${code === 'out of range' ? '' : `: ${code}`}`;
     if (!a) return `${status}: nothing is compared`;
     return `${status}: ${this.find(a).name} – ${this.find(b).name}, ${formatBracket(bracket, unit)}${hulls}`;
@@ -135,7 +140,7 @@ export class Joints {
       const count = joint.mimic ? 0 : COUNTS[joint.type] ?? 0;
       if (variable < at + count) {
         const isLimited = joint.type === 'revolute' || joint.type === 'prismatic', isOutside = isLimited && (q[at] < joint.lower || q[at] > joint.upper);
-        return `${this.given.variables[variable]} ${format(q[variable])}${isOutside ? ` is outside its limits, ${format(joint.lower)} to ${format(joint.upper)}` : ''}`;
+        return `${shorten(this.given.variables[variable])} ${format(q[variable])}${isOutside ? ` is outside its limits, ${format(joint.lower)} to ${format(joint.upper)}` : ''}`;
       }
       at += count;
     }

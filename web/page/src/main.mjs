@@ -5,6 +5,8 @@ import { Joints } from './joints.mjs';
 import { Model } from './model.mjs';
 import { element, Panel } from './panel.mjs';
 import { saveModel, savePicture } from './save.mjs';
+import { findNearest } from './headline.mjs';
+import { Labels } from './labels.mjs';
 import { Timeline } from './timeline.mjs';
 import { Track } from './track.mjs';
 import { Painter } from './painter.mjs';
@@ -39,11 +41,31 @@ class Page {
       this.track = new Track({ whole: $('whole'), track: $('timeline') }, model, this.joints);
       this.panel.fill();
     }
+    this.labels = new Labels($('labels'), model);
+    this.view.onPicture = (sizes) => this.labels.update(this.view, this.#shownAnswer(), sizes);
     this.view.onDrawn = (drawn, all) => this.#sayDrawn(drawn, all);
     this.#layers();
     this.#buttons();
     document.addEventListener('keydown', (event) => this.#key(event));
     this.#hover();
+    this.#showAnswer();
+  }
+
+  /** The nearest pair where the bodies are now; of those that are asked about. */
+  get nearest() {
+    const isAsked = !this.timeline || this.model.pairs.length <= LIVE_PAIRS;
+    return isAsked ? findNearest(this.model.pairs, this.#answerNow) : null;
+  }
+  #answerNow = (pair) => (this.timeline && !pair.isLive ? pair.now : pair.answer);
+
+  // The chosen pair's answer, else the nearest pair's, where no body is chosen.
+  #shownAnswer() {
+    const pair = this.panel?.chosen ?? (this.chosenBody ? null : this.nearest);
+    return pair ? { pair, answer: pair === this.panel.chosen ? pair.answer : this.#answerNow(pair) } : {};
+  }
+  #showAnswer() {
+    this.view.showAnswer(this.#shownAnswer().answer);
+    this.panel.mark(this.model.pairs.length > 1 ? this.nearest : null);
   }
 
   get isIsolated() {
@@ -67,7 +89,7 @@ class Page {
     }
     this.panel.show(pair);
     this.view.choose(this.#chosen(), this.isIsolated);
-    this.view.showAnswer(pair?.answer);
+    this.#showAnswer();
     (this.timeline ?? this.track)?.show(pair);
     if (!pair) return;
     this.fly();
@@ -80,8 +102,8 @@ class Page {
     this.view.hold(null);
     this.panel.show(null);
     this.chosenBody = body;
-    this.view.showAnswer(null);
     this.view.choose(this.#chosen(), this.isIsolated && body !== null);
+    this.#showAnswer();
     if (body) this.panel.showBody(body);
   }
 
@@ -122,8 +144,8 @@ class Page {
       const { chosen } = this.panel;
       this.model.askAgain(chosen);
       this.panel.update([chosen]);
-      this.view.showAnswer(chosen.answer);
     }
+    this.#showAnswer();
   }
   atTime() {
     if (this.panel) this.#again();
@@ -132,10 +154,8 @@ class Page {
     const { chosen } = this.panel, same = chosen && this.model.pairs.find((p) => p.a === chosen.a && p.b === chosen.b);
     this.view.placeAll();
     this.panel.fill();
-    if (same) {
-      this.panel.show(same);
-      this.view.showAnswer(same.answer);
-    } else this.view.showAnswer(this.model.pairs[0]?.answer);
+    if (chosen) this.panel.show(same ?? null);
+    this.#showAnswer();
   }
 
   reset() {
@@ -162,7 +182,12 @@ class Page {
       this.view.opacity = Number(glass.value);
       this.view.show({});
     } });
-    $('layers').append(element('label', {}, 'Opacity ', glass));
+    const names = element('input', { type: 'checkbox', checked: true, id: 'layer-labels', onchange: () => {
+      this.labels.isOn = names.checked;
+      this.view.draw();
+    } });
+    this.boxes.l = names;
+    $('layers').append(element('label', { title: 'key L' }, names, ' Labels'), element('label', {}, 'Opacity ', glass));
   }
 
   /** Checks the answer that the data have of each pair, some at a time; counts those that hold. */
@@ -195,7 +220,7 @@ class Page {
   #buttons() {
     $('proofs').hidden = this.model.data.robot !== undefined || !this.model.pairs.length;
     $('check-all').onclick = () => this.verifyAll();
-    const name = (this.model.data.title ?? 'scene').replace(/\.[^.]*$/, '').replace(/[^\w.-]+/g, '_');
+    const name = this.model.data.title.replace(/\.[^.]*$/, '').replace(/[^\w.-]+/g, '_');
     $('fit').onclick = () => this.view.fit();
     $('reset').onclick = () => this.reset();
     $('png').onclick = () => savePicture(this.view, name);
@@ -218,6 +243,7 @@ class Page {
 
   #key(event) {
     if (event.target.matches('input:not([type=range],[type=checkbox])') || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.key === ' ' && event.target.matches('button, summary, input, a')) return;
     const key = event.key.toLowerCase(), box = this.boxes[key];
     const actions = {
       f: () => this.view.fit(), g: () => this.hold('translate'), r: () => this.hold('rotate'), x: () => this.isolate(), t: () => this.#theme(),
@@ -257,9 +283,9 @@ class Page {
 async function start() {
   performance.mark('begin');
   const data = readData($('ovoid-data')?.textContent ?? 'null');
-  document.title = `${data.title ?? 'scene'} – ovoid`;
-  $('title').textContent = data.title ?? 'scene';
-  $('command').textContent = data.command ?? '';
+  document.title = `${data.title} – ovoid`;
+  $('title').textContent = data.title;
+  $('command').textContent = data.command;
   if (data.left_out) say(`Left out, as there are so many: ${Object.entries(data.left_out).filter(([, n]) => n).map(([what, n]) => `${n} ${what}${what === 'proofs' ? ' (found anew where they are checked)' : ''}`).join(', ')}.`);
   performance.mark('data');
   // The module is compiled while the picture is prepared.

@@ -100,6 +100,9 @@ class PageShape {
   }
 }
 
+/** Of more points a picture of all goes by the balls of bodies. */
+const MOST_POINTS = 50000;
+
 /** In the place of an answer, of bodies that moved and are not on the page. */
 const UNKNOWN = { status: 'undecided', lower: -Infinity, upper: Infinity, stage: 'none' };
 
@@ -120,6 +123,16 @@ export class Model {
     if (!this.bodies.length) return { center: [0, 0, 0], radius: 1 };
     const { middle, radius } = makeBall(this.bodies.map((body) => ({ middle: body.center, radius: body.radius })));
     return { center: middle, radius: Math.max(1e-12, radius) };
+  }
+
+  /** Small balls around all that is drawn: points of hulls, or where these are many the bodies' balls. */
+  listBalls() {
+    const count = this.bodies.reduce((n, { parts }) => n + parts.reduce((m, { shape }) => m + shape.vertices.length / 3, 0), 0);
+    if (count > MOST_POINTS) return this.bodies;
+    return this.bodies.flatMap(({ pose, parts }) => parts.flatMap(({ pose: own, shape: { vertices, radius } }) => {
+      const at = compose(pose, own);
+      return Array.from({ length: vertices.length / 3 }, (_, i) => ({ center: move(at, vertices.subarray(3 * i, 3 * i + 3)), radius }));
+    }));
   }
 
   /** The answer for where both bodies are now; null: the page has not got them. */

@@ -1,6 +1,6 @@
 // What draws where there is no WebGL 2: triangles from the farthest to the nearest, as polygons of a canvas (M. Newell,
 // R. Newell, T. Sancha, A solution to the hidden surface problem, 1972, without its cuts). As a renderer of three.js has it.
-import { Matrix4, Vector3 } from 'three';
+import { Color, Matrix4, Vector3 } from 'three';
 
 export class Painter {
   constructor(canvas) {
@@ -28,7 +28,7 @@ export class Painter {
     done();
   }
 
-  render(scene, camera, layers, lines) {
+  render(scene, camera, layers, { lines, outlined, color: outlineColor }) {
     camera.updateMatrixWorld();
     const { context, domElement: { width, height } } = this, faces = [];
     for (const layer of layers) {
@@ -51,7 +51,27 @@ export class Painter {
       if (opacity === 1) context.stroke();
     }
     context.globalAlpha = 1;
+    if (outlined.length) this.#drawOutline(outlined, camera, outlineColor);
     for (const { points, color } of lines) this.#drawLine(points.map((p) => this.#project(p.clone().applyMatrix4(camera.matrixWorldInverse), camera)), color);
+  }
+
+  // Around triangles a line, where they are not themselves: they are drawn wider on a canvas of its own, and taken out of it.
+  #drawOutline(items, camera, color) {
+    const { ratio, domElement: { width, height } } = this, layer = (this.layer ??= document.createElement('canvas')), faces = [];
+    Object.assign(layer, { width, height });
+    const context = layer.getContext('2d'), path = new Path2D();
+    for (const { levels, world } of items) this.#collect(faces, camera, { world, geometry: levels[0].geometry, color: new Color(), opacity: 1 });
+    for (const { xy: [a, b, c, d, e, f] } of faces) {
+      path.moveTo(a, b);
+      path.lineTo(c, d);
+      path.lineTo(e, f);
+      path.closePath();
+    }
+    Object.assign(context, { strokeStyle: color, fillStyle: color, lineJoin: 'round', lineWidth: 5 * ratio });
+    context.stroke(path);
+    context.globalCompositeOperation = 'destination-out';
+    context.fill(path);
+    this.context.drawImage(layer, 0, 0);
   }
 
   // To pixels, and the depth; null behind the camera.

@@ -1,5 +1,8 @@
 // The list of pairs, what is known of the chosen one, and the bodies.
 
+import { countPairs, describeScene } from './headline.mjs';
+import { describeAnswer, formatBracket, formatLength, formatMiddle } from './text.mjs';
+
 const MOST_ROWS = 400;
 
 export function element(tag, properties = {}, ...children) {
@@ -21,23 +24,6 @@ export function svg(tag, attributes, ...children) {
   return node;
 }
 
-/** A length with the digits that are known, and its unit. */
-export function formatLength(x, unit, digits = 6) {
-  if (!Number.isFinite(x)) return x > 0 ? '∞' : '-∞';
-  if (x === 0) x = 0; // one sign of zero
-  const text = x === 0 || (Math.abs(x) >= 1e-3 && Math.abs(x) < 1e6) ? String(Number(x.toPrecision(digits))) : x.toExponential(digits - 2);
-  return unit ? `${text} ${unit}` : text;
-}
-
-/** A bracket of a distance in words: one number where it is narrow, 0 where bodies touch. */
-export function formatBracket({ status, lower, upper }, unit) {
-  if (status === 'touching') return formatLength(0, unit);
-  const isNarrow = upper - lower <= 1e-5 * Math.max(Math.abs(lower), Math.abs(upper)), low = formatLength(lower, isNarrow ? unit : '');
-  return isNarrow ? low : `${low} to ${formatLength(upper, unit)}`;
-}
-
-const words = { separated: 'apart', touching: 'touching', overlapping: 'overlapping', undecided: 'not proven' };
-
 export class Panel {
   constructor(root, model, actions) {
     this.model = model;
@@ -46,6 +32,8 @@ export class Panel {
     this.margin = Infinity;
     this.rows = new Map();
     this.summary = root.querySelector('#summary');
+    this.headline = root.querySelector('#headline');
+    this.filterRow = root.querySelector('#filters');
     this.list = root.querySelector('#pairs');
     this.more = root.querySelector('#more');
     this.details = root.querySelector('#details');
@@ -85,8 +73,11 @@ export class Panel {
         return row;
       }),
     );
-    const all = this.model.pairs.length, hits = this.model.pairs.filter((p) => p.answer.status !== 'separated').length;
-    this.summary.textContent = this.model.summary ?? `${this.model.bodies.length} bodies, ${all} pairs; ${hits} not apart`;
+    const all = this.model.pairs.length, { summary, bodies } = this.model, count = (n, one, many) => `${n} ${n === 1 ? one : many}`;
+    this.summary.textContent = summary ?? `${count(bodies.length, 'body', 'bodies')}, ${count(all, 'pair', 'pairs')}${all ? `: ${countPairs(this.model.pairs)}` : ''}`;
+    this.list.parentNode.parentNode.hidden = this.filterRow.hidden = all === 0 && !this.model.data.robot;
+    this.headline.textContent = describeScene(this.model) ?? '';
+    this.headline.hidden = !this.headline.textContent;
     this.more.textContent = pairs.length > MOST_ROWS ? `${pairs.length - MOST_ROWS} more: narrow the filter` : pairs.length < all ? `${pairs.length} of ${all}` : '';
   }
 
@@ -94,9 +85,16 @@ export class Panel {
     const { a, b, answer } = pair, number = (said, more = '') => element('td', {
       className: `number ${said?.status ?? ''}`, textContent: said ? formatBracket(said, this.model.unit) + more : '', title: said ? `${said.lower} to ${said.upper}` : '',
     });
-    row.className = `${pair === this.chosen ? 'chosen' : ''}${pair.isLive ? ' live' : ''}${pair.isBroken ? ' broken' : ''}`;
-    const { motion } = this.model.data, least = motion && number(pair.given, ` (t ${formatLength(motion.times[pair.frame], '')})`);
+    row.className = `${pair === this.chosen ? 'chosen' : ''}${pair.isLive ? ' live' : ''}${pair.isBroken ? ' broken' : ''}${pair === this.marked ? ` marked ${(pair.isLive ? answer : pair.now ?? answer).status}` : ''}`;
+    const { motion } = this.model.data, least = motion && number(pair.given, ` (t ${formatLength(motion.times[pair.frame], '', 4)})`);
     row.replaceChildren(element('td', { textContent: `${a.name} – ${b.name}` }), ...(motion ? [number(pair.isLive ? answer : pair.now), least] : [number(answer)]));
+  }
+
+  /** Marks a pair in the list as the nearest. */
+  mark(pair) {
+    const before = this.marked;
+    this.marked = pair;
+    for (const p of [before, pair]) if (p && this.rows.has(p)) this.#write(p, this.rows.get(p));
   }
 
   /** Writes the rows of pairs anew whose answers changed. */
@@ -122,21 +120,22 @@ export class Panel {
         said.className = `proof ${isVerified ? (holds ? 'holds' : 'fails') : ''}`;
       },
     });
+    const isOpen = this.details.querySelector('#numbers')?.open ?? false;
     this.details.replaceChildren(
       element('h2', { textContent: `${a.name} – ${b.name}` }),
-      element('dl', {},
-        ...fact('is', `${words[answer.status] ?? answer.status}${pair.isLive ? ', asked just now' : ''}`, 'status'),
-        ...fact('between', formatLength(answer.lower, unit, 10), 'lower'),
-        ...fact('and', formatLength(answer.upper, unit, 10), 'upper'),
-        ...fact('width', formatLength(answer.upper - answer.lower, unit, 3)),
-        ...fact('point of the first', vector(answer.point_a)),
-        ...fact('of the second', vector(answer.point_b)),
-        ...fact('normal', vector(answer.normal)),
-        ...fact('decided by', answer.stage ?? ''),
-      ),
-      element('p', {}, check, ' ', element('button', { id: 'isolate', textContent: 'Only these two', title: 'show nothing else (X)', onclick: () => this.actions.isolate() }), ' ',
+      element('p', { id: 'status', className: `answer ${answer.status}`, textContent: `They ${describeAnswer(answer, unit)}${pair.isLive ? ', asked just now' : ''}.` }),
+      element('p', { className: 'buttons' }, check, element('button', { id: 'isolate', textContent: 'Only these two', title: 'show nothing else (X)', onclick: () => this.actions.isolate() }),
         element('button', { textContent: 'Fly there', title: 'Enter', onclick: () => this.actions.fly() })),
       said,
+      element('dl', {}, ...fact('signed distance', formatMiddle(answer.lower, answer.upper, unit), 'middle')),
+      element('details', { id: 'numbers', open: isOpen }, element('summary', { textContent: 'All numbers of the answer' }), element('dl', {},
+        ...fact('lower bound', formatLength(answer.lower, unit, 17), 'lower'),
+        ...fact('upper bound', formatLength(answer.upper, unit, 17), 'upper'),
+        ...fact(`point on ${a.name}`, vector(answer.point_a)),
+        ...fact(`point on ${b.name}`, vector(answer.point_b)),
+        ...fact('normal', vector(answer.normal)),
+        ...fact('decided by', answer.stage ?? ''),
+      )),
     );
   }
 
@@ -168,7 +167,7 @@ export class Panel {
     const own = [...this.model.byBody.get(body)].sort((x, y) => x.answer.lower - y.answer.lower).slice(0, 12);
     return own.map((pair) => {
       const other = pair.a === body ? pair.b : pair.a;
-      return element('li', { className: pair.answer.status, onclick: () => this.actions.choosePair(pair), textContent: `${other.name}: ${formatLength(pair.answer.lower, this.model.unit)}` });
+      return element('li', { className: pair.answer.status }, element('button', { className: 'plain', onclick: () => this.actions.choosePair(pair), textContent: `${other.name}: ${formatBracket(pair.answer, this.model.unit)}` }));
     });
   }
 

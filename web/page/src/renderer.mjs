@@ -8,7 +8,7 @@ import { Painter } from './painter.mjs';
  */
 export function makeRenderer(canvas) {
   if (!document.createElement('canvas').getContext('webgl2')) return new Painter(canvas);
-  const renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, preserveDrawingBuffer: true }), gl = renderer.getContext();
+  const renderer = new WebGLRenderer({ canvas, antialias: true, alpha: true, stencil: true, preserveDrawingBuffer: true }), gl = renderer.getContext();
   renderer.limits = { fewest: 20000, most: 3000000, rate: 3000, levels: { triangles: 100000, items: 1000 } };
   /** Calls back when all that was drawn is there. */
   renderer.wait = (done) => {

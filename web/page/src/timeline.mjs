@@ -1,5 +1,7 @@
 // A motion: a slider over its times, and the distance of the chosen pair over them, asked live.
-import { element, formatLength, svg } from './panel.mjs';
+import { element, svg } from './panel.mjs';
+import { formatLength } from './text.mjs';
+import { findNearest } from './headline.mjs';
 import { Player } from './player.mjs';
 
 const SAMPLES = 240;
@@ -14,9 +16,11 @@ export class Timeline {
     this.label = element('output', { id: 'now' });
     const last = this.motion.times.length - 1;
     this.player = new Player(last, Math.min(12, Math.max(2, last / 30)), () => this.frame, (at) => Math.round(at) !== this.frame && this.set(Math.min(last, Math.round(at))));
-    this.plot = svg('svg', { viewBox: '0 0 600 90', preserveAspectRatio: 'none', class: 'plot' });
-    root.replaceChildren(element('div', { className: 'row' }, this.player.button, this.slider, this.label), this.plot);
+    this.plot = svg('svg', { viewBox: '0 0 600 90', preserveAspectRatio: 'none', class: 'plot', role: 'img', 'aria-label': 'the distance over time' });
+    this.caption = element('p', { id: 'legend' });
+    root.replaceChildren(element('div', { className: 'row' }, this.player.button, this.slider, this.label), this.plot, this.caption);
     this.set(0);
+    this.show(null);
   }
 
   poseAt(body, frame) {
@@ -37,11 +41,13 @@ export class Timeline {
     this.player.toggle();
   }
 
-  /** The distance of a pair over time; margin and events marked. */
-  show(pair) {
+  /** The distance of a pair over time, or of the one that comes nearest; margin and events marked. */
+  show(chosen) {
+    const pair = chosen ?? findNearest(this.model.pairs, ({ given }) => given);
     const { times, margin, events = [] } = this.motion, last = times.length - 1;
     if (!pair?.a.asked || !pair.b.asked || last < 1) {
       this.cursor = null;
+      this.caption.textContent = '';
       return this.plot.replaceChildren();
     }
     const { a, b } = pair, kept = [a.pose, b.pose], values = [];
@@ -57,6 +63,7 @@ export class Timeline {
     const x = (frame) => (600 * frame) / last, y = (value) => 84 - (78 * (value - low)) / (high - low);
     const line = (value, kind) => svg('line', { x1: 0, x2: 600, y1: y(value), y2: y(value), class: kind });
     this.cursor = svg('line', { x1: 0, x2: 0, y1: 0, y2: 90, class: 'cursor', transform: `translate(${x(this.frame)} 0)` });
+    this.caption.textContent = `The distance of ${a.name} and ${b.name}, at ${values.length} of the frames${margin ? '; dashed: the margin' : ''}.`;
     this.plot.replaceChildren(
       line(0, 'zero'), ...(margin ? [line(margin, 'margin')] : []),
       svg('polyline', { points: values.map(([frame, value]) => `${x(frame)},${y(value)}`).join(' '), class: 'curve' }),

@@ -1,6 +1,7 @@
 // The states of a robot, or a path through them: a slider with a mark for each state, what the tool has proven of them,
 // the distance of the nearest pair over a path, and which steps prove which stretch of it.
-import { element, formatBracket, formatLength, svg } from './panel.mjs';
+import { element, svg } from './panel.mjs';
+import { describeBracket, formatLength } from './text.mjs';
 import { Player } from './player.mjs';
 
 const WIDTH = 600, BAND = 10, CURVE = [16, 68], ROWS = 74;
@@ -40,7 +41,7 @@ export class Track {
   }
 
   #describe(answer) {
-    const { joints, model } = this, pair = answer.a ? `${joints.findTold(answer.a).name} – ${joints.findTold(answer.b).name}, ${formatBracket(answer, model.unit)}` : '';
+    const { joints, model } = this, pair = answer.a ? `${joints.findTold(answer.a).name} – ${joints.findTold(answer.b).name} ${describeBracket(answer, model.unit)}` : '';
     switch (answer.status) {
       case 'free': return `free at all times, proven by ${answer.steps} steps`;
       case 'hit': return answer.hit_at > answer.free_until ? `hit between s ${format(answer.free_until)} and ${format(answer.hit_at)}: ${pair}` : `hit at s ${format(answer.hit_at)}: ${pair}`;
@@ -67,16 +68,16 @@ export class Track {
       oninput: () => this.set(Number(this.slider.value)),
     });
     this.label = element('output', { id: 'now' });
-    this.plot = svg('svg', { viewBox: `0 0 ${WIDTH} ${ROWS + 22}`, preserveAspectRatio: 'none', class: 'plot', role: 'img', 'aria-label': 'what is proven over the path' });
+    this.plot = svg('svg', { viewBox: `0 0 ${WIDTH} ${this.path ? ROWS + 22 : 14}`, preserveAspectRatio: 'none', class: this.path ? 'plot' : 'plot low', role: 'img', 'aria-label': this.path ? 'what is proven over the path' : 'what each state is' });
     this.plot.addEventListener('pointerdown', (event) => {
       const box = this.plot.getBoundingClientRect(), at = ((event.clientX - box.left) / box.width) * this.last;
       this.set(this.path ? Math.max(0, Math.min(this.last, at)) : Math.round(at));
     });
     this.legend = element('p', { id: 'legend' });
-    this.steps = element('details', { id: 'steps', hidden: !this.path?.steps, ontoggle: () => this.#listSteps() });
+    this.steps = this.path?.steps && element('details', { id: 'steps', ontoggle: () => this.#listSteps() });
     const player = (this.player = new Player(this.last, Math.min(20, Math.max(4, this.last * (this.path ? 2 : 0.4))), () => this.at, (at) => this.set(this.path ? at : Math.round(at))));
     root.hidden = false;
-    root.replaceChildren(element('div', { className: 'row' }, player.button, this.label), this.slider, this.plot, this.legend, this.steps);
+    root.replaceChildren(element('div', { className: 'row' }, player.button, this.label), this.slider, this.plot, this.legend, ...(this.steps ? [this.steps] : []));
     this.cursor = svg('line', { x1: 0, x2: 0, y1: 0, y2: ROWS + 22, class: 'cursor' });
     this.draw();
   }

@@ -1,18 +1,22 @@
 // The picture: bodies in layers, the chosen pair, the camera; as many triangles as the machine draws in time.
 import {
-  AmbientLight, BufferGeometry, Color, DirectionalLight, Group, HemisphereLight, IcosahedronGeometry, Line, LineBasicMaterial, Mesh, MeshBasicMaterial,
+  AmbientLight, Color, CylinderGeometry, DirectionalLight, Group, HemisphereLight, IcosahedronGeometry, Mesh, MeshBasicMaterial,
   PerspectiveCamera, Quaternion, Raycaster, Scene, Vector2, Vector3,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { TransformControls } from 'three/examples/jsm/controls/TransformControls.js';
 import { makePoseMatrix } from './geometry.mjs';
 import { Layer, NAMES } from './layers.mjs';
+import { Outline } from './outline.mjs';
 
 const COLORS = ['#4e79a7', '#f28e2b', '#59a14f', '#b07aa1', '#76b7b2', '#edc948', '#9c755f', '#86bcb6', '#d4a6c8', '#8cd17d'];
-const CHOSEN = new Color('#ffb000');
+const CHOSEN = '#e0007a';
+const ANSWERS = { separated: '#1b8a3f', undecided: '#b07a00' }, UP = new Vector3(0, 1, 0);
 
 /** Milliseconds that a picture may take while it moves, and when it rests. */
 const MOVING = 60, RESTING = 700;
+/** How much wider than the bodies a picture of all is. */
+const ROOM = 1.12;
 
 export class View {
   constructor(model, renderer, onPick, onDrag) {
@@ -29,7 +33,8 @@ export class View {
     this.camera = new PerspectiveCamera(40, 1, 0.01, 1000);
     this.camera.up.set(0, 0, 1);
     this.pairGroup = new Group();
-    this.scene.add(this.pairGroup);
+    this.outline = new Outline(new Color(CHOSEN));
+    this.scene.add(this.pairGroup, this.outline.group);
     this.#light();
     this.show({});
     this.controls = new OrbitControls(this.camera, this.canvas);
@@ -67,8 +72,7 @@ export class View {
   }
   #paintIn(layer, body) {
     if (layer.name !== 'meshes' && layer.name !== 'hulls') return;
-    const color = this.colors.get(body);
-    layer.paint(body, this.chosen.has(body) && !this.only ? color.clone().lerp(CHOSEN, 0.65) : color);
+    layer.paint(body, this.colors.get(body));
   }
 
   /** Puts a body's instances where it is. */
@@ -97,21 +101,27 @@ export class View {
     paint('hulls', shown.meshes ? Math.min(0.3, isVeiled) : isVeiled);
     paint('areas', isVeiled);
     this.pairGroup.visible = shown.witness;
+    this.#outlineChosen();
     this.draw();
   }
 
-  /** Colours what is chosen, and leaves out the rest where it is isolated. */
+  /** Outlines what is chosen, and leaves out the rest where it is isolated. */
   choose(bodies, only) {
-    const before = this.chosen, wasOnly = this.only;
+    const wasOnly = this.only;
     this.chosen = new Set(bodies);
     this.only = only && this.chosen.size ? this.chosen : null;
-    const isNew = this.only !== wasOnly;
-    for (const layer of Object.values(this.layers))
-      for (const body of isNew ? this.model.bodies : new Set([...before, ...bodies])) {
-        if (isNew) this.#placeIn(layer, body);
-        this.#paintIn(layer, body);
-      }
+    if (this.only !== wasOnly) for (const layer of Object.values(this.layers)) for (const body of this.model.bodies) this.#placeIn(layer, body);
+    this.#outlineChosen();
     this.draw();
+  }
+
+  /** The parts of what is chosen, as the first layer that is shown has them; none where nothing else is shown. */
+  get outlined() {
+    const layer = this.shownLayers.find(({ name }) => name !== 'areas') ?? this.shownLayers[0];
+    return layer && !this.only ? [...this.chosen].flatMap((body) => layer.byBody.get(body)) : [];
+  }
+  #outlineChosen() {
+    this.outline.set(this.outlined);
   }
 
   /** Draws the witness points of an answer: two balls, the way between them. */
@@ -120,14 +130,17 @@ export class View {
     this.line = null;
     if (!answer || !answer.point_a) return this.draw();
     const [a, b] = [answer.point_a, answer.point_b].map((p) => new Vector3(...p)), size = this.model.ball.radius * 0.008;
-    const color = answer.status === 'separated' ? '#2e9e4f' : '#d62728', paint = new MeshBasicMaterial({ color, depthTest: false, transparent: true });
+    const color = ANSWERS[answer.status] ?? '#d62728', paint = new MeshBasicMaterial({ color, depthTest: false, transparent: true });
     this.line = { points: [a, b], color };
     for (const at of [a, b]) {
       const dot = new Mesh(new IcosahedronGeometry(size, 3), paint);
       dot.position.copy(at);
       this.pairGroup.add(dot);
     }
-    this.pairGroup.add(new Line(new BufferGeometry().setFromPoints([a, b]), new LineBasicMaterial({ color, depthTest: false, transparent: true, linewidth: 2 })));
+    const way = b.clone().sub(a), tube = new Mesh(new CylinderGeometry(size * 0.4, size * 0.4, Math.max(way.length(), 1e-12), 12), paint);
+    tube.position.copy(a).addScaledVector(way, 0.5);
+    tube.quaternion.setFromUnitVectors(UP, way.normalize());
+    this.pairGroup.add(tube);
     this.pairGroup.traverse((object) => (object.renderOrder = 10));
     this.draw();
   }
@@ -181,18 +194,35 @@ export class View {
     if (!width || !height) return;
     this.renderer.setPixelRatio(this.#pixelRatio);
     this.renderer.setSize(width, height, false);
+    this.outline.resize(width, height);
     this.camera.aspect = width / height;
     this.camera.updateProjectionMatrix();
     this.draw();
   }
 
   /** The camera on a ball, from where it looks now. */
-  fit({ center, radius } = this.model.ball, direction) {
+  fit(ball, direction) {
+    const isAll = !ball, { center, radius } = ball ?? this.model.ball;
     const from = direction ?? (this.isFit ? this.camera.position.clone().sub(this.controls.target) : new Vector3(1, -1.6, 0.9));
-    const distance = (radius * 1.15) / Math.sin((Math.min(this.camera.fov, this.camera.fov * this.camera.aspect) * Math.PI) / 360);
-    const target = new Vector3(...center);
+    const target = new Vector3(...center), distance = isAll ? this.#measureDistance(target, from.normalize()) : this.#halfAngles.reduce((most, half) => Math.max(most, (radius * 1.15) / Math.sin(half)), 0);
     this.flyTo(target.clone().addScaledVector(from.normalize(), distance), target, !this.isFit);
     this.isFit = true;
+  }
+
+  // Half of the angles that the picture is wide and high.
+  get #halfAngles() {
+    const up = (this.camera.fov * Math.PI) / 360;
+    return [Math.atan(Math.tan(up) * this.camera.aspect), up];
+  }
+
+  // How far from a target the camera has all bodies in the picture, with some room around them.
+  #measureDistance(target, from) {
+    const right = new Vector3().crossVectors(this.camera.up, from).normalize(), up = new Vector3().crossVectors(from, right), at = new Vector3();
+    const angles = this.#halfAngles, axes = [right, up];
+    return this.model.listBalls().reduce((most, { center, radius }) => {
+      at.set(...center).sub(target);
+      return axes.reduce((far, axis, k) => Math.max(far, at.dot(from) + (Math.abs(at.dot(axis)) * ROOM + radius / Math.cos(angles[k])) / Math.tan(angles[k])), most);
+    }, 1.1 * this.model.ball.radius);
   }
 
   flyTo(position, target, atOnce) {
@@ -243,8 +273,10 @@ export class View {
   drawNow() {
     this.sun.position.copy(this.camera.position);
     if (this.renderer.getPixelRatio() !== this.#pixelRatio) this.renderer.setPixelRatio(this.#pixelRatio);
-    this.#refine();
-    this.renderer.render(this.scene, this.camera, this.shownLayers, this.#listLines());
+    const sizes = this.#measureSizes();
+    this.#refine(sizes);
+    this.renderer.render(this.scene, this.camera, this.shownLayers, { lines: this.#listLines(), outlined: this.outlined, color: CHOSEN });
+    this.onPicture?.(sizes);
   }
 
   // The lines of a picture that is painted: the witness points', and of what is held the axes.
@@ -256,10 +288,10 @@ export class View {
   }
 
   /** Takes coarser levels of what is small, until the triangles are as many as can be drawn in time. */
-  #refine() {
+  #refine(sizes) {
     const layers = this.shownLayers, { fewest, most: highest, rate } = this.renderer.limits;
     const most = Math.min(highest, Math.max(fewest, (this.rate ?? rate) * (this.isMoving || !this.rate ? MOVING : RESTING)));
-    const sizes = this.#measureSizes(), measure = (factor) => layers.reduce((sum, layer) => sum + layer.measure(sizes, factor), 0);
+    const measure = (factor) => layers.reduce((sum, layer) => sum + layer.measure(sizes, factor), 0);
     let factor = 0, cost = measure(0);
     while (cost > most && factor < 1e6) cost = measure((factor = factor ? factor * 1.6 : 0.1));
     for (const layer of layers) layer.setLevels(sizes, factor);
