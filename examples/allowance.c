@@ -9,7 +9,8 @@ int main(void) {
     const double scanned[] = {0, 0, 0, 0.1, 0, 0, 0, 0.1, 0, 0, 0, 0.1, 0.06, 0.06, 0.06};
     ovoid_shape_options options = {.allowance = {.outside = 1e-4, .inside = 1e-4}};
     ovoid_shape *part = ovoid_shape_create_from_points(scanned, 5, &options, &error);
-    ovoid_shape *post = part ? ovoid_shape_create_cylinder(0.05, 0.5, 1e-5, NULL, &error) : NULL;
+    ovoid_shape *post =
+        part ? ovoid_shape_create_cylinder(0.05, 0.5, &(ovoid_shape_options){.tolerance = 1e-5}, &error) : NULL;
     if (!post) {
         fprintf(stderr, "%s\n", error.message);
         return 1;

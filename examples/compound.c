@@ -20,7 +20,7 @@ int main(void) {
     ovoid_shape *top = ovoid_shape_create_box((ovoid_vec3){0.6, 0.4, 0.02}, NULL, &error);
     ovoid_shape *leg = ovoid_shape_create_box((ovoid_vec3){0.03, 0.03, 0.35}, NULL, &error);
     ovoid_shape *slab = ovoid_shape_create_box((ovoid_vec3){0.004, 0.016, 0.05}, NULL, &error);
-    ovoid_shape *bottom = ovoid_shape_create_prism(0.04, 0.005, 18, NULL, &error);
+    ovoid_shape *bottom = ovoid_shape_create_prism(&(ovoid_prism){0.04, 0.005, 18}, NULL, &error);
     if (!top || !leg || !slab || !bottom) return fprintf(stderr, "%s\n", error.message), 1;
 
     const ovoid_quat none = {1, 0, 0, 0};

@@ -17,7 +17,7 @@ static ovoid_solid *create_frame(ovoid_error *error) {
         for (int n = 0; n < 3; n++) points[3 * k + (uint32_t)n] = p[n];
         for (int n = 0; n < 6; n++) triangles[6 * k + (uint32_t)n] = t[n];
     }
-    return ovoid_solid_create_from_triangles(points, 16, triangles, 32, NULL, error);
+    return ovoid_solid_create_from_triangles(&(ovoid_triangles){points, 16, triangles, 32}, NULL, error);
 }
 
 // How far a shape is from the nearest part.
@@ -40,7 +40,7 @@ int main(void) {
 
     ovoid_decomposition d = {frame, ovoid_parts_get_shapes(parts), ovoid_parts_get_count(parts)};
     ovoid_decomposition_proof proof;
-    ovoid_code code = ovoid_decomposition_compute_proof(&d, &options, &proof, NULL, &error);
+    ovoid_code code = ovoid_decomposition_compute_proof(&d, &options, &proof, &error);
     if (code != OVOID_OK) return fprintf(stderr, "%s\n", error.message), 1;
     double r = proof.uncovered.upper, p = proof.excess.upper;
     printf("%zu parts; uncovered at most %.3f, excess at most %.3f\n", d.part_count, r, p);

@@ -20,7 +20,7 @@ int main(void) {
         int x = i % 10, y = i / 10 % 10, z = i / 100;
         bodies[i].body.pose = (ovoid_pose){{x, y, z}, {1, 0.1 * (i % 7), 0.2, 0}};
     }
-    if (ovoid_world_add_many(world, bodies, BODIES, ids, &error) != OVOID_OK) return 1;
+    if (ovoid_world_add_many(world, &(ovoid_world_additions){bodies, BODIES, ids}, &error) != OVOID_OK) return 1;
 
     size_t aged = 0, queried = 0, wrong = 0;
     for (int f = 0; f < FRAMES; f++) {
@@ -31,13 +31,13 @@ int main(void) {
         queried += frame.queried;
         // The whole answer of a contact, with its proof, where it is wanted.
         if (frame.count) {
-            ovoid_body_answer answer;
+            ovoid_contact_proof proof = {.exclusions = NULL};
             ovoid_world_body a, b;
-            ovoid_world_compute_proof(world, &frame.items[0], NULL, &answer, NULL);
+            ovoid_world_compute_proof(world, &frame.items[0], &proof, NULL);
             ovoid_world_get(world, frame.items[0].a, &a, NULL);
             ovoid_world_get(world, frame.items[0].b, &b, NULL);
             ovoid_pair pair = {a.body.shape, b.body.shape, a.body.pose, b.body.pose};
-            wrong += ovoid_answer_verify(&pair, &answer.deciding, NULL, NULL, NULL) != OVOID_OK;
+            wrong += ovoid_answer_verify(&pair, &proof.answer.deciding, NULL, NULL, NULL) != OVOID_OK;
         }
         for (int i = 0; i < BODIES; i++) {
             ovoid_pose *pose = &bodies[i].body.pose;

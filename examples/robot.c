@@ -37,14 +37,15 @@ int main(void) {
     const double states[2][2] = {{0, 0}, {0.8, 0.4}};
     for (int i = 0; i < 2; i++) {
         ovoid_robot_answer answer;
-        if (ovoid_robot_collide(checker, states[i], NULL, &answer, &error) != OVOID_OK) return 1;
+        if (ovoid_robot_collide(checker, &(ovoid_robot_query){states[i], NULL}, &answer, &error) != OVOID_OK) return 1;
         printf("%.1f %.1f: %s\n", states[i][0], states[i][1], answer.status == OVOID_ROBOT_FREE ? "free" : "not free");
     }
     double gradient[2];
     ovoid_robot_near near;
     ovoid_robot_nears nears = {.items = &near, .gradients = gradient, .capacity = 1};
     const ovoid_robot_query_options options = {.margin = 1};
-    if (ovoid_robot_find_nearest(checker, states[1], &options, &nears, &error) != OVOID_OK) return 1;
+    if (ovoid_robot_find_nearest(checker, &(ovoid_robot_query){states[1], &options}, &nears, &error) != OVOID_OK)
+        return 1;
     printf("link %u is %.12g from the wall; by the joints %.6f %.6f\n", near.a.link, near.lower, gradient[0],
            gradient[1]);
     ovoid_robot_checker_destroy(checker);

@@ -35,7 +35,7 @@ int main(void) {
     for (int bent = 0; bent < 2; bent++) {
         ovoid_robot_answer answer;
         if (bent) state[0] = 1.4; // the shoulder
-        if (ovoid_robot_collide(checker, state, NULL, &answer, &error) != OVOID_OK) return 1;
+        if (ovoid_robot_collide(checker, &(ovoid_robot_query){state, NULL}, &answer, &error) != OVOID_OK) return 1;
         printf("%s: %s\n", bent ? "bent" : named.name, answer.status == OVOID_ROBOT_FREE ? "free" : "not free");
     }
     ovoid_robot_checker_destroy(checker);

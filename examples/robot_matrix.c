@@ -18,7 +18,7 @@ int main(void) {
     ovoid_robot *robot = ovoid_robot_create(&given, NULL, &error);
     if (!robot) return fprintf(stderr, "%s\n", error.message), 1;
     const ovoid_robot_matrix_options options = {.samples = 2000, .budget = 10000};
-    ovoid_robot_matrix *matrix = ovoid_robot_matrix_create(robot, &options, NULL, &error);
+    ovoid_robot_matrix *matrix = ovoid_robot_matrix_create(robot, &options, &error);
     if (!matrix) return fprintf(stderr, "%s\n", error.message), 1;
 
     // As compiled, each disabled pair is there once, a < b, as in the matrix.

@@ -5,7 +5,8 @@
 static int print_audit(const ovoid_robot *robot, const ovoid_robot_sphere *spheres, size_t count) {
     ovoid_robot_sphere_audit a;
     ovoid_error error;
-    if (ovoid_robot_compute_sphere_audit(robot, 0, spheres, count, NULL, &a, &error) != OVOID_OK)
+    if (ovoid_robot_compute_sphere_audit(&(ovoid_robot_sphere_model){robot, 0, spheres, count}, NULL, &a, &error) !=
+        OVOID_OK)
         return fprintf(stderr, "%s\n", error.message), 0;
     if (a.depth.upper <= 0)
         printf("  every point of the link is covered, proven\n");
@@ -30,15 +31,15 @@ int main(void) {
     printf("two balls that were guessed:\n");
     if (!print_audit(robot, guess, 2)) return 1;
     ovoid_robot_sphere found[2];
-    size_t count = 2;
+    ovoid_robot_sphere_cover cover = {.link = 0, .spheres = found, .capacity = 2};
     const ovoid_robot_cover_options search = {.rounds = 500};
-    if (ovoid_robot_compute_sphere_cover(robot, 0, &search, found, &count, NULL, &error) != OVOID_OK)
+    if (ovoid_robot_compute_sphere_cover(robot, &search, &cover, &error) != OVOID_OK)
         return fprintf(stderr, "%s\n", error.message), 1;
     printf("two that were found:\n");
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = 0; i < cover.count; i++)
         printf("  at (%.3f, %.3f, %.3f), radius %.3f\n", found[i].center.x, found[i].center.y, found[i].center.z,
                found[i].radius);
-    if (!print_audit(robot, found, count)) return 1;
+    if (!print_audit(robot, found, cover.count)) return 1;
     ovoid_robot_destroy(robot);
     ovoid_shape_destroy(box);
 }

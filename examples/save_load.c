@@ -8,7 +8,7 @@
 int main(void) {
     ovoid_error error;
     ovoid_shape_options options = {.radius = 0.1};
-    ovoid_shape *cone = ovoid_shape_create_pyramid(1, 2, 24, &options, &error);
+    ovoid_shape *cone = ovoid_shape_create_pyramid(&(ovoid_prism){1, 2, 24}, &options, &error);
     if (!cone) {
         fprintf(stderr, "%s\n", error.message);
         return 1;

@@ -19,8 +19,8 @@ static ovoid_solid *create_ring(ovoid_error *error) {
         for (int n = 0; n < 3; n++) points[3 * k + (uint32_t)n] = p[n];
         for (int n = 0; n < 6; n++) triangles[6 * k + (uint32_t)n] = t[n];
     }
-    return ovoid_solid_create_from_triangles(points, (size_t)AROUND * TUBE, triangles, 2 * (size_t)AROUND * TUBE, NULL,
-                                             error);
+    return ovoid_solid_create_from_triangles(
+        &(ovoid_triangles){points, (size_t)AROUND * TUBE, triangles, 2 * (size_t)AROUND * TUBE}, NULL, error);
 }
 
 int main(void) {

@@ -6,7 +6,7 @@
 int main(void) {
     ovoid_error error;
     ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, NULL, &error);
-    ovoid_shape *post = ovoid_shape_create_prism(0.5, 2, 31, NULL, &error);
+    ovoid_shape *post = ovoid_shape_create_prism(&(ovoid_prism){0.5, 2, 31}, NULL, &error);
     if (!box || !post) {
         fprintf(stderr, "%s\n", error.message);
         return 1;

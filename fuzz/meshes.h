@@ -52,7 +52,8 @@ static inline fuzz_triangles take_tetrahedra(fuzz_bytes *from) {
 /// NULL where it is refused, with a reason.
 static inline ovoid_solid *fuzz_make_solid(const fuzz_triangles *m) {
     ovoid_error error = {OVOID_OK, -1, ""};
-    ovoid_solid *s = ovoid_solid_create_from_triangles(m->xyz, m->points, m->indices, m->count, NULL, &error);
+    ovoid_solid *s =
+        ovoid_solid_create_from_triangles(&(ovoid_triangles){m->xyz, m->points, m->indices, m->count}, NULL, &error);
     if (!s) fuzz_require_error(&error);
     return s;
 }

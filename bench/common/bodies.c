@@ -106,7 +106,7 @@ bodies bodies_create_paper(void) {
     int good = bodies_add_shape(&all, ovoid_shape_create_box((ovoid_vec3){0.5, 0.4, 0.3}, NULL, NULL));
     // 14 to 62 vertices, of which those in the middle of the caps are no corners.
     for (uint32_t i = 0; i < 10 && good; i++)
-        good = bodies_add_shape(&all, ovoid_shape_create_prism(0.5, 1, 6 + i * 24 / 9, NULL, NULL));
+        good = bodies_add_shape(&all, ovoid_shape_create_prism(&(ovoid_prism){0.5, 1, 6 + i * 24 / 9}, NULL, NULL));
     // 30 to 142, here with pointed caps so that all of them count; then spheres of 22 to 102.
     for (uint32_t i = 0; i < 10 && good; i++) good = bodies_add_shape(&all, create_ringed(2, 14 + i * 56 / 9, 0));
     for (uint32_t i = 0; i < 10 && good; i++) good = bodies_add_shape(&all, create_ringed(4 + i / 2, 5 + i * 6 / 9, 1));

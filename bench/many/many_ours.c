@@ -39,7 +39,8 @@ static self *create_world(uint32_t count, uint32_t threads) {
 
 /// The bodies' ids are their numbers here, since they are added in order. 0, and the state destroyed, on failure.
 static int add_bodies(self *s, const ovoid_world_body *list, uint32_t count) {
-    if (list && ovoid_world_add_many(s->world, list, count, s->ids, NULL) == OVOID_OK) return 1;
+    if (list && ovoid_world_add_many(s->world, &(ovoid_world_additions){list, count, s->ids}, NULL) == OVOID_OK)
+        return 1;
     destroy(s);
     return 0;
 }
@@ -62,7 +63,7 @@ static uint32_t get_index(ovoid_id id) { return (uint32_t)(id >> 32); }
 /// Everything moves, one frame is asked for; `all` receives the contacts whose status says that they count.
 static void run_frame(self *s, const ovoid_pose *poses, meetings *all) {
     ovoid_contacts frame;
-    if (ovoid_world_move_many(s->world, s->ids, poses, s->moving, NULL) != OVOID_OK ||
+    if (ovoid_world_move_many(s->world, &(ovoid_world_moves){s->ids, poses, s->moving}, NULL) != OVOID_OK ||
         ovoid_world_compute_contacts(s->world, &s->query, &frame, NULL) != OVOID_OK) {
         all->failed = 1;
         return;
@@ -89,16 +90,16 @@ static int add_cell(self *s, const workcell *what, const ovoid_pose *links) {
     for (uint32_t i = 0; list && i < count; i++) {
         int is_link = i < what->link_count;
         const ovoid_pose *pose = is_link ? &links[i] : &what->parts[i - what->link_count];
-        list[i] = (ovoid_world_body){.body = {.shape = what->shapes[what->shape_of[i]].shape, .pose = *pose},
-                                     .group = is_link ? GROUP_LINK : GROUP_PART,
-                                     .mask = is_link ? GROUP_LINK | GROUP_PART : GROUP_LINK};
+        list[i] = (ovoid_world_body){
+            .body = {.shape = what->shapes[what->shape_of[i]].shape, .pose = *pose},
+            .groups = {is_link ? GROUP_LINK : GROUP_PART, is_link ? GROUP_LINK | GROUP_PART : GROUP_LINK}};
     }
     int good = add_bodies(s, list, count);
     free(list);
     for (uint32_t i = 0; good && i < what->link_count; i++)
         for (uint32_t k = i + 1; k < what->link_count; k++)
             if (what->ignored[i * what->link_count + k])
-                (void)ovoid_world_set_ignored(s->world, s->ids[i], s->ids[k], 1, NULL);
+                (void)ovoid_world_add_ignored(s->world, s->ids[i], s->ids[k], NULL);
     return good;
 }
 
@@ -109,7 +110,8 @@ static int add_parts(self *s, const workcell *what) {
         list[i].body =
             (ovoid_body){.shape = what->shapes[what->shape_of[what->link_count + i]].shape, .pose = what->parts[i]};
     s->parts = ovoid_world_create(NULL, NULL);
-    int good = list && s->parts && ovoid_world_add_many(s->parts, list, what->part_count, NULL, NULL) == OVOID_OK;
+    int good = list && s->parts &&
+               ovoid_world_add_many(s->parts, &(ovoid_world_additions){list, what->part_count, NULL}, NULL) == OVOID_OK;
     free(list);
     return good;
 }

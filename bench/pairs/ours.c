@@ -111,12 +111,12 @@ static void *create_prepared(const workload *work) {
 }
 
 static ovoid_verdict ask_prepared(const prepared_self *s, uint32_t i, question what, const ovoid_evidence *evidence) {
-    const ovoid_prepared_shape *a = &s->bodies[2 * i], *b = a + 1;
+    ovoid_prepared_pair pair = {&s->bodies[2 * i], &s->bodies[2 * i + 1]};
     switch (what) {
-    case QUESTION_COLLIDE: return ovoid_prepared_collide(a, b, NULL, evidence);
-    case QUESTION_WITHIN: return ovoid_prepared_within(a, b, s->margins[i], NULL, evidence);
-    case QUESTION_DISTANCE: return ovoid_prepared_distance(a, b, NULL, evidence);
-    default: return ovoid_prepared_depth(a, b, NULL, evidence);
+    case QUESTION_COLLIDE: return ovoid_prepared_collide(pair, NULL, evidence);
+    case QUESTION_WITHIN: return ovoid_prepared_within(pair, s->margins[i], NULL, evidence);
+    case QUESTION_DISTANCE: return ovoid_prepared_distance(pair, NULL, evidence);
+    default: return ovoid_prepared_depth(pair, NULL, evidence);
     }
 }
 

@@ -109,10 +109,11 @@ static int run_setup(const body *b, setup step) {
         return shape != NULL;
     }
     case SETUP_FILE: return write_and_read(b->shape);
-    case SETUP_OUTER: return ovoid_ellipsoid_compute_outer(&p, 0, &fit, NULL) == OVOID_OK;
-    case SETUP_INNER: return ovoid_ellipsoid_compute_inner(&p, 0, &fit, NULL) == OVOID_OK;
+    case SETUP_OUTER: return ovoid_ellipsoid_compute_outer(&p, NULL, &fit, NULL) == OVOID_OK;
+    case SETUP_INNER: return ovoid_ellipsoid_compute_inner(&p, NULL, &fit, NULL) == OVOID_OK;
     case SETUP_TABLES: {
-        ovoid_areas *areas = ovoid_areas_create(&p, &fit.ellipsoid, OVOID_SPLIT_CUBE, 8, NULL, NULL);
+        ovoid_areas *areas =
+            ovoid_areas_create(&p, &fit.ellipsoid, &(ovoid_areas_options){.split = OVOID_SPLIT_CUBE, .k = 8}, NULL);
         ovoid_areas_destroy(areas);
         return areas != NULL;
     }

@@ -88,7 +88,7 @@ static void run_matrix(robots_run *run, rows *all) {
     // Of many links the proofs of nearly two thousand pairs would be all that is timed.
     size_t budget = run->machine->link_count > 40 ? 100 : run->plan->budget;
     ovoid_robot_matrix_options options = {.samples = run->plan->samples, .budget = budget};
-    ovoid_robot_matrix *matrix = ovoid_robot_matrix_create(run->machine->robot, &options, NULL, NULL);
+    ovoid_robot_matrix *matrix = ovoid_robot_matrix_create(run->machine->robot, &options, NULL);
     double time = get_own_seconds() - start;
     run->wrong += !matrix;
     ovoid_robot_matrix_destroy(matrix);

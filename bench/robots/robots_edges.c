@@ -37,7 +37,8 @@ static int draw_edge(robots_run *run, robots_scene *s, edge *e, double length) {
             double by = random_uniform(&s->random, -0.5, 0.5) * length * (m->high[k] - m->low[k]);
             e->q[width + k] = fmin(fmax(e->q[k] + by, m->low[k]), m->high[k]);
         }
-        if (ovoid_robot_collide(s->checker, e->q, NULL, &is, NULL) != OVOID_OK || is.status != OVOID_ROBOT_FREE)
+        if (ovoid_robot_collide(s->checker, &(ovoid_robot_query){e->q, NULL}, &is, NULL) != OVOID_OK ||
+            is.status != OVOID_ROBOT_FREE)
             continue;
         e->samples = robots_count_samples(m, e->q, e->q + width);
         return 1;
@@ -111,7 +112,7 @@ static int sample_edge(const machine *m, const rival *r, const edge *e, double *
     if (r->who->is_edge_hit) return r->who->is_edge_hit(r->self, e->q, e->q + m->variable_count, e->samples);
     for (uint32_t i = 0; i < e->samples; i++) {
         place_sample(m, e, i, q);
-        if (!r->who->has_kinematics) (void)ovoid_robot_compute_poses(m->robot, q, links, NULL, NULL);
+        if (!r->who->has_kinematics) (void)ovoid_robot_compute_poses(m->robot, q, links, NULL);
         if (r->who->is_hit(r->self, q, r->who->has_kinematics ? NULL : links)) return 1;
     }
     return 0;
@@ -139,7 +140,8 @@ static void time_along(robots_run *run, robots_scene *s, const edge *e) {
         for (uint32_t i = 0; i < e->samples; i++) place_sample(m, e, i, all + (size_t)i * m->variable_count);
         double start = get_own_seconds();
         for (uint32_t i = 0; i < e->samples; i++) {
-            (void)ovoid_robot_collide(s->checker, all + (size_t)i * m->variable_count, NULL, &answers[i], NULL);
+            (void)ovoid_robot_collide(s->checker, &(ovoid_robot_query){all + (size_t)i * m->variable_count, NULL},
+                                      &answers[i], NULL);
             hits += answers[i].status == OVOID_ROBOT_HIT;
         }
         tally_add(tallies_get(&run->along, "ovoid"), (get_own_seconds() - start) / e->samples * 1e9);

@@ -58,7 +58,7 @@ state_truth robots_judge(const robots_scene *s, const machine *m, const double *
     state_truth right = {0, 1, 0, INFINITY};
     ovoid_pose *links = malloc(sizeof *links * m->link_count);
     judged *all = malloc(sizeof *all * (m->element_count + 1));
-    if (!links || !all || ovoid_robot_compute_poses(m->robot, q, links, NULL, NULL) != OVOID_OK) {
+    if (!links || !all || ovoid_robot_compute_poses(m->robot, q, links, NULL) != OVOID_OK) {
         free(links);
         free(all);
         return (state_truth){0, 0, 0, 0};

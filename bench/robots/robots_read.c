@@ -113,7 +113,7 @@ static void find_reach(machine *m) {
     ovoid_pose *poses = malloc(sizeof *poses * m->link_count);
     for (int i = 0; q && poses && i < 200; i++) {
         machine_draw(m, &random, q);
-        if (ovoid_robot_compute_poses(m->robot, q, poses, NULL, NULL) != OVOID_OK) break;
+        if (ovoid_robot_compute_poses(m->robot, q, poses, NULL) != OVOID_OK) break;
         for (uint32_t k = 0; k < m->link_count; k++) {
             ovoid_vec3 p = poses[k].position;
             m->reach = fmax(m->reach, sqrt(p.x * p.x + p.y * p.y + p.z * p.z));

@@ -18,7 +18,8 @@ typedef struct states {
 
 static int is_hit(robots_scene *s, const double *q) {
     ovoid_robot_answer is;
-    return ovoid_robot_collide(s->checker, q, NULL, &is, NULL) != OVOID_OK || is.status != OVOID_ROBOT_FREE;
+    return ovoid_robot_collide(s->checker, &(ovoid_robot_query){q, NULL}, &is, NULL) != OVOID_OK ||
+           is.status != OVOID_ROBOT_FREE;
 }
 
 /// Draws until there are enough of both kinds, or the tries are over.
@@ -73,7 +74,7 @@ static void time_batch(robots_run *run, robots_scene *s, const states *all, int 
 }
 
 static int ask_rival(const machine *m, const rival *r, const double *q, ovoid_pose *links) {
-    if (!r->who->has_kinematics) (void)ovoid_robot_compute_poses(m->robot, q, links, NULL, NULL);
+    if (!r->who->has_kinematics) (void)ovoid_robot_compute_poses(m->robot, q, links, NULL);
     return r->who->is_hit(r->self, q, r->who->has_kinematics ? NULL : links);
 }
 
@@ -119,14 +120,14 @@ static double time_monitor(const robots_scene *s, ovoid_robot_checker *checker, 
                            ovoid_robot_nears *nears) {
     ovoid_robot_query_options options = {.margin = s->what.margin};
     double start = get_own_seconds();
-    (void)ovoid_robot_find_near(checker, q, &options, nears, NULL);
+    (void)ovoid_robot_find_near(checker, &(ovoid_robot_query){q, &options}, nears, NULL);
     return (get_own_seconds() - start) * 1e6;
 }
 
 /// near: how many pairs there are; a rival that counts others is wrong.
 static void time_measure(robots_run *run, const rival *r, const double *q, ovoid_pose *links, size_t near) {
     double start = get_own_seconds();
-    if (!r->who->has_kinematics) (void)ovoid_robot_compute_poses(run->machine->robot, q, links, NULL, NULL);
+    if (!r->who->has_kinematics) (void)ovoid_robot_compute_poses(run->machine->robot, q, links, NULL);
     uint32_t counted = r->who->measure(r->self, q, links);
     tally *t = tallies_get(&run->monitor, r->who->name);
     tally_add(t, (get_own_seconds() - start) * 1e6);

@@ -71,8 +71,10 @@ static int prove(decomposed *d, const ovoid_decomposition_options *o) {
     free(d->excess);
     d->excess = calloc(d->view.part_count ? d->view.part_count : 1, sizeof *d->excess);
     if (!d->excess) return message_error("out of memory"), EXIT_INPUT;
+    ovoid_decomposition_options all = *o;
+    all.excesses = d->excess;
     progress_start("cells", 0);
-    ovoid_code code = ovoid_decomposition_compute_proof(&d->view, o, &d->proof, d->excess, &error);
+    ovoid_code code = ovoid_decomposition_compute_proof(&d->view, &all, &d->proof, &error);
     progress_end();
     if (code != OVOID_OK) return message_error("%s: %s", d->path, error.message), EXIT_INPUT;
     d->found = d->proof;

@@ -145,7 +145,8 @@ static double get_measure(const ovoid_polytope *p, const ovoid_measures *measure
 static ovoid_code run_steps(const ovoid_polytope *p, double gap, fitted *out) {
     for (int i = 0; i < FIT_STEPS; i++) out->steps[i] = (ovoid_fit){.volume = NAN, .gap = NAN};
     double start = progress_get_seconds();
-    ovoid_code code = ovoid_ellipsoid_compute_outer(p, gap, &out->steps[FIT_OUTER], NULL);
+    ovoid_code code =
+        ovoid_ellipsoid_compute_outer(p, &(ovoid_ellipsoid_options){.gap = gap}, &out->steps[FIT_OUTER], NULL);
     out->seconds[FIT_OUTER] = progress_get_seconds() - start;
     if (code != OVOID_OK) return code;
     // The paper's phases are for bodies of rank 3.
@@ -157,7 +158,7 @@ static ovoid_code run_steps(const ovoid_polytope *p, double gap, fitted *out) {
         out->seconds[i] = progress_get_seconds() - start;
     }
     start = progress_get_seconds();
-    code = ovoid_ellipsoid_compute_inner(p, gap, &out->steps[FIT_INNER], NULL);
+    code = ovoid_ellipsoid_compute_inner(p, &(ovoid_ellipsoid_options){.gap = gap}, &out->steps[FIT_INNER], NULL);
     out->seconds[FIT_INNER] = progress_get_seconds() - start;
     return code;
 }
@@ -227,7 +228,7 @@ static int allow(const fit *f, ovoid_shape **shape, fitted *found, ovoid_error *
     if (!(found->convexity.allowance > 0)) return 1;
     ovoid_allowance allowance = ovoid_shape_get_allowance(*shape);
     allowance.inside = nextafter(allowance.inside + found->convexity.allowance, INFINITY);
-    ovoid_shape *allowed = ovoid_shape_create_allowed(*shape, allowance, NULL, error);
+    ovoid_shape *allowed = ovoid_shape_create_allowed(*shape, &(ovoid_shape_options){.allowance = allowance}, error);
     if (!allowed) return 0;
     ovoid_shape_destroy(*shape);
     *shape = allowed;
@@ -252,7 +253,7 @@ static int fit_part(fit *f, const char *path, const ovoid_mesh *mesh, size_t num
     }
     found.make_seconds = progress_get_seconds() - start;
     found.report.faces = part.faces.face_count;
-    if (ovoid_mesh_compute_convexity(mesh, number, shape, &found.convexity, &error)) {
+    if (ovoid_mesh_part_compute_convexity(&part, shape, &found.convexity, &error)) {
         message_error("%s: %s", path, error.message);
         ovoid_shape_destroy(shape);
         return f->failed = 1, 0;

@@ -62,9 +62,10 @@ static int copy_mesh(const ovoid_faces *faces, page_mesh *mesh) {
 static int keep(page_shapes *shapes, cli_page *page, const ovoid_mesh *mesh, size_t part, const ovoid_shape *shape) {
     size_t number;
     if (!page_shapes_add(shapes, shape, &number)) return message_error("out of memory"), EXIT_INPUT;
-    ovoid_faces faces = ovoid_mesh_get_part(mesh, part).faces;
+    ovoid_mesh_part one = ovoid_mesh_get_part(mesh, part);
+    ovoid_faces faces = one.faces;
     ovoid_convexity convexity;
-    if (ovoid_mesh_compute_convexity(mesh, part, shape, &convexity, NULL))
+    if (ovoid_mesh_part_compute_convexity(&one, shape, &convexity, NULL))
         return message_error("out of memory"), EXIT_INPUT;
     int is_hull = convexity.kind == OVOID_MESH_HULL;
     if (is_hull || !faces.face_count || shapes->meshes[number].points) return 0;

@@ -52,7 +52,8 @@ static int add_bodies(cli_near *near) {
             ovoid_pose pose = ovoid_scene_get(near->scene, i).pose;
             bodies[i].body = answers_get_body(near->scene, i, &pose);
         }
-        done = ovoid_world_add_many(near->world, bodies, count, near->ids, &error) == OVOID_OK;
+        done =
+            ovoid_world_add_many(near->world, &(ovoid_world_additions){bodies, count, near->ids}, &error) == OVOID_OK;
     }
     free(bodies);
     if (!done) message_error("%s", error.message);
@@ -98,7 +99,7 @@ int near_move(cli_near *near, const uint32_t *moved, size_t count, const ovoid_p
             ids[i] = near->ids[moved[done + i]];
             to[i] = poses[moved[done + i]];
         }
-        if (ovoid_world_move_many(near->world, ids, to, n, &error) == OVOID_OK) continue;
+        if (ovoid_world_move_many(near->world, &(ovoid_world_moves){ids, to, n}, &error) == OVOID_OK) continue;
         return message_error("%s", error.message), EXIT_INPUT;
     }
     return 0;

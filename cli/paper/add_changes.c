@@ -58,11 +58,11 @@ static double measure_division(const ovoid_shape *shape, uint32_t *vertices) {
     const ovoid_plane plane = {{1, 2, 3}, 0.05};
     double took[REPEATS];
     for (int i = 0; i < REPEATS; i++) {
-        ovoid_shape *parts[2];
         double start = clock_get_ns();
-        (void)ovoid_shape_create_divided(shape, &plane, NULL, parts, NULL);
+        ovoid_shape_halves halves = ovoid_shape_create_divided(shape, &plane, NULL, NULL);
         took[i] = (clock_get_ns() - start) * 1e-6;
         *vertices = 0;
+        ovoid_shape *parts[2] = {halves.below, halves.above};
         for (int k = 0; k < 2; k++) {
             if (parts[k]) *vertices += ovoid_shape_get_polytope(parts[k]).vertex_count;
             ovoid_shape_destroy(parts[k]);
@@ -86,18 +86,18 @@ static double measure_creation(const ovoid_shape *shape) {
 static void add_picture(const experiment *e) {
     const ovoid_plane plane = {{1, 0.4, 0.8}, 0.1};
     const paper_model *m = &e->models[1 + MODELS_EACH + 5];
-    ovoid_shape *parts[2] = {NULL, NULL};
-    if (ovoid_shape_create_divided(m->shape, &plane, NULL, parts, NULL) == OVOID_OK && parts[0] && parts[1]) {
+    ovoid_shape_halves halves = ovoid_shape_create_divided(m->shape, &plane, NULL, NULL);
+    if (halves.below && halves.above) {
         const ovoid_picture_body bodies[] = {{m->name, m->shape, {{0, 0, 0}, {1, 0, 0, 0}}, 0, NULL, 0},
-                                             {NULL, parts[0], {{1.9, 0.9, 0}, {1, 0, 0, 0}}, 0, NULL, 0},
-                                             {NULL, parts[1], {{2.4, 1.2, 0.35}, {1, 0, 0, 0}}, 0, NULL, 0}};
+                                             {NULL, halves.below, {{1.9, 0.9, 0}, {1, 0, 0, 0}}, 0, NULL, 0},
+                                             {NULL, halves.above, {{2.4, 1.2, 0.35}, {1, 0, 0, 0}}, 0, NULL, 0}};
         const ovoid_picture picture = {bodies, 3, NULL, 0, NULL, NULL};
         const ovoid_picture_options options = {900, 420, {1, -1.6, 0.6}, OVOID_PICTURE_OUTER | OVOID_PICTURE_INNER};
         report_add_picture(e->report, "divided", &picture, &options,
                            "A body and its two parts, each with ellipsoids of its own.");
     }
-    ovoid_shape_destroy(parts[0]);
-    ovoid_shape_destroy(parts[1]);
+    ovoid_shape_destroy(halves.below);
+    ovoid_shape_destroy(halves.above);
 }
 
 void experiment_add_changes(const experiment *e) {

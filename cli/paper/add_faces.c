@@ -67,7 +67,8 @@ static int exits_make(exits *list, const ovoid_shape *shape, const ovoid_areas *
     for (int i = 0; i < WAYS; i++) list->areas[i] = octants;
     int good = list->direction && list->toward;
     for (int i = 0; i < CUBES && good; i++) {
-        list->own[i] = ovoid_areas_create(&p, &inner, OVOID_SPLIT_CUBE, 1u << i, NULL, NULL);
+        list->own[i] =
+            ovoid_areas_create(&p, &inner, &(ovoid_areas_options){.split = OVOID_SPLIT_CUBE, .k = 1u << i}, NULL);
         list->areas[RULES + i] = list->own[i];
         good = list->own[i] != NULL;
     }
@@ -318,7 +319,7 @@ static int measure_ball(const experiment *e, uint32_t vertices, cost sums[WAYS])
     if (!shape) return 0;
     ovoid_polytope p = ovoid_shape_get_polytope(shape);
     ovoid_ellipsoid inner = ovoid_shape_get_inner(shape).ellipsoid;
-    ovoid_areas *octants = ovoid_areas_create(&p, &inner, OVOID_SPLIT_OCTANTS, 0, NULL, NULL);
+    ovoid_areas *octants = ovoid_areas_create(&p, &inner, NULL, NULL);
     exits list;
     int good = octants && exits_make(&list, shape, octants, RAYS);
     for (int i = 0; i < RAYS && good; i++) {

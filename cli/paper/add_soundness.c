@@ -92,7 +92,7 @@ static void count_ball(uint32_t rays, uint64_t *state, wrong_counts *w) {
     if (!ball) return;
     ovoid_polytope p = ovoid_shape_get_polytope(ball);
     ovoid_ellipsoid inner = ovoid_shape_get_inner(ball).ellipsoid;
-    ovoid_areas *areas = ovoid_areas_create(&p, &inner, OVOID_SPLIT_OCTANTS, 0, NULL, NULL);
+    ovoid_areas *areas = ovoid_areas_create(&p, &inner, NULL, NULL);
     if (areas) count_random(areas, inner.q, rays, state, w);
     ovoid_areas_destroy(areas);
     ovoid_shape_destroy(ball);
@@ -144,7 +144,7 @@ static void add_case(const experiment *e) {
     ovoid_shape *shapes[] = {create_bevelled(), ovoid_shape_create_sphere(0.2, NULL, NULL)};
     ovoid_polytope p = {0};
     if (shapes[0]) p = ovoid_shape_get_polytope(shapes[0]);
-    ovoid_areas *areas = ovoid_areas_create(&p, &ball, OVOID_SPLIT_OCTANTS, 0, NULL, NULL);
+    ovoid_areas *areas = ovoid_areas_create(&p, &ball, NULL, NULL);
     if (shapes[0] && shapes[1] && areas) {
         ovoid_exit truth = ovoid_areas_find_exit(areas, ray, toward, OVOID_RULE_ALL);
         ovoid_exit found = ovoid_areas_find_exit(areas, ray, toward, OVOID_RULE_PAPER);

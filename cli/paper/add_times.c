@@ -12,14 +12,14 @@ static double measure_offline(const paper_model *m, int step) {
     ovoid_polytope p = ovoid_shape_get_polytope(m->shape);
     ovoid_fit outer, fit[4];
     double took[REPEATS];
-    (void)ovoid_ellipsoid_compute_outer(&p, 0, &outer, NULL);
+    (void)ovoid_ellipsoid_compute_outer(&p, NULL, &outer, NULL);
     fit[0] = outer;
     fit[1] = ovoid_ellipsoid_compute_shrunk(&p, &fit[0].ellipsoid);
     fit[2] = ovoid_ellipsoid_compute_stretched(&p, &fit[1].ellipsoid);
     for (int i = 0; i < REPEATS; i++) {
         double start = clock_get_ns();
         switch (step) {
-        case 0: (void)ovoid_ellipsoid_compute_outer(&p, 0, &fit[3], NULL); break;
+        case 0: (void)ovoid_ellipsoid_compute_outer(&p, NULL, &fit[3], NULL); break;
         case 1: fit[3] = ovoid_ellipsoid_compute_shrunk(&p, &fit[0].ellipsoid); break;
         case 2: fit[3] = ovoid_ellipsoid_compute_stretched(&p, &fit[1].ellipsoid); break;
         default: fit[3] = ovoid_ellipsoid_compute_enlarged(&p, &fit[2].ellipsoid); break;

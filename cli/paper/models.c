@@ -110,7 +110,7 @@ static int finish(paper_model *m) {
     if (!m->shape) return 0;
     ovoid_polytope p = ovoid_shape_get_polytope(m->shape);
     ovoid_ellipsoid inner = ovoid_shape_get_inner(m->shape).ellipsoid;
-    m->areas = ovoid_areas_create(&p, &inner, OVOID_SPLIT_OCTANTS, 0, NULL, NULL);
+    m->areas = ovoid_areas_create(&p, &inner, NULL, NULL);
     return m->areas != NULL;
 }
 

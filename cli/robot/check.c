@@ -129,7 +129,8 @@ static ovoid_code find_near(const check *c, block *k, size_t i) {
         double *gradients = c->form.has_gradient ? k->near.gradients + k->near.count * n : NULL;
         ovoid_robot_nears nears = {.items = k->near.items + k->near.count, .gradients = gradients, .capacity = room};
         const double *q = states_get(c->form.states, k->first) + i * n;
-        ovoid_code code = ovoid_robot_find_near(k->checker, q, &c->near_options, &nears, &k->error);
+        ovoid_code code =
+            ovoid_robot_find_near(k->checker, &(ovoid_robot_query){q, &c->near_options}, &nears, &k->error);
         if (code != OVOID_OK) return code;
         if (nears.count > nears.capacity) {
             room = nears.count;

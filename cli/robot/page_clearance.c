@@ -42,7 +42,7 @@ static int write_samples(FILE *file, const cli_cell *cell, const cli_states *sta
     for (size_t i = 0; i < count && !code; i++) {
         double s = count > 1 ? (double)segments * (double)i / (double)(count - 1) : 0;
         path_compute_state(states, s, q);
-        if (ovoid_robot_find_nearest(checker, q, options, &nears, &error) != OVOID_OK) {
+        if (ovoid_robot_find_nearest(checker, &(ovoid_robot_query){q, options}, &nears, &error) != OVOID_OK) {
             message_error("--html: s %.9g: %s", s, error.message);
             code = EXIT_INPUT;
         } else if (nears.count) {

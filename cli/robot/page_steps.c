@@ -28,12 +28,12 @@ static void write_step(FILE *file, const ovoid_robot_step *step) {
 static void write_pairs(FILE *file, const cli_cell *cell) {
     size_t count = ovoid_robot_cell_get_pair_count(cell->cell);
     for (size_t i = 0; i < count && count <= PAIRS_MOST; i++) {
-        ovoid_robot_side a, b;
-        if (ovoid_robot_cell_get_pair(cell->cell, i, &a, &b, NULL) != OVOID_OK) continue;
+        ovoid_robot_sides sides;
+        if (ovoid_robot_cell_get_pair(cell->cell, i, &sides, NULL) != OVOID_OK) continue;
         fputs(i ? ",[" : "[", file);
-        cell_write_side_json(file, cell, &a);
+        cell_write_side_json(file, cell, &sides.a);
         fputc(',', file);
-        cell_write_side_json(file, cell, &b);
+        cell_write_side_json(file, cell, &sides.b);
         fputc(']', file);
     }
 }

@@ -52,9 +52,10 @@ static findings check_proof(const ovoid_decomposition *d, ovoid_decomposition_op
     findings f = {*d, {0, INFINITY}, {0, INFINITY}, {INFINITY, INFINITY, INFINITY, INFINITY}};
     for (o->work = 16; o->work < 600; o->work *= 16) {
         double excess[4];
+        o->excesses = excess;
         ovoid_decomposition_proof p;
         ovoid_error error = {OVOID_OK, -1, ""};
-        if (ovoid_decomposition_compute_proof(d, o, &p, excess, &error) != OVOID_OK) {
+        if (ovoid_decomposition_compute_proof(d, o, &p, &error) != OVOID_OK) {
             fuzz_require_error(&error);
             return f;
         }

@@ -54,8 +54,10 @@ static void check_claim(const ovoid_robot_proof *p, const ovoid_robot_proof_sour
     const ovoid_robot_path path = {p->states, p->count};
     const ovoid_robot_path_options o = {.query = {.margin = source->margin, .limit_slack = source->limit_slack}};
     if (source->variable_count != 1) return;
-    if (p->has_pair && ovoid_robot_cell_get_pair(cell, p->pair, &answer.hit.a, &answer.hit.b, &error) != OVOID_OK)
-        return;
+    ovoid_robot_sides sides = {answer.hit.a, answer.hit.b};
+    if (p->has_pair && ovoid_robot_cell_get_pair(cell, p->pair, &sides, &error) != OVOID_OK) return;
+    answer.hit.a = sides.a;
+    answer.hit.b = sides.b;
     if (ovoid_robot_path_verify(cell, &path, &o, &answer, p->steps, &error) != OVOID_OK) {
         fuzz_require_error(&error);
         return;

@@ -46,8 +46,8 @@ static void add(model *m, fuzz_bytes *from) {
     else
         body.body.compound = m->compound;
     body.body.pose = take_any_pose(from, m->is_wild);
-    body.group = (uint32_t)(take_byte(from) & 3);
-    body.mask = (uint32_t)(take_byte(from) & 3);
+    body.groups.group = (uint32_t)(take_byte(from) & 3);
+    body.groups.mask = (uint32_t)(take_byte(from) & 3);
     ovoid_error error = {OVOID_OK, -1, ""};
     ovoid_id id = ovoid_world_add(m->world, &body, &error);
     if (!id) {
@@ -57,9 +57,9 @@ static void add(model *m, fuzz_bytes *from) {
     fuzz_require(find_body(m, id) < 0);
     m->bodies[m->count].id = id;
     m->bodies[m->count].body = body.body;
-    int is_all = body.group == 0 && body.mask == 0;
-    m->bodies[m->count].group = is_all ? UINT32_MAX : body.group;
-    m->bodies[m->count++].mask = is_all ? UINT32_MAX : body.mask;
+    int is_all = body.groups.group == 0 && body.groups.mask == 0;
+    m->bodies[m->count].group = is_all ? UINT32_MAX : body.groups.group;
+    m->bodies[m->count++].mask = is_all ? UINT32_MAX : body.groups.mask;
 }
 
 static void remove_one(model *m, int i) {
@@ -76,7 +76,8 @@ static void remove_one(model *m, int i) {
 
 static void set_ignored(model *m, int i, int j, int ignored) {
     ovoid_id a = m->bodies[i].id, b = m->bodies[j].id;
-    ovoid_code code = ovoid_world_set_ignored(m->world, a, b, ignored, NULL);
+    ovoid_code code =
+        ignored ? ovoid_world_add_ignored(m->world, a, b, NULL) : ovoid_world_remove_ignored(m->world, a, b, NULL);
     fuzz_require(code == (i == j ? OVOID_ERROR_ARGUMENT : OVOID_OK));
     int k = find_ignored(m, a, b);
     if (i == j || (k >= 0) == ignored) return;
@@ -94,15 +95,16 @@ static void check_contact(const model *m, const ovoid_contact *c, double margin)
     int i = find_body(m, c->a), j = find_body(m, c->b);
     fuzz_require(c->a < c->b && i >= 0 && j >= 0 && is_pair(m, i, j) && ovoid_world_is_pair(m->world, c->a, c->b));
     ovoid_body_pair pair = {m->bodies[i].body, m->bodies[j].body};
-    ovoid_body_answer alone = ovoid_body_depth(&pair, NULL, NULL, NULL), whole;
+    ovoid_body_answer alone = ovoid_body_depth(&pair, NULL, NULL, NULL);
     fuzz_require(c->verdict.lower <= alone.upper && alone.lower <= c->verdict.upper);
     fuzz_require(!(c->verdict.lower > margin));
     static ovoid_exclusion items[256];
     static ovoid_cover cover;
     ovoid_exclusions exclusions = {items, 256, 0, &cover};
     ovoid_error error = {OVOID_OK, -1, ""};
-    fuzz_require_code(ovoid_world_compute_proof(m->world, c, &exclusions, &whole, &error), &error);
-    fuzz_require_code(ovoid_body_verify(&pair, &whole, NULL, &exclusions, &error), &error);
+    ovoid_contact_proof proof = {.exclusions = &exclusions};
+    fuzz_require_code(ovoid_world_compute_proof(m->world, c, &proof, &error), &error);
+    fuzz_require_code(ovoid_body_verify(&pair, &proof.answer, NULL, &exclusions, &error), &error);
 }
 
 static void ask_frame(model *m, fuzz_bytes *from) {
@@ -160,9 +162,10 @@ static void check_nearest(const model *m, const ovoid_world_hit *hit, int body) 
 
 static void check_overlaps(const model *m, const ovoid_world_body *probe, double margin) {
     ovoid_world_hit items[BODIES];
-    ovoid_world_hits hits = {items, BODIES, 0, NULL};
+    ovoid_world_hits hits = {items, BODIES, 0};
     ovoid_error error = {OVOID_OK, -1, ""};
-    if (ovoid_world_find_overlaps(m->world, probe, margin, &hits, &error) != OVOID_OK) {
+    if (ovoid_world_find_overlaps(m->world, &(ovoid_world_query){.probe = probe, .margin = margin}, &hits, &error) !=
+        OVOID_OK) {
         fuzz_require_error(&error);
         return;
     }
@@ -197,7 +200,8 @@ static void check_casts(const model *m, fuzz_bytes *from, const ovoid_world_body
     } else {
         fuzz_require_error(&error);
     }
-    if (ovoid_world_cast_body(m->world, probe, take_vector(from, m->is_wild), &cast, &error) == OVOID_OK)
+    if (ovoid_world_cast_body(m->world, &(ovoid_world_sweep){*probe, take_vector(from, m->is_wild)}, &cast, &error) ==
+        OVOID_OK)
         fuzz_require(!(cast.lower > cast.upper));
     else
         fuzz_require_error(&error);
@@ -209,10 +213,11 @@ static void ask_between(const model *m, fuzz_bytes *from) {
     fuzz_require_code(ovoid_world_find_nearest_pair(m->world, NULL, &hit, &error), &error);
     check_nearest(m, &hit, -1);
     for (int i = 0; i < m->count && i < 2; i++) {
-        fuzz_require_code(ovoid_world_find_nearest(m->world, m->bodies[i].id, NULL, &hit, &error), &error);
+        fuzz_require_code(ovoid_world_find_nearest(m->world, &(ovoid_world_query){.id = m->bodies[i].id}, &hit, &error),
+                          &error);
         check_nearest(m, &hit, i);
     }
-    fuzz_require_code(ovoid_world_find_any(m->world, NULL, 0, NULL, &hit, &error), &error);
+    fuzz_require_code(ovoid_world_find_any(m->world, NULL, &hit, &error), &error);
     for (int i = 0; i < m->count && !hit.b; i++)
         for (int j = 0; j < i; j++)
             if (is_pair(m, i, j)) fuzz_require(ask_alone(&m->bodies[i].body, &m->bodies[j].body).upper > 0);
@@ -249,12 +254,12 @@ static void operate(model *m, fuzz_bytes *from) {
     case 6:
         m->bodies[i].group = (uint32_t)(other & 3);
         m->bodies[i].mask = (uint32_t)(other >> 2 & 3);
-        fuzz_require(ovoid_world_set_groups(m->world, m->bodies[i].id, m->bodies[i].group, m->bodies[i].mask, NULL) ==
-                     OVOID_OK);
+        fuzz_require(ovoid_world_set_groups(m->world, m->bodies[i].id,
+                                            (ovoid_groups){m->bodies[i].group, m->bodies[i].mask}, NULL) == OVOID_OK);
         fuzz_require(ovoid_world_get(m->world, m->bodies[i].id, &body, NULL) == OVOID_OK && body.user == 7);
         // Both zero means all.
-        m->bodies[i].group = body.group;
-        m->bodies[i].mask = body.mask;
+        m->bodies[i].group = body.groups.group;
+        m->bodies[i].mask = body.groups.mask;
         break;
     default: break;
     }

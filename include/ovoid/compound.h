@@ -24,14 +24,18 @@ extern "C" {
  */
 typedef struct ovoid_compound ovoid_compound;
 
+/** Options of a compound; all zero is the default, and NULL means that. */
+typedef struct ovoid_compound_options {
+    const ovoid_allocator *allocator; /**< NULL: malloc and free; copied. Working memory comes from it and goes back */
+} ovoid_compound_options;
+
 /**
  * A compound of count >= 1 parts; the array is copied. Returns NULL with *error filled (may be NULL): EMPTY, LIMIT,
  * ARGUMENT (place: a part without a shape), NOT_FINITE, RANGE, ROTATION (place: the part), MEMORY. The caller destroys
- * it. allocator: NULL for malloc; copied into the compound; it also gives working memory, all of which goes back.
- * Cost: the vertices of all parts for each level of the tree; 0.1 ms a part of 32 vertices.
+ * it. Cost: the vertices of all parts for each level of the tree; 0.1 ms a part of 32 vertices.
  */
 OVOID_API ovoid_compound *ovoid_compound_create(const ovoid_posed_shape *parts, size_t count,
-                                                const ovoid_allocator *allocator, ovoid_error *error);
+                                                const ovoid_compound_options *options, ovoid_error *error);
 /** Frees it, not its shapes; NULL is allowed. No query may be using it. */
 OVOID_API void ovoid_compound_destroy(ovoid_compound *compound);
 

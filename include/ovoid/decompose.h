@@ -47,6 +47,8 @@ typedef struct ovoid_decomposition_options {
     double tolerance; /**< a length: brackets need not be narrower; 0: 1/1000 of the diagonal of the solid's box */
     size_t cells;     /**< most cells held at a time, 128 bytes each, at least 4096; 0: 2^18 */
     size_t work;      /**< most cells looked at for each of the two lengths; 0: 2^21 */
+    double *excesses; /**< of ovoid_decomposition_compute_proof: receives part_count lengths, no less than each part's
+                           own p; NULL: none are wanted */
     double error;     /**< parts made here: no part shall stand out of the solid by more; 0: see `parts` */
     size_t parts; /**< parts made here: at most so many; 0: as many as `error` asks for; both 0: an error of 1/50 of the
                      diagonal */
@@ -59,14 +61,12 @@ typedef struct ovoid_decomposition_options {
 
 /**
  * How far the parts are from the solid, both lengths in a bracket that is true whatever the budget. The solid must be
- * closed: it is all points around which its triangles wind, and these. excess: part_count lengths, no less than each
- * part's own p; or NULL. Errors: ARGUMENT (no solid, no proof, a part with an allowance or NULL: place the part; an
- * option; a solid that is not closed), EMPTY (no parts), LIMIT, MEMORY.
+ * closed: it is all points around which its triangles wind, and these. Errors: ARGUMENT (no solid, no proof, a part
+ * with an allowance or NULL: place the part; an option; a solid that is not closed), EMPTY (no parts), LIMIT, MEMORY.
  */
 OVOID_API ovoid_code ovoid_decomposition_compute_proof(const ovoid_decomposition *decomposition,
                                                        const ovoid_decomposition_options *options,
-                                                       ovoid_decomposition_proof *proof, double *excess,
-                                                       ovoid_error *error);
+                                                       ovoid_decomposition_proof *proof, ovoid_error *error);
 
 /**
  * Holds a proof against the solid and the parts, whoever made it: the point of each lower end is measured, and each

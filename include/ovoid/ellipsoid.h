@@ -42,16 +42,22 @@ typedef struct ovoid_fit {
     uint32_t facet;      /**< phase 2 only: the farthest facet that s was taken from (flat: edge or end) */
 } ovoid_fit;
 
+/** Options of the ellipsoids of smallest and of largest volume; all zero is the default, and NULL means that. */
+typedef struct ovoid_ellipsoid_options {
+    double gap;                       /**< relative volume gap to reach; 0 means 1e-6 */
+    const ovoid_allocator *allocator; /**< of the working memory; NULL: malloc and free */
+} ovoid_ellipsoid_options;
+
 /**
  * The Loewner-John ellipsoid: the smallest volume that encloses every vertex, proven to enclose after rounding.
  * L. Khachiyan, Rounding of polytopes in the real number model of computation, 1996; P. Kumar and E. A. Yildirim,
  * Minimum-volume enclosing ellipsoids and core sets, 2005 (start); M. J. Todd and E. A. Yildirim, On Khachiyan's
  * algorithm for the computation of minimum-volume enclosing ellipsoids, 2007 (away steps).
- * gap: relative volume gap to reach, 0 means 1e-6. Memory from allocator (NULL: malloc).
- * Returns OVOID_OK or ARGUMENT, MEMORY. Cost: linear in the vertices per iteration.
+ * Errors: ARGUMENT, MEMORY. Cost: linear in the vertices per iteration.
  */
-OVOID_API ovoid_code ovoid_ellipsoid_compute_outer(const ovoid_polytope *polytope, double gap, ovoid_fit *fit,
-                                                   const ovoid_allocator *allocator);
+OVOID_API ovoid_code ovoid_ellipsoid_compute_outer(const ovoid_polytope *polytope,
+                                                   const ovoid_ellipsoid_options *options, ovoid_fit *fit,
+                                                   ovoid_error *error);
 
 /**
  * Phase 1 of the paper: shrink the outer ellipsoid isotropically, by bisection from a quarter of its radii, until it
@@ -70,10 +76,11 @@ OVOID_API ovoid_fit ovoid_ellipsoid_compute_enlarged(const ovoid_polytope *polyt
  * The maximum-volume inscribed ellipsoid, proven inside after rounding.
  * L. G. Khachiyan and M. J. Todd, On the complexity of approximating the maximal inscribed ellipsoid for a polytope,
  * 1993; Y. Zhang and L. Gao, On numerical solution of the maximum volume ellipsoid problem, 2003.
- * gap: relative volume gap to reach, 0 means 1e-6. Returns OVOID_OK or ARGUMENT, MEMORY.
+ * Errors: ARGUMENT, MEMORY.
  */
-OVOID_API ovoid_code ovoid_ellipsoid_compute_inner(const ovoid_polytope *polytope, double gap, ovoid_fit *fit,
-                                                   const ovoid_allocator *allocator);
+OVOID_API ovoid_code ovoid_ellipsoid_compute_inner(const ovoid_polytope *polytope,
+                                                   const ovoid_ellipsoid_options *options, ovoid_fit *fit,
+                                                   ovoid_error *error);
 
 /** Radii in descending order; zero where the ellipsoid is flat. Relative error 2^-50 times longest over shortest. */
 OVOID_API ovoid_vec3 ovoid_ellipsoid_compute_radii(const ovoid_ellipsoid *ellipsoid);

@@ -116,8 +116,8 @@ typedef struct ovoid_convexity {
  * of its points. A part with a face that cannot be cut into triangles counts as a solid, which ovoid_mesh_create_solid
  * refuses with the reason. Errors: MEMORY. Cost: as there.
  */
-OVOID_API ovoid_code ovoid_mesh_compute_convexity(const ovoid_mesh *mesh, size_t part, const ovoid_shape *hull,
-                                                  ovoid_convexity *convexity, ovoid_error *error);
+OVOID_API ovoid_code ovoid_mesh_part_compute_convexity(const ovoid_mesh_part *part, const ovoid_shape *hull,
+                                                       ovoid_convexity *convexity, ovoid_error *error);
 
 /**
  * The triangles of a part as a solid; of a part that is not closed they are a surface, as its report says. A polygon is
@@ -143,7 +143,7 @@ OVOID_API int ovoid_path_is_shape(const char *path);
  * then the shape has the allowance that keeps brackets true of the mesh. Any other mesh, closed and not convex or open,
  * is refused (NOT_CONVEX), unless read->hull asks for the hull. Points without faces are their hull. For a `.ovoid`
  * file a scale other than 1 or a radius is refused (ARGUMENT). read->parts is ignored. The caller destroys it. Cost:
- * beside the hull's that of ovoid_mesh_compute_convexity, unless read->hull.
+ * beside the hull's that of ovoid_mesh_part_compute_convexity, unless read->hull.
  */
 OVOID_API ovoid_shape *ovoid_shape_read_file(const char *path, const ovoid_read_options *read,
                                              const ovoid_shape_options *options, ovoid_error *error);
@@ -181,8 +181,8 @@ OVOID_API ovoid_shapes *ovoid_shapes_read_list(const char *path, const ovoid_rea
  * The compound whose parts are these shapes, in this order, each where its file has it. It borrows them: destroy it
  * first. Errors as those of ovoid_compound_create. allocator: NULL for malloc.
  */
-OVOID_API ovoid_compound *ovoid_shapes_create_compound(const ovoid_shapes *shapes, const ovoid_allocator *allocator,
-                                                       ovoid_error *error);
+OVOID_API ovoid_compound *ovoid_shapes_create_compound(const ovoid_shapes *shapes,
+                                                       const ovoid_compound_options *options, ovoid_error *error);
 
 /** Frees it; NULL is allowed. */
 OVOID_API void ovoid_shapes_destroy(ovoid_shapes *shapes);
@@ -209,11 +209,10 @@ OVOID_API ovoid_named_shape ovoid_shapes_get(const ovoid_shapes *shapes, size_t 
  * Optional: "pose": {"xyz", and "quat_wxyz" or "rpy"}; "radius", a rounding radius around the body; for meshes and
  * points "scale", and "unit", from which they are converted to that of the scene (to metres where it names none); for
  * meshes "parts": true, a compound of the hulls of the file's objects, "hull": true (or "solid": false), the convex
- * hull, or "solid": true, the triangles. Where none is said a mesh is what ovoid_mesh_compute_convexity says: the hull,
- * with the allowance of that, a solid, or a surface. A mesh with a radius or an allowance, and one in a compound, must
- * be its hull then. Anything else is refused:
- * unknown keys, unknown names in "ignore", two objects of one name, wrong types, a zero quaternion. docs/scene.md has
- * examples.
+ * hull, or "solid": true, the triangles. Where none is said a mesh is what ovoid_mesh_part_compute_convexity says: the
+ * hull, with the allowance of that, a solid, or a surface. A mesh with a radius or an allowance, and one in a compound,
+ * must be its hull then. Anything else is refused: unknown keys, unknown names in "ignore", two objects of one name,
+ * wrong types, a zero quaternion. docs/scene.md has examples.
  */
 typedef struct ovoid_scene ovoid_scene;
 

@@ -58,7 +58,8 @@ class mesh : public detail::owner<detail::pointer<ovoid_mesh>, ovoid_mesh, ovoid
     ovoid_convexity compute_convexity(std::size_t i, const shape_view &hull) const {
         ovoid_convexity convexity;
         ovoid_error e{};
-        detail::require(ovoid_mesh_compute_convexity(get(), i, hull.get(), &convexity, &e), e);
+        const ovoid_mesh_part part = ovoid_mesh_get_part(get(), i);
+        detail::require(ovoid_mesh_part_compute_convexity(&part, hull.get(), &convexity, &e), e);
         return convexity;
     }
 };
@@ -94,7 +95,8 @@ class shapes : public detail::owner<detail::pointer<ovoid_shapes>, ovoid_shapes,
     /** The compound of these shapes, which it borrows. Throws as ovoid_compound_create fails. */
     compound create_compound(const ovoid_allocator *allocator = nullptr) const {
         ovoid_error e;
-        return compound(detail::require(ovoid_shapes_create_compound(get(), allocator, &e), e));
+        const ovoid_compound_options o = {allocator};
+        return compound(detail::require(ovoid_shapes_create_compound(get(), &o, &e), e));
     }
 };
 

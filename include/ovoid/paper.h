@@ -38,14 +38,19 @@ typedef enum ovoid_area_rule {
  */
 typedef struct ovoid_areas ovoid_areas;
 
+/** Options of the tables; all zero is the default, the paper's octants, and NULL means that. */
+typedef struct ovoid_areas_options {
+    ovoid_split split;
+    uint32_t k; /**< of a cube map: cells per edge, a power of two from 1 to 64; ignored for octants */
+    const ovoid_allocator *allocator; /**< NULL: malloc and free; copied */
+} ovoid_areas_options;
+
 /**
- * Makes the tables. ellipsoid: positive definite, centre strictly inside (of a solid). k: cells per cube edge, a power
- * of two from 1 to 64; ignored for octants. NULL on failure, with *error filled. Owned by the caller; keeps pointers
- * into the polytope, which must outlive it.
+ * Makes the tables. ellipsoid: positive definite, centre strictly inside (of a solid). NULL on failure, with *error
+ * filled. Owned by the caller; keeps pointers into the polytope, which must outlive it.
  */
 OVOID_API ovoid_areas *ovoid_areas_create(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid,
-                                          ovoid_split split, uint32_t k, const ovoid_allocator *allocator,
-                                          ovoid_error *error);
+                                          const ovoid_areas_options *options, ovoid_error *error);
 /** Frees the tables; NULL is allowed. */
 OVOID_API void ovoid_areas_destroy(ovoid_areas *areas);
 

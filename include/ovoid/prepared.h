@@ -49,19 +49,23 @@ typedef struct ovoid_evidence {
     ovoid_answer *answer;   /**< receives the whole answer, which ovoid_answer_verify takes */
 } ovoid_evidence;
 
+/** Two prepared shapes, borrowed: passed by value, in two registers where the machine has them. */
+typedef struct ovoid_prepared_pair {
+    const ovoid_prepared_shape *a, *b;
+} ovoid_prepared_pair;
+
 /** ovoid_collide of prepared shapes. */
-OVOID_API ovoid_verdict ovoid_prepared_collide(const ovoid_prepared_shape *a, const ovoid_prepared_shape *b,
-                                               const ovoid_options *options, const ovoid_evidence *evidence);
+OVOID_API ovoid_verdict ovoid_prepared_collide(ovoid_prepared_pair pair, const ovoid_options *options,
+                                               const ovoid_evidence *evidence);
 /** ovoid_within of prepared shapes. Read it with ovoid_verdict_is_within. */
-OVOID_API ovoid_verdict ovoid_prepared_within(const ovoid_prepared_shape *a, const ovoid_prepared_shape *b,
-                                              double margin, const ovoid_options *options,
+OVOID_API ovoid_verdict ovoid_prepared_within(ovoid_prepared_pair pair, double margin, const ovoid_options *options,
                                               const ovoid_evidence *evidence);
 /** ovoid_distance of prepared shapes. */
-OVOID_API ovoid_verdict ovoid_prepared_distance(const ovoid_prepared_shape *a, const ovoid_prepared_shape *b,
-                                                const ovoid_options *options, const ovoid_evidence *evidence);
+OVOID_API ovoid_verdict ovoid_prepared_distance(ovoid_prepared_pair pair, const ovoid_options *options,
+                                                const ovoid_evidence *evidence);
 /** ovoid_depth of prepared shapes, without a cover. */
-OVOID_API ovoid_verdict ovoid_prepared_depth(const ovoid_prepared_shape *a, const ovoid_prepared_shape *b,
-                                             const ovoid_options *options, const ovoid_evidence *evidence);
+OVOID_API ovoid_verdict ovoid_prepared_depth(ovoid_prepared_pair pair, const ovoid_options *options,
+                                             const ovoid_evidence *evidence);
 
 /** ovoid_answer_is_within of a verdict: 1: proven within the margin; 0: proven farther; -1: the bracket straddles it.
  */

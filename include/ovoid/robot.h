@@ -157,21 +157,31 @@ typedef struct ovoid_robot_pose_error {
 } ovoid_robot_pose_error;
 
 /**
- * The poses of all links in the root link's frame. q: variable count numbers; poses: link count; errors: as many, or
- * NULL. Allocates nothing. Limits are not looked at (ovoid_robot_validate_limits). Errors (place: the variable):
- * NOT_FINITE, RANGE (an angle above OVOID_ROBOT_ANGLE_MAX, a length above OVOID_LENGTH_MAX), ROTATION (a floating
- * joint's quaternion is zero).
+ * The poses of all links in the root link's frame. q: variable count numbers; poses: link count. Allocates nothing.
+ * Limits are not looked at (ovoid_robot_validate_limits). Errors (place: the variable): NOT_FINITE, RANGE (an angle
+ * above OVOID_ROBOT_ANGLE_MAX, a length above OVOID_LENGTH_MAX), ROTATION (a floating joint's quaternion is zero).
  */
 OVOID_API ovoid_code ovoid_robot_compute_poses(const ovoid_robot *robot, const double *q, ovoid_pose *poses,
-                                               ovoid_robot_pose_error *errors, ovoid_error *error);
+                                               ovoid_error *error);
+
+/** How far each pose is off. q, poses: of a call of ovoid_robot_compute_poses that succeeded; errors: link count. */
+OVOID_API void ovoid_robot_compute_pose_errors(const ovoid_robot *robot, const double *q, const ovoid_pose *poses,
+                                               ovoid_robot_pose_error *errors);
+
+/** States, and room for the poses of their links. */
+typedef struct ovoid_robot_pose_batch {
+    const double *q; /**< state i from i * variable count on */
+    size_t count;
+    ovoid_pose *poses; /**< receives those of state i from i * link count on */
+} ovoid_robot_pose_batch;
 
 /**
- * The poses of many states: state i at q + i * variable count gets the poses from i * link count on, with the bits that
- * ovoid_robot_compute_poses gives. Eight at a time where the machine has vectors. Working memory is the robot's
- * allocator's, once a call. Errors: MEMORY, and those of the first state that is refused; then poses are not complete.
+ * The poses of many states, with the bits that ovoid_robot_compute_poses gives. Eight at a time where the machine has
+ * vectors. Working memory is the robot's allocator's, once a call. Errors: MEMORY, and those of the first state that is
+ * refused; then poses are not complete.
  */
-OVOID_API ovoid_code ovoid_robot_compute_poses_batch(const ovoid_robot *robot, const double *q, size_t count,
-                                                     ovoid_pose *poses, ovoid_error *error);
+OVOID_API ovoid_code ovoid_robot_compute_poses_batch(const ovoid_robot *robot, const ovoid_robot_pose_batch *batch,
+                                                     ovoid_error *error);
 
 /**
  * OVOID_OK where every variable, and every joint that follows another one, is within its limits or outside by at most
@@ -191,8 +201,13 @@ OVOID_API ovoid_code ovoid_robot_validate_limits(const ovoid_robot *robot, const
  */
 typedef struct ovoid_robot_cell ovoid_robot_cell;
 
+/** Options of a cell; all zero is the default, and NULL means that. */
+typedef struct ovoid_robot_cell_options {
+    const ovoid_allocator *allocator; /**< NULL: malloc and free; copied */
+} ovoid_robot_cell_options;
+
 /** A cell without obstacles; NULL on failure: MEMORY, LIMIT (more than 2^24 pairs of elements). Borrows the robot. */
-OVOID_API ovoid_robot_cell *ovoid_robot_cell_create(const ovoid_robot *robot, const ovoid_allocator *allocator,
+OVOID_API ovoid_robot_cell *ovoid_robot_cell_create(const ovoid_robot *robot, const ovoid_robot_cell_options *options,
                                                     ovoid_error *error);
 /** Frees it; NULL is allowed. No checker may use it any more. */
 OVOID_API void ovoid_robot_cell_destroy(ovoid_robot_cell *cell);
@@ -206,26 +221,36 @@ OVOID_API int ovoid_robot_is_rigid_pair(const ovoid_robot *robot, uint32_t a, ui
  * solid the cell makes the hull.
  */
 OVOID_API ovoid_id ovoid_robot_cell_add(ovoid_robot_cell *cell, const ovoid_body *body, ovoid_error *error);
+/** A body that a link holds. */
+typedef struct ovoid_robot_attachment {
+    uint32_t link;
+    ovoid_body body;          /**< borrowed; its pose is in the link's frame */
+    const uint32_t *touching; /**< other links that may touch it, touching_count of them; may be NULL */
+    size_t touching_count;
+} ovoid_robot_attachment;
+
 /**
- * Attaches a body to a link, in whose frame its pose is: it moves with the link, and is queried against obstacles and
- * all links but this one and those of `touching` (count; may be NULL). Errors as above, and INDEX.
+ * Attaches a body to a link: it moves with the link, and is queried against obstacles and all links but this one and
+ * those that may touch it. Errors as above, and INDEX.
  */
-OVOID_API ovoid_id ovoid_robot_cell_attach(ovoid_robot_cell *cell, uint32_t link, const ovoid_body *body,
-                                           const uint32_t *touching, size_t count, ovoid_error *error);
+OVOID_API ovoid_id ovoid_robot_cell_attach(ovoid_robot_cell *cell, const ovoid_robot_attachment *attachment,
+                                           ovoid_error *error);
 /** Removes an obstacle or an attached body. Errors: INDEX. */
 OVOID_API ovoid_code ovoid_robot_cell_remove(ovoid_robot_cell *cell, ovoid_id id, ovoid_error *error);
 /** Moves an obstacle, or an attached body in its link's frame. Errors: INDEX, those of ovoid_pose_validate. */
 OVOID_API ovoid_code ovoid_robot_cell_move(ovoid_robot_cell *cell, ovoid_id id, const ovoid_pose *pose,
                                            ovoid_error *error);
-/**
- * Lets two links touch (allowed 1), or takes that back (0), on top of what the description disables. Errors: INDEX,
- * ARGUMENT (a is b), MEMORY.
- */
-OVOID_API ovoid_code ovoid_robot_cell_set_allowed(ovoid_robot_cell *cell, uint32_t a, uint32_t b, int allowed,
-                                                  ovoid_error *error);
-/** The same of a link, with what is attached to it, and an obstacle; of an attached body and a link. */
-OVOID_API ovoid_code ovoid_robot_cell_set_body_allowed(ovoid_robot_cell *cell, ovoid_id id, uint32_t link, int allowed,
+/** Lets two links touch, on top of what the description disables. Errors: INDEX, ARGUMENT (a is b), MEMORY. */
+OVOID_API ovoid_code ovoid_robot_cell_add_allowed(ovoid_robot_cell *cell, uint32_t a, uint32_t b, ovoid_error *error);
+/** Queries two links again that were let touch. Errors: those of ovoid_robot_cell_add_allowed. */
+OVOID_API ovoid_code ovoid_robot_cell_remove_allowed(ovoid_robot_cell *cell, uint32_t a, uint32_t b,
+                                                     ovoid_error *error);
+/** Lets a link, with what is attached to it, touch an obstacle; or an attached body a link. Errors: INDEX, MEMORY. */
+OVOID_API ovoid_code ovoid_robot_cell_add_body_allowed(ovoid_robot_cell *cell, ovoid_id id, uint32_t link,
                                                        ovoid_error *error);
+/** Queries such a pair again. Errors: those of ovoid_robot_cell_add_body_allowed. */
+OVOID_API ovoid_code ovoid_robot_cell_remove_body_allowed(ovoid_robot_cell *cell, ovoid_id id, uint32_t link,
+                                                          ovoid_error *error);
 /**
  * Enlarges a link, with what is attached to it, against obstacles, by a rounding radius >= 0, exactly: what comes
  * nearer than that counts as touched. Pairs of links are not padded. Errors: INDEX, RADIUS.
@@ -246,9 +271,15 @@ OVOID_API double ovoid_robot_cell_get_padding(const ovoid_robot_cell *cell, uint
 /** What one thread needs to query states of a cell: memory, and the proofs of its last state, where the next begins. */
 typedef struct ovoid_robot_checker ovoid_robot_checker;
 
+/** Options of a checker; all zero is the default, and NULL means that. */
+typedef struct ovoid_robot_checker_options {
+    const ovoid_allocator *allocator; /**< NULL: malloc and free; copied */
+} ovoid_robot_checker_options;
+
 /** A checker; NULL on failure: MEMORY. Its queries allocate only after the cell has changed. */
 OVOID_API ovoid_robot_checker *ovoid_robot_checker_create(const ovoid_robot_cell *cell,
-                                                          const ovoid_allocator *allocator, ovoid_error *error);
+                                                          const ovoid_robot_checker_options *options,
+                                                          ovoid_error *error);
 /** Frees it; NULL is allowed. */
 OVOID_API void ovoid_robot_checker_destroy(ovoid_robot_checker *checker);
 /** Forgets the last state: the next query gets the bits that it gets from a new checker. */
@@ -289,14 +320,19 @@ typedef struct ovoid_robot_query_options {
     int without_obstacles; /**< 1: obstacles are left out */
 } ovoid_robot_query_options;
 
+/** What is asked of one state. */
+typedef struct ovoid_robot_query {
+    const double *q;                          /**< the state: variable count numbers */
+    const ovoid_robot_query_options *options; /**< NULL: the default */
+} ovoid_robot_query;
+
 /**
  * Is the state free? Ends at the first pair that is proven within the margin, and begins with the pair that ended the
  * last state. Which pair is named depends on the states before (ovoid_robot_checker_reset); the status does where a
  * pair is within rounding of the margin. Errors: ARGUMENT (options), MEMORY; then *answer is UNDECIDED.
  */
-OVOID_API ovoid_code ovoid_robot_collide(ovoid_robot_checker *checker, const double *q,
-                                         const ovoid_robot_query_options *options, ovoid_robot_answer *answer,
-                                         ovoid_error *error);
+OVOID_API ovoid_code ovoid_robot_collide(ovoid_robot_checker *checker, const ovoid_robot_query *query,
+                                         ovoid_robot_answer *answer, ovoid_error *error);
 
 /** States to check. */
 typedef struct ovoid_robot_batch {
@@ -341,20 +377,18 @@ typedef struct ovoid_robot_nears {
 } ovoid_robot_nears;
 
 /**
- * All pairs that are not proven farther apart than options->margin, with their distances; overlapping ones with their
- * depths. Errors: ARGUMENT, MEMORY, and those that ovoid_robot_collide puts into a refused answer.
+ * All pairs that are not proven farther apart than query->options->margin, with their distances; overlapping ones with
+ * their depths. Errors: ARGUMENT, MEMORY, and those that ovoid_robot_collide puts into a refused answer.
  */
-OVOID_API ovoid_code ovoid_robot_find_near(ovoid_robot_checker *checker, const double *q,
-                                           const ovoid_robot_query_options *options, ovoid_robot_nears *nears,
-                                           ovoid_error *error);
+OVOID_API ovoid_code ovoid_robot_find_near(ovoid_robot_checker *checker, const ovoid_robot_query *query,
+                                           ovoid_robot_nears *nears, ovoid_error *error);
 
 /**
- * The pair that is nearest, where one is not proven farther apart than options->margin, which may be infinity: nears
- * gets one item, or none, whatever its capacity (>= 1). Errors as above.
+ * The pair that is nearest, where one is not proven farther apart than query->options->margin, which may be infinity:
+ * nears gets one item, or none, whatever its capacity (>= 1). Errors as above.
  */
-OVOID_API ovoid_code ovoid_robot_find_nearest(ovoid_robot_checker *checker, const double *q,
-                                              const ovoid_robot_query_options *options, ovoid_robot_nears *nears,
-                                              ovoid_error *error);
+OVOID_API ovoid_code ovoid_robot_find_nearest(ovoid_robot_checker *checker, const ovoid_robot_query *query,
+                                              ovoid_robot_nears *nears, ovoid_error *error);
 
 #ifdef __cplusplus
 }

@@ -78,8 +78,8 @@ class robot : public detail::owner<detail::pointer<ovoid_robot>, ovoid_robot, ov
             detail::fail(OVOID_ERROR_ARGUMENT, "a state has as many numbers as variables");
         if (errors) errors->resize(link_count());
         ovoid_error e;
-        detail::require(ovoid_robot_compute_poses(get(), q.data(), poses.data(), errors ? errors->data() : nullptr, &e),
-                        e);
+        detail::require(ovoid_robot_compute_poses(get(), q.data(), poses.data(), &e), e);
+        if (errors) ovoid_robot_compute_pose_errors(get(), q.data(), poses.data(), errors->data());
         return poses;
     }
     /** The poses of many states, one after another. */
@@ -87,7 +87,8 @@ class robot : public detail::owner<detail::pointer<ovoid_robot>, ovoid_robot, ov
         const std::size_t count = variable_count() ? q.size() / variable_count() : 0;
         std::vector<ovoid_pose> poses(count * link_count());
         ovoid_error e;
-        detail::require(ovoid_robot_compute_poses_batch(get(), q.data(), count, poses.data(), &e), e);
+        const ovoid_robot_pose_batch batch = {q.data(), count, poses.data()};
+        detail::require(ovoid_robot_compute_poses_batch(get(), &batch, &e), e);
         return poses;
     }
     /** Throws RANGE or NOT_FINITE where a variable is outside its limits by more than slack. */
@@ -116,7 +117,8 @@ class robot_cell : public detail::owner<detail::pointer<ovoid_robot_cell>, ovoid
     /** Attaches a body to a link. Throws as ovoid_robot_cell_attach fails. */
     id attach(std::uint32_t link, const body &b, span<const std::uint32_t> touching = {}) {
         ovoid_error e;
-        const id made = ovoid_robot_cell_attach(get(), link, &b, touching.data(), touching.size(), &e);
+        const ovoid_robot_attachment held = {link, b, touching.data(), touching.size()};
+        const id made = ovoid_robot_cell_attach(get(), &held, &e);
         if (made == 0) detail::fail(e);
         return made;
     }
@@ -126,11 +128,11 @@ class robot_cell : public detail::owner<detail::pointer<ovoid_robot_cell>, ovoid
     void move(id b, const pose &to) { call(ovoid_robot_cell_move, b, &to); }
     /** Lets two links touch, or takes that back. Throws INDEX, ARGUMENT, MEMORY. */
     void set_allowed(std::uint32_t a, std::uint32_t b, bool allowed) {
-        call(ovoid_robot_cell_set_allowed, a, b, allowed ? 1 : 0);
+        call(allowed ? ovoid_robot_cell_add_allowed : ovoid_robot_cell_remove_allowed, a, b);
     }
     /** The same of a body and a link. */
     void set_body_allowed(id b, std::uint32_t link, bool allowed) {
-        call(ovoid_robot_cell_set_body_allowed, b, link, allowed ? 1 : 0);
+        call(allowed ? ovoid_robot_cell_add_body_allowed : ovoid_robot_cell_remove_body_allowed, b, link);
     }
     /** Enlarges a link against obstacles. Throws INDEX, RADIUS. */
     void set_padding(std::uint32_t link, double padding) { call(ovoid_robot_cell_set_padding, link, padding); }
@@ -167,7 +169,8 @@ class robot_checker
     /** Is a state free? Throws ARGUMENT, MEMORY. */
     robot_answer collide(span<const double> q, const ovoid_robot_query_options &o = robot_query_options()) {
         robot_answer found;
-        call(ovoid_robot_collide, q.data(), &o, &found);
+        const ovoid_robot_query query = {q.data(), &o};
+        call(ovoid_robot_collide, &query, &found);
         return found;
     }
     /** Many states, one after another; count: how many. Throws ARGUMENT, MEMORY. */
@@ -199,14 +202,15 @@ class robot_checker
     }
     /** All near pairs with gradients by `variables` numbers. Throws as ovoid_robot_find_near fails. */
     robot_nears find_near(span<const double> q, const ovoid_robot_query_options &o, int without_depths = 0) {
+        const ovoid_robot_query query = {q.data(), &o};
         robot_nears found;
         ovoid_robot_nears nears = {nullptr, nullptr, 0, 0, without_depths};
-        call(ovoid_robot_find_near, q.data(), &o, &nears);
+        call(ovoid_robot_find_near, &query, &nears);
         while (nears.count > nears.capacity) {
             found.items.resize(nears.count);
             found.gradients.resize(nears.count * q.size());
             nears = {found.items.data(), found.gradients.data(), nears.count, 0, without_depths};
-            call(ovoid_robot_find_near, q.data(), &o, &nears);
+            call(ovoid_robot_find_near, &query, &nears);
         }
         return found;
     }
@@ -216,7 +220,8 @@ class robot_checker
         found.items.resize(1);
         found.gradients.resize(q.size());
         ovoid_robot_nears nears = {found.items.data(), found.gradients.data(), 1, 0, 0};
-        call(ovoid_robot_find_nearest, q.data(), &o, &nears);
+        const ovoid_robot_query query = {q.data(), &o};
+        call(ovoid_robot_find_nearest, &query, &nears);
         found.items.resize(nears.count);
         found.gradients.resize(nears.count * q.size());
         return found;
@@ -243,7 +248,9 @@ inline std::size_t pair_count(const robot_cell &cell) noexcept { return ovoid_ro
 inline std::pair<ovoid_robot_side, ovoid_robot_side> pair_sides(const robot_cell &cell, std::size_t pair) {
     std::pair<ovoid_robot_side, ovoid_robot_side> found;
     ovoid_error e;
-    detail::require(ovoid_robot_cell_get_pair(cell.get(), pair, &found.first, &found.second, &e), e);
+    ovoid_robot_sides sides;
+    detail::require(ovoid_robot_cell_get_pair(cell.get(), pair, &sides, &e), e);
+    found = {sides.a, sides.b};
     return found;
 }
 
@@ -260,7 +267,7 @@ class robot_matrix
     /** Of a robot. Throws MEMORY, LIMIT. */
     static robot_matrix create(const robot &r, const ovoid_robot_matrix_options &o = robot_matrix_options()) {
         ovoid_error e;
-        return robot_matrix(detail::require(ovoid_robot_matrix_create(r.get(), &o, nullptr, &e), e));
+        return robot_matrix(detail::require(ovoid_robot_matrix_create(r.get(), &o, &e), e));
     }
     /** Number of pairs. */
     std::size_t size() const noexcept { return ovoid_robot_matrix_get_count(get()); }
@@ -292,7 +299,8 @@ inline ovoid_robot_sphere_audit compute_sphere_audit(const robot &r, std::uint32
                                                      const ovoid_robot_audit_options &o = robot_audit_options()) {
     ovoid_robot_sphere_audit found;
     ovoid_error e;
-    detail::require(ovoid_robot_compute_sphere_audit(r.get(), link, spheres.data(), spheres.size(), &o, &found, &e), e);
+    const ovoid_robot_sphere_model model = {r.get(), link, spheres.data(), spheres.size()};
+    detail::require(ovoid_robot_compute_sphere_audit(&model, &o, &found, &e), e);
     return found;
 }
 /** Spheres that are proven to cover a link: `most`, or with o.excess as few as are found; depth: receives the bracket
@@ -302,15 +310,17 @@ inline std::vector<ovoid_robot_sphere> compute_sphere_cover(const robot &r, std:
                                                             ovoid_robot_bracket *depth = nullptr) {
     std::vector<ovoid_robot_sphere> found(most);
     ovoid_error e;
-    detail::require(ovoid_robot_compute_sphere_cover(r.get(), link, &o, found.data(), &most, depth, &e), e);
-    found.resize(most);
+    ovoid_robot_sphere_cover covering = {link, found.data(), most, 0, {0, 0}};
+    detail::require(ovoid_robot_compute_sphere_cover(r.get(), &o, &covering, &e), e);
+    if (depth) *depth = covering.depth;
+    found.resize(covering.count);
     return found;
 }
 /** The robot with spheres in the place of its elements. Throws as ovoid_robot_create_from_spheres fails. */
 inline robot create_from_spheres(const robot &r, span<const ovoid_robot_link_sphere> spheres) {
     ovoid_error e;
-    return robot(
-        detail::require(ovoid_robot_create_from_spheres(r.get(), spheres.data(), spheres.size(), nullptr, &e), e));
+    const ovoid_robot_link_spheres all = {spheres.data(), spheres.size()};
+    return robot(detail::require(ovoid_robot_create_from_spheres(r.get(), &all, nullptr, &e), e));
 }
 /** Adds states, `count` of them, to a comparison of a robot with its model; agreements: receives one a state, or
  * nullptr. Throws ARGUMENT, MEMORY. */

@@ -34,6 +34,7 @@ typedef struct ovoid_robot_matrix_options {
     size_t budget;     /**< most cells of joint space that a pair's proof looks at; 0: 100 000 */
     uint64_t seed;     /**< of the states: the same seed gives the same matrix */
     ovoid_watch watch; /**< asked before each eight states and each cell; stopped: as though those so far were all */
+    const ovoid_allocator *allocator; /**< NULL: malloc and free; copied */
 } ovoid_robot_matrix_options;
 
 /** Two links that both have elements, a < b. */
@@ -59,8 +60,7 @@ typedef struct ovoid_robot_matrix ovoid_robot_matrix;
  * microseconds; at most budget cells a pair.
  */
 OVOID_API ovoid_robot_matrix *ovoid_robot_matrix_create(const ovoid_robot *robot,
-                                                        const ovoid_robot_matrix_options *options,
-                                                        const ovoid_allocator *allocator, ovoid_error *error);
+                                                        const ovoid_robot_matrix_options *options, ovoid_error *error);
 /** Frees it; NULL is allowed. */
 OVOID_API void ovoid_robot_matrix_destroy(ovoid_robot_matrix *matrix);
 /** How many pairs there are. */

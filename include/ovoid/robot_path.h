@@ -135,9 +135,14 @@ OVOID_API ovoid_code ovoid_robot_path_compute_clearance(ovoid_robot_checker *che
 
 /** How many pairs a cell has, queried or left out; their numbers begin at 0. */
 OVOID_API size_t ovoid_robot_cell_get_pair_count(const ovoid_robot_cell *cell);
+/** The two sides of a pair. */
+typedef struct ovoid_robot_sides {
+    ovoid_robot_side a, b;
+} ovoid_robot_sides;
+
 /** The two sides of a pair. Errors: INDEX. */
-OVOID_API ovoid_code ovoid_robot_cell_get_pair(const ovoid_robot_cell *cell, size_t pair, ovoid_robot_side *a,
-                                               ovoid_robot_side *b, ovoid_error *error);
+OVOID_API ovoid_code ovoid_robot_cell_get_pair(const ovoid_robot_cell *cell, size_t pair, ovoid_robot_sides *sides,
+                                               ovoid_error *error);
 
 #ifdef __cplusplus
 }

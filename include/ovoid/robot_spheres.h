@@ -25,6 +25,14 @@ typedef struct ovoid_robot_link_sphere {
     ovoid_robot_sphere ball; /**< in the link's frame */
 } ovoid_robot_link_sphere;
 
+/** A link and the spheres that stand for it, in its frame. Borrowed. */
+typedef struct ovoid_robot_sphere_model {
+    const ovoid_robot *robot;
+    uint32_t link;
+    const ovoid_robot_sphere *spheres;
+    size_t count;
+} ovoid_robot_sphere_model;
+
 /** Options of an audit; all zero is the default, and NULL means that. */
 typedef struct ovoid_robot_audit_options {
     double tolerance;    /**< a length: the depth's bracket need not be narrower; 0: 1e-5 of the link's size */
@@ -58,12 +66,11 @@ typedef struct ovoid_robot_sphere_audit {
 } ovoid_robot_sphere_audit;
 
 /**
- * Audits count spheres against a link. Every bracket is true, rounding included, also where cells ran out; then it is
+ * Audits spheres against their link. Every bracket is true, rounding included, also where cells ran out; then it is
  * wider. Errors: ARGUMENT (NULL, options), INDEX (no such link), EMPTY (no spheres; a link without elements),
  * and with the sphere as place NOT_FINITE, RADIUS (negative), RANGE; LIMIT (more than 2^20 spheres), MEMORY.
  */
-OVOID_API ovoid_code ovoid_robot_compute_sphere_audit(const ovoid_robot *robot, uint32_t link,
-                                                      const ovoid_robot_sphere *spheres, size_t count,
+OVOID_API ovoid_code ovoid_robot_compute_sphere_audit(const ovoid_robot_sphere_model *model,
                                                       const ovoid_robot_audit_options *options,
                                                       ovoid_robot_sphere_audit *audit, ovoid_error *error);
 
@@ -78,26 +85,39 @@ typedef struct ovoid_robot_cover_options {
                             proven to cover the link, or LIMIT where that stands out by more than the excess */
 } ovoid_robot_cover_options;
 
+/** Spheres that cover a link: which link, room for them, and what was found. */
+typedef struct ovoid_robot_sphere_cover {
+    uint32_t link;
+    ovoid_robot_sphere *spheres; /**< the caller's, capacity of them; receives spheres in the link's frame */
+    size_t capacity;             /**< 1 to 4096 */
+    size_t count;                /**< written: how many there are */
+    ovoid_robot_bracket depth;   /**< written: that of an audit of them; its upper end is at most 0 */
+} ovoid_robot_sphere_cover;
+
 /**
- * Finds spheres that are proven to cover a link, with little volume outside it. *count: room in `spheres`, 1 to 4096;
- * then how many were written. *depth (may be NULL) is the bracket of an audit of what was written; its upper end is at
- * most 0. Errors: those of an audit; ARGUMENT (*count, options); LIMIT: no cover within `excess` was found with as
- * many.
+ * Finds spheres that are proven to cover a link, with little volume outside it. Errors: those of an audit; ARGUMENT
+ * (capacity, options); LIMIT: no cover within `excess` was found with as many as there is room for.
  */
-OVOID_API ovoid_code ovoid_robot_compute_sphere_cover(const ovoid_robot *robot, uint32_t link,
+OVOID_API ovoid_code ovoid_robot_compute_sphere_cover(const ovoid_robot *robot,
                                                       const ovoid_robot_cover_options *options,
-                                                      ovoid_robot_sphere *spheres, size_t *count,
-                                                      ovoid_robot_bracket *depth, ovoid_error *error);
+                                                      ovoid_robot_sphere_cover *cover, ovoid_error *error);
+
+/** Spheres of any links of a robot. Borrowed. */
+typedef struct ovoid_robot_link_spheres {
+    const ovoid_robot_link_sphere *items;
+    size_t count;
+} ovoid_robot_link_spheres;
 
 /**
  * The robot with spheres in the place of its elements: the same links, joints, variables and disabled pairs, and an
- * element for each sphere, in their order. It owns its shapes and borrows nothing. NULL on failure: ARGUMENT (no
+ * element for each sphere, in their order. It owns its shapes and borrows nothing; of the options the allocator alone
+ * counts. NULL on failure: ARGUMENT (no
  * robot), and with the sphere as place INDEX (no such link), NOT_FINITE, RADIUS, RANGE; LIMIT, MEMORY. A link that no
  * sphere is of has no elements.
  */
-OVOID_API ovoid_robot *ovoid_robot_create_from_spheres(const ovoid_robot *robot, const ovoid_robot_link_sphere *spheres,
-                                                       size_t count, const ovoid_allocator *allocator,
-                                                       ovoid_error *error);
+OVOID_API ovoid_robot *ovoid_robot_create_from_spheres(const ovoid_robot *robot,
+                                                       const ovoid_robot_link_spheres *spheres,
+                                                       const ovoid_robot_options *options, ovoid_error *error);
 
 #ifdef __cplusplus
 }

@@ -44,12 +44,13 @@ typedef struct ovoid_allowance {
                         directions. Stored as zero where `outside` is zero */
 } ovoid_allowance;
 
-/** Options of all ovoid_shape_create_* functions; all zero is the default, as is NULL. */
+/** Options of all functions that create a shape; all zero is the default, as is NULL. */
 typedef struct ovoid_shape_options {
-    double radius;                    /**< rounding radius, >= 0, added around the hull */
-    double gap;                       /**< relative volume gap of the ellipsoids; 0 means 1e-6 */
-    ovoid_inner_method inner;         /**< which inner ellipsoid */
-    ovoid_allowance allowance;        /**< what the true body may differ by; zero: the shape is the body */
+    double radius;             /**< rounding radius, >= 0, added around the hull */
+    double gap;                /**< relative volume gap of the ellipsoids; 0 means 1e-6 */
+    ovoid_inner_method inner;  /**< which inner ellipsoid */
+    ovoid_allowance allowance; /**< what the true body may differ by; zero: the shape is the body */
+    double tolerance; /**< of cylinders and cones: the most that `outside` may be, a length; 0 means radius / 200 */
     const ovoid_allocator *allocator; /**< NULL: malloc and free; copied into the shape */
 } ovoid_shape_options;
 
@@ -95,26 +96,33 @@ OVOID_API ovoid_shape *ovoid_shape_create_capsule(double radius, double half_len
 
 /**
  * The cylinder along z, held by an inscribed prism with an allowance: brackets are those of the true cylinder, and at
- * least as wide as the allowance. tolerance: the most that `outside` may be, a length; 0 means radius / 200 (32 sides).
- * The fewest sides that meet it are taken; LIMIT where these are more than 2^16. Both lengths are added to those of
+ * least as wide as the allowance. The fewest sides that meet options->tolerance are taken, 32 by default; LIMIT where
+ * these are more than 2^16. Both lengths are added to those of
  * options->allowance; the sum has the axis z, so that the flat ends are exact, unless options->allowance has an
  * `outside` that is not along z. Errors: NOT_FINITE, RADIUS, RANGE, ARGUMENT (tolerance), and those of
  * ovoid_shape_create_from_points.
  */
-OVOID_API ovoid_shape *ovoid_shape_create_cylinder(double radius, double half_length, double tolerance,
+OVOID_API ovoid_shape *ovoid_shape_create_cylinder(double radius, double half_length,
                                                    const ovoid_shape_options *options, ovoid_error *error);
 
 /** The cone, apex at z = +half_length, base circle at z = -half_length: as ovoid_shape_create_cylinder. */
-OVOID_API ovoid_shape *ovoid_shape_create_cone(double radius, double half_length, double tolerance,
-                                               const ovoid_shape_options *options, ovoid_error *error);
+OVOID_API ovoid_shape *ovoid_shape_create_cone(double radius, double half_length, const ovoid_shape_options *options,
+                                               ovoid_error *error);
 
-/** A prism of n >= 3 sides along z, inscribed in the cylinder of that radius: the polyhedron itself. */
-OVOID_API ovoid_shape *ovoid_shape_create_prism(double radius, double half_length, uint32_t sides,
-                                                const ovoid_shape_options *options, ovoid_error *error);
+/** A regular polygon of `sides` >= 3 corners on a circle, extended along z. */
+typedef struct ovoid_prism {
+    double radius;      /**< of the circle */
+    double half_length; /**< from z = -half_length to +half_length */
+    uint32_t sides;
+} ovoid_prism;
 
-/** A pyramid of n >= 3 sides along z, apex at z = +half_length, base circle at z = -half_length. */
-OVOID_API ovoid_shape *ovoid_shape_create_pyramid(double radius, double half_length, uint32_t sides,
-                                                  const ovoid_shape_options *options, ovoid_error *error);
+/** A prism along z, inscribed in the cylinder of that radius: the polyhedron itself. */
+OVOID_API ovoid_shape *ovoid_shape_create_prism(const ovoid_prism *prism, const ovoid_shape_options *options,
+                                                ovoid_error *error);
+
+/** A pyramid along z over the prism's lower base, apex at z = +half_length. */
+OVOID_API ovoid_shape *ovoid_shape_create_pyramid(const ovoid_prism *prism, const ovoid_shape_options *options,
+                                                  ovoid_error *error);
 
 /**
  * The shape with its vertices moved: the hull of the new points, its ellipsoids looked for from those of the shape.
@@ -125,26 +133,32 @@ OVOID_API ovoid_shape *ovoid_shape_create_pyramid(double radius, double half_len
 OVOID_API ovoid_shape *ovoid_shape_create_deformed(const ovoid_shape *shape, const double *xyz,
                                                    const ovoid_shape_options *options, ovoid_error *error);
 
+/** What a plane cuts a shape into. The caller destroys both. */
+typedef struct ovoid_shape_halves {
+    ovoid_code code;    /**< OVOID_OK; else why there are none */
+    ovoid_shape *below; /**< where normal . x <= offset; NULL where nothing but the plane itself is left */
+    ovoid_shape *above; /**< where normal . x >= offset; NULL as there */
+} ovoid_shape_halves;
+
 /**
- * The shape cut in two by a plane { x : normal . x = offset } of the user's local frame, normal of any length but zero:
- * parts[0] lies where normal . x <= offset, parts[1] where it is >=; NULL where nothing but the plane itself is left.
+ * The shape cut in two by a plane { x : normal . x = offset } of the user's local frame, normal of any length but zero.
  * Where an edge is cut, both parts get the same point, which is on the edge to rounding. The polyhedron is cut; the
  * rounding radius is that of the options, as for every new shape. Errors as ovoid_shape_create_from_points, and
- * ARGUMENT (normal, no shape), NOT_FINITE; then both parts are NULL. The caller destroys the parts.
+ * ARGUMENT (normal, no shape), NOT_FINITE; then both halves are NULL.
  */
-OVOID_API ovoid_code ovoid_shape_create_divided(const ovoid_shape *shape, const ovoid_plane *plane,
-                                                const ovoid_shape_options *options, ovoid_shape *parts[2],
-                                                ovoid_error *error);
+OVOID_API ovoid_shape_halves ovoid_shape_create_divided(const ovoid_shape *shape, const ovoid_plane *plane,
+                                                        const ovoid_shape_options *options, ovoid_error *error);
 
-/** A copy with memory of its own. Errors: ARGUMENT (no shape), MEMORY. */
-OVOID_API ovoid_shape *ovoid_shape_create_copy(const ovoid_shape *shape, const ovoid_allocator *allocator,
+/** A copy with memory of its own; of the options the allocator alone counts. Errors: ARGUMENT (no shape), MEMORY. */
+OVOID_API ovoid_shape *ovoid_shape_create_copy(const ovoid_shape *shape, const ovoid_shape_options *options,
                                                ovoid_error *error);
 
-/** A copy with another allowance, axis included. Errors: ARGUMENT (no shape), NOT_FINITE, RANGE (the allowance),
- * MEMORY.
+/**
+ * A copy with the allowance of the options, axis included; of the others the allocator alone counts. Errors: ARGUMENT
+ * (no shape), NOT_FINITE, RANGE (the allowance), MEMORY.
  */
-OVOID_API ovoid_shape *ovoid_shape_create_allowed(const ovoid_shape *shape, ovoid_allowance allowance,
-                                                  const ovoid_allocator *allocator, ovoid_error *error);
+OVOID_API ovoid_shape *ovoid_shape_create_allowed(const ovoid_shape *shape, const ovoid_shape_options *options,
+                                                  ovoid_error *error);
 
 /** Frees the shape; NULL is allowed. No query may be using it. */
 OVOID_API void ovoid_shape_destroy(ovoid_shape *shape);
@@ -176,9 +190,9 @@ OVOID_API size_t ovoid_shape_write(const ovoid_shape *shape, void *buffer, size_
 /**
  * A shape from such bytes, of any version, each of them checked: magic, version, sizes, checksum, indices, finiteness,
  * that the triangles are the hull, and that the ellipsoids enclose and are enclosed. It is the shape that was written,
- * bit for bit. Errors: FORMAT (place: byte offset), MEMORY.
+ * bit for bit. Of the options the allocator alone counts. Errors: FORMAT (place: byte offset), MEMORY.
  */
-OVOID_API ovoid_shape *ovoid_shape_read(const void *bytes, size_t size, const ovoid_allocator *allocator,
+OVOID_API ovoid_shape *ovoid_shape_read(const void *bytes, size_t size, const ovoid_shape_options *options,
                                         ovoid_error *error);
 
 #ifdef __cplusplus

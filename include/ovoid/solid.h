@@ -53,16 +53,18 @@ typedef struct ovoid_solid_report {
     ovoid_box box;            /**< of the points; solid's frame */
 } ovoid_solid_report;
 
+/** Options of a solid; all zero is the default, and NULL means that. */
+typedef struct ovoid_solid_options {
+    const ovoid_allocator *allocator; /**< NULL: malloc and free; copied. Working memory comes from it and goes back */
+} ovoid_solid_options;
+
 /**
- * A solid of count >= 1 triangles. xyz: point_count points, xyz of point i at 3 i; indices: three points of triangle t
- * at 3 t, counter-clockwise from outside. Both are copied. Every triangle is kept, also what has no area. Returns NULL
- * with *error filled (may be NULL): ARGUMENT, EMPTY, LIMIT, NOT_FINITE (place: the point), RANGE, INDEX (place: the
- * triangle), MEMORY. The caller destroys it. allocator: NULL for malloc; copied into the solid; it also gives working
- * memory, all of which goes back. Cost: n log n.
+ * A solid of one triangle or more, which are copied. Every triangle is kept, also what has no area. Returns NULL with
+ * *error filled (may be NULL): ARGUMENT, EMPTY, LIMIT, NOT_FINITE (place: the point), RANGE, INDEX (place: the
+ * triangle), MEMORY. The caller destroys it. Cost: n log n.
  */
-OVOID_API ovoid_solid *ovoid_solid_create_from_triangles(const double *xyz, size_t point_count, const uint32_t *indices,
-                                                         size_t count, const ovoid_allocator *allocator,
-                                                         ovoid_error *error);
+OVOID_API ovoid_solid *ovoid_solid_create_from_triangles(const ovoid_triangles *triangles,
+                                                         const ovoid_solid_options *options, ovoid_error *error);
 /** Frees it; NULL is allowed. No query may be using it. */
 OVOID_API void ovoid_solid_destroy(ovoid_solid *solid);
 

@@ -71,11 +71,19 @@ OVOID_API ovoid_world *ovoid_world_create(const ovoid_world_options *options, ov
 /** Ends its threads and frees it; NULL is allowed. The shapes stay the caller's. */
 OVOID_API void ovoid_world_destroy(ovoid_world *world);
 
-/** What a body is made with. Two bodies are a pair if a.group & b.mask and b.group & a.mask are both not zero. */
+/**
+ * Which bodies are queried with which: two are a pair if a.group & b.mask and b.group & a.mask are both not zero. Both
+ * zero: all of both.
+ */
+typedef struct ovoid_groups {
+    uint32_t group, mask;
+} ovoid_groups;
+
+/** What a body is made with. */
 typedef struct ovoid_world_body {
-    ovoid_body body;      /**< what it points to must live as long as the body */
-    uint32_t group, mask; /**< both zero: all of both */
-    uint64_t user;        /**< the caller's own; the world only stores it */
+    ovoid_body body; /**< what it points to must live as long as the body */
+    ovoid_groups groups;
+    uint64_t user; /**< the caller's own; the world only stores it */
 } ovoid_world_body;
 
 /**
@@ -83,12 +91,16 @@ typedef struct ovoid_world_body {
  * MEMORY. Cost: one insertion into the tree.
  */
 OVOID_API ovoid_id ovoid_world_add(ovoid_world *world, const ovoid_world_body *body, ovoid_error *error);
-/**
- * Many at once, all or none (place: the body that is refused); ids (count, may be NULL) receives theirs. Faster than
- * one by one.
- */
-OVOID_API ovoid_code ovoid_world_add_many(ovoid_world *world, const ovoid_world_body *bodies, size_t count,
-                                          ovoid_id *ids, ovoid_error *error);
+/** Bodies to add. */
+typedef struct ovoid_world_additions {
+    const ovoid_world_body *bodies;
+    size_t count;
+    ovoid_id *ids; /**< receives their ids, in their order; may be NULL */
+} ovoid_world_additions;
+
+/** Many at once, all or none (place: the body that is refused). Faster than one by one. */
+OVOID_API ovoid_code ovoid_world_add_many(ovoid_world *world, const ovoid_world_additions *additions,
+                                          ovoid_error *error);
 
 /** Removes a body with its ignored pairs. Errors: INDEX, the id is none of this world's, or no more. */
 OVOID_API ovoid_code ovoid_world_remove(ovoid_world *world, ovoid_id id, ovoid_error *error);
@@ -103,9 +115,15 @@ OVOID_API ovoid_code ovoid_world_remove_many(ovoid_world *world, const ovoid_id 
  * stays where it was.
  */
 OVOID_API ovoid_code ovoid_world_move(ovoid_world *world, ovoid_id id, const ovoid_pose *pose, ovoid_error *error);
+/** Bodies to move, and where each goes. */
+typedef struct ovoid_world_moves {
+    const ovoid_id *ids;
+    const ovoid_pose *poses;
+    size_t count;
+} ovoid_world_moves;
+
 /** Many at once, in the order given; all or none (place: the first that is refused). */
-OVOID_API ovoid_code ovoid_world_move_many(ovoid_world *world, const ovoid_id *ids, const ovoid_pose *poses,
-                                           size_t count, ovoid_error *error);
+OVOID_API ovoid_code ovoid_world_move_many(ovoid_world *world, const ovoid_world_moves *moves, ovoid_error *error);
 
 /** The body as it is now. Errors: INDEX. */
 OVOID_API ovoid_code ovoid_world_get(const ovoid_world *world, ovoid_id id, ovoid_world_body *body, ovoid_error *error);
@@ -115,13 +133,13 @@ OVOID_API size_t ovoid_world_get_count(const ovoid_world *world);
 OVOID_API ovoid_id ovoid_world_find_next(const ovoid_world *world, ovoid_id after);
 
 /** Other groups for a body; its pairs are found afresh. Errors: INDEX. */
-OVOID_API ovoid_code ovoid_world_set_groups(ovoid_world *world, ovoid_id id, uint32_t group, uint32_t mask,
-                                            ovoid_error *error);
+OVOID_API ovoid_code ovoid_world_set_groups(ovoid_world *world, ovoid_id id, ovoid_groups groups, ovoid_error *error);
 /** The filter's answers for this body may have changed: its pairs are found afresh. Errors: INDEX. */
 OVOID_API ovoid_code ovoid_world_renew(ovoid_world *world, ovoid_id id, ovoid_error *error);
-/** Leaves a pair out from now on (ignored 1), or takes it back (0). Errors: INDEX, ARGUMENT (a is b), MEMORY. */
-OVOID_API ovoid_code ovoid_world_set_ignored(ovoid_world *world, ovoid_id a, ovoid_id b, int ignored,
-                                             ovoid_error *error);
+/** Leaves a pair out from now on. Errors: INDEX, ARGUMENT (a is b), MEMORY. */
+OVOID_API ovoid_code ovoid_world_add_ignored(ovoid_world *world, ovoid_id a, ovoid_id b, ovoid_error *error);
+/** Queries a pair again that was left out. Errors: INDEX, ARGUMENT (a is b). */
+OVOID_API ovoid_code ovoid_world_remove_ignored(ovoid_world *world, ovoid_id a, ovoid_id b, ovoid_error *error);
 /** 1 if groups, ignored pairs and the filter let the two be queried as a pair; 0 if not, or an id is stale. */
 OVOID_API int ovoid_world_is_pair(const ovoid_world *world, ovoid_id a, ovoid_id b);
 
@@ -174,14 +192,19 @@ typedef struct ovoid_contacts {
 OVOID_API ovoid_code ovoid_world_compute_contacts(ovoid_world *world, const ovoid_contact_query *query,
                                                   ovoid_contacts *contacts, ovoid_error *error);
 
+/** The whole answer of a contact, and its proof. */
+typedef struct ovoid_contact_proof {
+    ovoid_exclusions *exclusions; /**< room for them, the caller's; NULL: none are wanted */
+    ovoid_body_answer answer;     /**< written */
+} ovoid_contact_proof;
+
 /**
  * The whole answer of a contact at the present poses, with the proof that ovoid_body_verify takes (of two shapes: that
- * ovoid_answer_verify takes): the query is that of the last step, warm from its cache. exclusions: as in
- * ovoid_body_depth, or NULL. Errors: INDEX (place 0: a, 1: b), ARGUMENT. Cost: one query.
+ * ovoid_answer_verify takes): the query is that of the last step, warm from its cache. Errors: INDEX (place 0: a, 1:
+ * b), ARGUMENT. Cost: one query.
  */
 OVOID_API ovoid_code ovoid_world_compute_proof(const ovoid_world *world, const ovoid_contact *contact,
-                                               ovoid_exclusions *exclusions, ovoid_body_answer *answer,
-                                               ovoid_error *error);
+                                               ovoid_contact_proof *proof, ovoid_error *error);
 
 /*
  * Queries between steps. None of them allocates or changes anything; each takes the bodies where they are now, in any
@@ -199,27 +222,24 @@ typedef struct ovoid_world_hit {
     ovoid_body_answer answer; /**< of the bodies of a and b, in that order */
 } ovoid_world_hit;
 
+/** Some bodies of a world. */
+typedef struct ovoid_world_ids {
+    const ovoid_id *items;
+    size_t count;
+} ovoid_world_ids;
+
 /**
  * Does any of these bodies touch another one? ids NULL: any of all. Stops at the first pair that is not proven apart:
  * hit->b is 0 where all are. Cost: a traversal of the tree for each body, and the queries of what its box meets.
  */
-OVOID_API ovoid_code ovoid_world_find_any(const ovoid_world *world, const ovoid_id *ids, size_t count,
-                                          const ovoid_options *options, ovoid_world_hit *hit, ovoid_error *error);
+OVOID_API ovoid_code ovoid_world_find_any(const ovoid_world *world, const ovoid_world_ids *ids, ovoid_world_hit *hit,
+                                          ovoid_error *error);
 
-/**
- * Does any of these bodies, which are not in the world, touch a body of it? For a planner that checks states of its
- * robot, from any number of threads. In the order given, up to the first that is not proven apart: hit->a is its
- * number, hit->b the body. Probes are not compared with one another. place: the probe that is refused; those before it
- * are apart. Cost: for each its box, a traversal, and the queries of what that box meets.
- */
-OVOID_API ovoid_code ovoid_world_find_any_to(const ovoid_world *world, const ovoid_world_body *probes, size_t count,
-                                             ovoid_world_hit *hit, ovoid_error *error);
-
-/** Bodies that are not in the world, and which of them are asked about with one another: a state of a machine. */
+/** Bodies that are not in the world, and which of them are queried with one another: a state of a machine. */
 typedef struct ovoid_world_probes {
     const ovoid_world_body *items;
     size_t count;
-    const ovoid_couple *couples; /**< of items, by number; groups and masks do not count here */
+    const ovoid_couple *couples; /**< of items, by number; groups do not count here. couple_count of them, or none */
     size_t couple_count;
 } ovoid_world_probes;
 
@@ -227,21 +247,27 @@ typedef struct ovoid_world_probes {
 #define OVOID_WORLD_PROBE ((ovoid_id)1 << 63)
 
 /**
- * Does a state of a machine touch anything? ovoid_world_find_any_to, and then the couples of probes in the order given,
- * each probe placed once: of a couple that is not proven apart hit->a is the number of one probe, hit->b
- * OVOID_WORLD_PROBE | that of the other. Errors: of probes as ovoid_world_find_any_to; INDEX, a couple that names no
- * probe (place: which of couples), before anything is asked.
+ * Does any of these bodies, which are not in the world, touch a body of it, or one another? For a planner that checks
+ * states of its robot, from any number of threads. First the probes in the order given, up to the first that is not
+ * proven apart: hit->a is its number, hit->b the body. Then the couples of probes in the order given, each probe placed
+ * once: hit->a is the number of one probe, hit->b OVOID_WORLD_PROBE | that of the other. Errors: place is the probe
+ * that is refused, and those before it are apart; INDEX, a couple that names no probe (place: which of couples), before
+ * anything is queried. Cost: for each probe its box, a traversal, and the queries of what that box meets.
  */
 OVOID_API ovoid_code ovoid_world_find_any_of(const ovoid_world *world, const ovoid_world_probes *probes,
                                              ovoid_world_hit *hit, ovoid_error *error);
 
-/** The body nearest to a body, within options->cap. Of those that overlap it, one. */
-OVOID_API ovoid_code ovoid_world_find_nearest(const ovoid_world *world, ovoid_id id, const ovoid_options *options,
+/** A query of one body: of a body of the world by its id, or of a probe. */
+typedef struct ovoid_world_query {
+    ovoid_id id;                   /**< 0: `probe` is the querying body */
+    const ovoid_world_body *probe; /**< a body that is not in the world; not used where there is an id */
+    double margin;                 /**< >= 0, finite; of ovoid_world_find_overlaps */
+    const ovoid_options *options;  /**< of each query; NULL: the default */
+} ovoid_world_query;
+
+/** The body nearest to a body, within query->options->cap. Of those that overlap it, one. */
+OVOID_API ovoid_code ovoid_world_find_nearest(const ovoid_world *world, const ovoid_world_query *query,
                                               ovoid_world_hit *hit, ovoid_error *error);
-/** The body nearest to a body that is not in the world. */
-OVOID_API ovoid_code ovoid_world_find_nearest_to(const ovoid_world *world, const ovoid_world_body *probe,
-                                                 const ovoid_options *options, ovoid_world_hit *hit,
-                                                 ovoid_error *error);
 /**
  * The two nearest of all bodies, within options->cap; two that overlap end the search. The tree is traversed against
  * itself.
@@ -254,11 +280,10 @@ typedef struct ovoid_world_hits {
     ovoid_world_hit *items; /**< the caller's; may be NULL where capacity is 0 */
     size_t capacity;
     size_t count; /**< written: how many there are; more than capacity: those found first were written */
-    const ovoid_options *options; /**< of each query; NULL: the default */
 } ovoid_world_hits;
 
-/** All bodies that are not proven farther than margin from a body, sorted by id. */
-OVOID_API ovoid_code ovoid_world_find_overlaps(const ovoid_world *world, const ovoid_world_body *probe, double margin,
+/** All bodies that are not proven farther than query->margin from a body, sorted by id. */
+OVOID_API ovoid_code ovoid_world_find_overlaps(const ovoid_world *world, const ovoid_world_query *query,
                                                ovoid_world_hits *hits, ovoid_error *error);
 
 /** A probe that is a point: for the bodies that contain it, or the one nearest to it. Its shape is the world's. */
@@ -277,7 +302,7 @@ typedef struct ovoid_world_cast {
 /** A ray that meets the bodies of its groups. */
 typedef struct ovoid_world_ray {
     ovoid_ray ray;
-    uint32_t group, mask; /**< as of a body; both zero: all */
+    ovoid_groups groups; /**< as of a body */
 } ovoid_world_ray;
 
 /**
@@ -287,9 +312,15 @@ typedef struct ovoid_world_ray {
  */
 OVOID_API ovoid_code ovoid_world_cast_ray(const ovoid_world *world, const ovoid_world_ray *ray, ovoid_world_cast *cast,
                                           ovoid_error *error);
-/** The first hit of a body on its way along `displacement`, without turning; t from 0 to 1. */
-OVOID_API ovoid_code ovoid_world_cast_body(const ovoid_world *world, const ovoid_world_body *probe,
-                                           ovoid_vec3 displacement, ovoid_world_cast *cast, ovoid_error *error);
+/** A body that is not in the world, moved along `displacement` without turning. */
+typedef struct ovoid_world_sweep {
+    ovoid_world_body probe;
+    ovoid_vec3 displacement;
+} ovoid_world_sweep;
+
+/** The first hit of a body on its way; t from 0 to 1. */
+OVOID_API ovoid_code ovoid_world_cast_body(const ovoid_world *world, const ovoid_world_sweep *sweep,
+                                           ovoid_world_cast *cast, ovoid_error *error);
 
 #ifdef __cplusplus
 }

@@ -136,7 +136,8 @@ static PyObject *run_audit(PyObject *self, job *j, const ovoid_decomposition *d,
     ovoid_decomposition_proof proof;
     ovoid_error error;
     begin(j, progress);
-    ovoid_code code = ovoid_decomposition_compute_proof(d, &j->options, &proof, excess, &error);
+    j->options.excesses = excess;
+    ovoid_code code = ovoid_decomposition_compute_proof(d, &j->options, &proof, &error);
     PyObject *made = NULL;
     if (!interrupt_end(&j->signals))
         made = code == OVOID_OK ? make_audit(state, &proof, d->part_count, excess) : raise_error(state, &error);

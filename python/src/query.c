@@ -158,11 +158,12 @@ static void query_prepared(const query_input *in, answer_object *to) {
     if (in->has_earlier) proof = in->earlier.proof;
     ovoid_evidence evidence = {.proof = in->has_earlier ? &proof : NULL, .answer = &to->of.deciding};
     if (in->name == QUERY_COLLIDE)
-        ovoid_prepared_collide(in->prepared_a, in->prepared_b, &in->options, &evidence);
+        ovoid_prepared_collide((ovoid_prepared_pair){in->prepared_a, in->prepared_b}, &in->options, &evidence);
     else if (in->name == QUERY_WITHIN)
-        ovoid_prepared_within(in->prepared_a, in->prepared_b, in->margin, &in->options, &evidence);
+        ovoid_prepared_within((ovoid_prepared_pair){in->prepared_a, in->prepared_b}, in->margin, &in->options,
+                              &evidence);
     else
-        ovoid_prepared_distance(in->prepared_a, in->prepared_b, &in->options, &evidence);
+        ovoid_prepared_distance((ovoid_prepared_pair){in->prepared_a, in->prepared_b}, &in->options, &evidence);
 }
 
 static int query_shapes(const query_input *in, answer_object *to) {

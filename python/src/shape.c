@@ -150,17 +150,16 @@ static PyObject *divided(PyObject *self, PyObject *arguments, PyObject *keywords
     PyObject *direction;
     ovoid_plane plane;
     ovoid_shape_options options = {0};
-    ovoid_shape *parts[2];
     ovoid_error error;
     module_state *state = state_of(self);
     if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "Od|$d:divided", names, &direction, &plane.offset,
                                      &options.radius) ||
         vec3_read(state, direction, "normal", &plane.normal))
         return NULL;
-    if (ovoid_shape_create_divided(get(self), &plane, &options, parts, &error) != OVOID_OK)
-        return raise_error(state, &error);
-    PyObject *below = parts[0] ? shape_wrap(state, parts[0], &error) : Py_NewRef(Py_None);
-    PyObject *above = parts[1] ? shape_wrap(state, parts[1], &error) : Py_NewRef(Py_None);
+    ovoid_shape_halves halves = ovoid_shape_create_divided(get(self), &plane, &options, &error);
+    if (halves.code != OVOID_OK) return raise_error(state, &error);
+    PyObject *below = halves.below ? shape_wrap(state, halves.below, &error) : Py_NewRef(Py_None);
+    PyObject *above = halves.above ? shape_wrap(state, halves.above, &error) : Py_NewRef(Py_None);
     if (below && above) return Py_BuildValue("NN", below, above);
     Py_XDECREF(below);
     Py_XDECREF(above);

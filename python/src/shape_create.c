@@ -247,17 +247,17 @@ ROUND(sphere, "d|", &s.radius, ovoid_shape_create_sphere(s.radius, &options, &er
 ROUND(capsule, "dd|", LISTED(&s.radius, &s.half_length),
       ovoid_shape_create_capsule(s.radius, s.half_length, &options, &error), "radius", "half_length")
 ROUND(cylinder, "dd|d", LISTED(&s.radius, &s.half_length, &s.tolerance),
-      ovoid_shape_create_cylinder(s.radius, s.half_length, s.tolerance, &options, &error), "radius", "half_length",
-      "tolerance")
+      (options.tolerance = s.tolerance, ovoid_shape_create_cylinder(s.radius, s.half_length, &options, &error)),
+      "radius", "half_length", "tolerance")
 ROUND(cone, "dd|d", LISTED(&s.radius, &s.half_length, &s.tolerance),
-      ovoid_shape_create_cone(s.radius, s.half_length, s.tolerance, &options, &error), "radius", "half_length",
-      "tolerance")
+      (options.tolerance = s.tolerance, ovoid_shape_create_cone(s.radius, s.half_length, &options, &error)), "radius",
+      "half_length", "tolerance")
 ROUND(prism, "ddl|", LISTED(&s.radius, &s.half_length, &s.sides),
-      ovoid_shape_create_prism(s.radius, s.half_length, (uint32_t)s.sides, &options, &error), "radius", "half_length",
-      "sides")
+      ovoid_shape_create_prism(&(ovoid_prism){s.radius, s.half_length, (uint32_t)s.sides}, &options, &error), "radius",
+      "half_length", "sides")
 ROUND(pyramid, "ddl|", LISTED(&s.radius, &s.half_length, &s.sides),
-      ovoid_shape_create_pyramid(s.radius, s.half_length, (uint32_t)s.sides, &options, &error), "radius", "half_length",
-      "sides")
+      ovoid_shape_create_pyramid(&(ovoid_prism){s.radius, s.half_length, (uint32_t)s.sides}, &options, &error),
+      "radius", "half_length", "sides")
 
 // ---- from bytes and files
 

@@ -62,8 +62,8 @@ static PyObject *make_from_arrays(PyObject *type, PyObject *vertices, PyObject *
     }
     ovoid_solid *solid;
     Py_BEGIN_ALLOW_THREADS;
-    solid =
-        ovoid_solid_create_from_triangles(points.data, (size_t)points.shape[0], triangles, (size_t)count, NULL, &error);
+    solid = ovoid_solid_create_from_triangles(
+        &(ovoid_triangles){points.data, (size_t)points.shape[0], triangles, (size_t)count}, NULL, &error);
     Py_END_ALLOW_THREADS;
     free(points.data);
     free(triangles);
@@ -179,7 +179,8 @@ static ovoid_shape *create_match(const ovoid_triangles *t, ovoid_error *error) {
     ovoid_hull_match match;
     ovoid_shape *made = NULL, *hull = ovoid_shape_create_from_points(t->xyz, t->point_count, NULL, error);
     if (hull && !ovoid_triangles_compute_hull_match(t, hull, &match, error) && match.is_closed && match.is_hull)
-        made = ovoid_shape_create_allowed(hull, (ovoid_allowance){.inside = match.allowance}, NULL, error);
+        made = ovoid_shape_create_allowed(
+            hull, &(ovoid_shape_options){.allowance = (ovoid_allowance){.inside = match.allowance}}, error);
     ovoid_shape_destroy(hull);
     return made;
 }

@@ -91,10 +91,10 @@ static int fill(ovoid_compound *c, const ovoid_posed_shape *parts, const ovoid_a
     return ok;
 }
 
-static ovoid_compound *create(const ovoid_posed_shape *parts, size_t count, const ovoid_allocator *allocator,
+static ovoid_compound *create(const ovoid_posed_shape *parts, size_t count, const ovoid_compound_options *options,
                               ovoid_error *error) {
     if (validate_parts(parts, count, error) != OVOID_OK) return NULL;
-    ovoid_allocator memory = allocator_make(allocator);
+    ovoid_allocator memory = allocator_make(options ? options->allocator : NULL);
     ovoid_compound *c = create_block(count, &memory);
     if (c && fill(c, parts, &memory)) return c;
     allocator_release(&memory, c);
@@ -102,9 +102,9 @@ static ovoid_compound *create(const ovoid_posed_shape *parts, size_t count, cons
     return NULL;
 }
 
-ovoid_compound *ovoid_compound_create(const ovoid_posed_shape *parts, size_t count, const ovoid_allocator *allocator,
-                                      ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_compound *, parts, create(parts, count, allocator, error));
+ovoid_compound *ovoid_compound_create(const ovoid_posed_shape *parts, size_t count,
+                                      const ovoid_compound_options *options, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_compound *, parts, create(parts, count, options, error));
 }
 
 void ovoid_compound_destroy(ovoid_compound *compound) {

@@ -159,12 +159,13 @@ ovoid_code piece_divide(const body *b, const piece *p, const ovoid_plane *plane,
     for (int i = 0; i < 2; i++) sides[i].triangles = two[i];
     ovoid_code code = is_room ? OVOID_OK : report_memory(error);
     if (code == OVOID_OK && two[0].count && two[1].count) {
-        ovoid_shape *frames[2] = {NULL, NULL};
         ovoid_plane in_unit = {plane->normal, plane->offset * b->unit};
-        code = ovoid_shape_create_divided(p->frame, &in_unit, &(ovoid_shape_options){.allocator = &b->memory}, frames,
-                                          error);
-        for (int i = 0; i < 2; i++) sides[i].frame = frames[i];
-        *is_cut = code == OVOID_OK && frames[0] && frames[1];
+        const ovoid_shape_options options = {.allocator = &b->memory};
+        ovoid_shape_halves frames = ovoid_shape_create_divided(p->frame, &in_unit, &options, error);
+        sides[0].frame = frames.below;
+        sides[1].frame = frames.above;
+        *is_cut = frames.below && frames.above;
+        code = frames.code;
     }
     for (int i = 0; i < 2 && *is_cut && code == OVOID_OK; i++) code = finish(b, &sides[i], error);
     if (code == OVOID_OK && *is_cut) return OVOID_OK;

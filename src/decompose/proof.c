@@ -26,8 +26,9 @@ static cell_search make_search(body *b, const ovoid_decomposition_options *o, ce
                          .options = o};
 }
 
-static ovoid_code prove(body *b, const ovoid_decomposition_options *o, ovoid_decomposition_proof *proof, double *excess,
+static ovoid_code prove(body *b, const ovoid_decomposition_options *o, ovoid_decomposition_proof *proof,
                         ovoid_error *error) {
+    double *excess = o->excesses;
     size_t room = o->cells, first = 6 * (size_t)b->part_count;
     if (room < first + CELL_PIECES) room = first + CELL_PIECES;
     cell *heap = allocator_allocate(&b->memory, room, sizeof *heap);
@@ -46,20 +47,20 @@ static ovoid_code prove(body *b, const ovoid_decomposition_options *o, ovoid_dec
 }
 
 static ovoid_code compute_proof(const ovoid_decomposition *d, const ovoid_decomposition_options *given,
-                                ovoid_decomposition_proof *proof, double *excess, ovoid_error *error) {
+                                ovoid_decomposition_proof *proof, ovoid_error *error) {
     ovoid_decomposition_options options;
     body b;
     if (!proof) return error_set(error, OVOID_ERROR_ARGUMENT, -1, "no place for the proof (NULL)");
     ovoid_code code = body_validate_options(given, &options, error);
     if (code == OVOID_OK) code = body_open_parts(&b, d, &options, error);
     if (code != OVOID_OK) return code;
-    code = prove(&b, &options, proof, excess, error);
+    code = prove(&b, &options, proof, error);
     body_close(&b);
     return code;
 }
 
 ovoid_code ovoid_decomposition_compute_proof(const ovoid_decomposition *decomposition,
                                              const ovoid_decomposition_options *options,
-                                             ovoid_decomposition_proof *proof, double *excess, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, decomposition, compute_proof(decomposition, options, proof, excess, error));
+                                             ovoid_decomposition_proof *proof, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, decomposition, compute_proof(decomposition, options, proof, error));
 }

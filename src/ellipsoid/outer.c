@@ -140,8 +140,8 @@ ovoid_code ellipsoid_refit_outer(const ovoid_polytope *polytope, const fit_optio
     return OVOID_OK;
 }
 
-ovoid_code ovoid_ellipsoid_compute_outer(const ovoid_polytope *polytope, double gap, ovoid_fit *fit,
-                                         const ovoid_allocator *allocator) {
-    fit_options options = {gap, NULL, allocator};
-    ENVIRONMENT_RETURN(ovoid_code, options, ellipsoid_refit_outer(polytope, &options, fit));
+ovoid_code ovoid_ellipsoid_compute_outer(const ovoid_polytope *polytope, const ovoid_ellipsoid_options *options,
+                                         ovoid_fit *fit, ovoid_error *error) {
+    fit_options o = {options ? options->gap : 0, NULL, options ? options->allocator : NULL};
+    ENVIRONMENT_RETURN(ovoid_code, o, fit_explain(ellipsoid_refit_outer(polytope, &o, fit), error));
 }

@@ -107,15 +107,17 @@ static ovoid_code create_facets(ovoid_areas *a) {
 }
 
 /// OVOID_OK, or an error where areas cannot be made of the input.
-static ovoid_code validate_input(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid, ovoid_split split,
-                                 uint32_t k, ovoid_error *error) {
+static ovoid_code validate_input(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid,
+                                 const ovoid_areas_options *options, ovoid_error *error) {
+    uint32_t k = options->k;
     if (!polytope || !ellipsoid)
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "areas need a polytope and an ellipsoid; one is NULL");
     if (polytope->rank < 3)
         return error_set(error, OVOID_ERROR_ARGUMENT, -1,
                          "areas need a solid; the polytope has rank %u: a flat body has no inside to look out from",
                          (unsigned)polytope->rank);
-    if (split == OVOID_SPLIT_CUBE ? k < 1 || k > 64 || (k & (k - 1)) != 0 : split != OVOID_SPLIT_OCTANTS)
+    if (options->split == OVOID_SPLIT_CUBE ? k < 1 || k > 64 || (k & (k - 1)) != 0
+                                           : options->split != OVOID_SPLIT_OCTANTS)
         return error_set(error, OVOID_ERROR_ARGUMENT, -1,
                          "the areas' k is %u: a cube's edge has 1, 2, 4, 8, 16, 32 or 64 cells", (unsigned)k);
     return OVOID_OK;
@@ -138,17 +140,18 @@ static ovoid_code fill_areas(ovoid_areas *a, const ovoid_ellipsoid *ellipsoid, o
     return code == OVOID_OK ? code : error_set(error, code, -1, "no memory for the tables of the areas");
 }
 
-static ovoid_areas *create_areas(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid, ovoid_split split,
-                                 uint32_t k, const ovoid_allocator *allocator, ovoid_error *error) {
-    if (validate_input(polytope, ellipsoid, split, k, error) != OVOID_OK) return NULL;
-    ovoid_allocator use = allocator_make(allocator);
+static ovoid_areas *create_areas(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid,
+                                 const ovoid_areas_options *options, ovoid_error *error) {
+    const ovoid_areas_options o = options ? *options : (ovoid_areas_options){0};
+    if (validate_input(polytope, ellipsoid, &o, error) != OVOID_OK) return NULL;
+    ovoid_allocator use = allocator_make(o.allocator);
     ovoid_areas *a = allocator_allocate(&use, 1, sizeof *a);
     if (!a) {
         error_write(error, OVOID_ERROR_MEMORY, -1, "no memory for the areas");
         return NULL;
     }
     *a = (ovoid_areas){.polytope = *polytope, .center = ellipsoid->center, .allocator = use};
-    a->k = split == OVOID_SPLIT_CUBE ? k : 0;
+    a->k = o.split == OVOID_SPLIT_CUBE ? o.k : 0;
     if (fill_areas(a, ellipsoid, error) != OVOID_OK) {
         ovoid_areas_destroy(a);
         return NULL;
@@ -156,9 +159,9 @@ static ovoid_areas *create_areas(const ovoid_polytope *polytope, const ovoid_ell
     return a;
 }
 
-ovoid_areas *ovoid_areas_create(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid, ovoid_split split,
-                                uint32_t k, const ovoid_allocator *allocator, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_areas *, polytope, create_areas(polytope, ellipsoid, split, k, allocator, error));
+ovoid_areas *ovoid_areas_create(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid,
+                                const ovoid_areas_options *options, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_areas *, polytope, create_areas(polytope, ellipsoid, options, error));
 }
 
 static void destroy(ovoid_areas *areas) {

@@ -35,22 +35,18 @@ void ovoid_prepared_shape_make(const ovoid_posed_shape *body, ovoid_prepared_sha
 
 // ---- queries
 
-typedef struct prepared_pair {
-    const ovoid_prepared_shape *a, *b;
-} prepared_pair;
-
 static void write_evidence(const ovoid_evidence *to, const ovoid_answer *answer) {
     if (to->proof) *to->proof = answer->proof;
     if (to->witness) *to->witness = (ovoid_witness){answer->point_a, answer->point_b, answer->normal};
     if (to->answer) *to->answer = *answer;
 }
 
-static ovoid_pair get_pair(prepared_pair pair) {
+static ovoid_pair get_pair(ovoid_prepared_pair pair) {
     return (ovoid_pair){pair.a->body.shape, pair.b->body.shape, pair.a->body.pose, pair.b->body.pose};
 }
 
 // The query of the pair as if its bodies were not prepared.
-COMPILER_NOINLINE static ovoid_verdict find_afresh(prepared_pair both, const ovoid_options *given,
+COMPILER_NOINLINE static ovoid_verdict find_afresh(ovoid_prepared_pair both, const ovoid_options *given,
                                                    const query_goal *goal, const ovoid_proof *earlier,
                                                    const ovoid_evidence *out) {
     ovoid_pair pair = get_pair(both);
@@ -60,7 +56,7 @@ COMPILER_NOINLINE static ovoid_verdict find_afresh(prepared_pair both, const ovo
     return answer_get_verdict(&answer);
 }
 
-COMPILER_NOINLINE static ovoid_verdict search_on(prepared_pair both, pair_frame *frame, double sphere_gap,
+COMPILER_NOINLINE static ovoid_verdict search_on(ovoid_prepared_pair both, pair_frame *frame, double sphere_gap,
                                                  const query_goal *goal, const ovoid_proof *earlier,
                                                  const ovoid_evidence *out) {
     ovoid_pair pair = get_pair(both);
@@ -71,7 +67,7 @@ COMPILER_NOINLINE static ovoid_verdict search_on(prepared_pair both, pair_frame 
 }
 
 // A rejection by the spheres; rejection_make_answer, without evidence.
-static inline ovoid_verdict end_at_spheres(prepared_pair pair, const pair_frame *f, const rejection *found,
+static inline ovoid_verdict end_at_spheres(ovoid_prepared_pair pair, const pair_frame *f, const rejection *found,
                                            const query_goal *goal) {
     vec3 d = vec3_add(f->offset, vec3_sub(pair.b->first, pair.a->first));
     double upper = vec3_norm(d) - f->upper_radii + reject_get_claim(f);
@@ -97,7 +93,7 @@ static ovoid_verdict end_at_small(const pair_frame *f, const small_end *end, con
 }
 
 // The query of bodies that the spheres do not separate, or one whose evidence is wanted.
-COMPILER_NOINLINE static ovoid_verdict find_near(prepared_pair pair, const ovoid_options *given,
+COMPILER_NOINLINE static ovoid_verdict find_near(ovoid_prepared_pair pair, const ovoid_options *given,
                                                  const query_goal *wanted, const ovoid_evidence *out) {
     const ovoid_proof *earlier = out ? out->proof : NULL;
     ovoid_options options;
@@ -119,8 +115,8 @@ COMPILER_NOINLINE static ovoid_verdict find_near(prepared_pair pair, const ovoid
 }
 
 // What it computes for the spheres stays in registers: no function but inline ones sees the frame.
-COMPILER_NOINLINE static ovoid_verdict find(prepared_pair pair, const ovoid_options *given, const query_goal *wanted,
-                                            const ovoid_evidence *out) {
+COMPILER_NOINLINE static ovoid_verdict find(ovoid_prepared_pair pair, const ovoid_options *given,
+                                            const query_goal *wanted, const ovoid_evidence *out) {
     ovoid_options options;
     query_goal goal = *wanted;
     pair_frame frame;
@@ -133,31 +129,30 @@ COMPILER_NOINLINE static ovoid_verdict find(prepared_pair pair, const ovoid_opti
     return end_at_spheres(pair, &frame, &found, &goal);
 }
 
-static ovoid_verdict run(prepared_pair pair, const ovoid_options *given, const query_goal *goal,
+static ovoid_verdict run(ovoid_prepared_pair pair, const ovoid_options *given, const query_goal *goal,
                          const ovoid_evidence *out) {
     ENVIRONMENT_RETURN_CALL(find(pair, given, goal, out));
 }
 
-ovoid_verdict ovoid_prepared_collide(const ovoid_prepared_shape *a, const ovoid_prepared_shape *b,
-                                     const ovoid_options *options, const ovoid_evidence *out) {
+ovoid_verdict ovoid_prepared_collide(ovoid_prepared_pair pair, const ovoid_options *options,
+                                     const ovoid_evidence *out) {
     const query_goal goal = query_goal_make_collide();
-    return run((prepared_pair){a, b}, options, &goal, out);
+    return run(pair, options, &goal, out);
 }
 
-ovoid_verdict ovoid_prepared_within(const ovoid_prepared_shape *a, const ovoid_prepared_shape *b, double margin,
-                                    const ovoid_options *options, const ovoid_evidence *out) {
+ovoid_verdict ovoid_prepared_within(ovoid_prepared_pair pair, double margin, const ovoid_options *options,
+                                    const ovoid_evidence *out) {
     const query_goal goal = query_goal_make_within(margin);
-    return run((prepared_pair){a, b}, options, &goal, out);
+    return run(pair, options, &goal, out);
 }
 
-ovoid_verdict ovoid_prepared_distance(const ovoid_prepared_shape *a, const ovoid_prepared_shape *b,
-                                      const ovoid_options *options, const ovoid_evidence *out) {
+ovoid_verdict ovoid_prepared_distance(ovoid_prepared_pair pair, const ovoid_options *options,
+                                      const ovoid_evidence *out) {
     const query_goal goal = query_goal_make_distance(options);
-    return run((prepared_pair){a, b}, options, &goal, out);
+    return run(pair, options, &goal, out);
 }
 
-ovoid_verdict ovoid_prepared_depth(const ovoid_prepared_shape *a, const ovoid_prepared_shape *b,
-                                   const ovoid_options *options, const ovoid_evidence *out) {
+ovoid_verdict ovoid_prepared_depth(ovoid_prepared_pair pair, const ovoid_options *options, const ovoid_evidence *out) {
     const query_goal goal = query_goal_make_depth(options);
-    return run((prepared_pair){a, b}, options, &goal, out);
+    return run(pair, options, &goal, out);
 }

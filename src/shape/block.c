@@ -126,8 +126,8 @@ static ovoid_shape *copy(const ovoid_shape *shape, const ovoid_allocator *alloca
     return to;
 }
 
-ovoid_shape *ovoid_shape_create_copy(const ovoid_shape *shape, const ovoid_allocator *allocator, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_shape *, shape, copy(shape, allocator, error));
+ovoid_shape *ovoid_shape_create_copy(const ovoid_shape *shape, const ovoid_shape_options *options, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_shape *, shape, copy(shape, options ? options->allocator : NULL, error));
 }
 
 void ovoid_shape_destroy(ovoid_shape *shape) {

@@ -24,17 +24,18 @@ ovoid_shape *ovoid_shape_create_deformed(const ovoid_shape *shape, const double 
 // ---- another allowance
 
 static ovoid_shape *create_allowed(const ovoid_shape *shape, const ovoid_shape_options *options, ovoid_error *error) {
+    const ovoid_shape_options given = {.allowance = options ? options->allowance : (ovoid_allowance){0},
+                                       .allocator = options ? options->allocator : NULL};
     ovoid_shape_options o;
-    if (shape_options_make(options, &o, error) != OVOID_OK) return NULL;
-    ovoid_shape *to = ovoid_shape_create_copy(shape, o.allocator, error);
+    if (shape_options_make(&given, &o, error) != OVOID_OK) return NULL;
+    ovoid_shape *to = ovoid_shape_create_copy(shape, &o, error);
     if (to) block_set_radius(to, to->radius, o.allowance);
     return to;
 }
 
-ovoid_shape *ovoid_shape_create_allowed(const ovoid_shape *shape, ovoid_allowance allowance,
-                                        const ovoid_allocator *allocator, ovoid_error *error) {
-    const ovoid_shape_options options = {.allowance = allowance, .allocator = allocator};
-    ENVIRONMENT_RETURN(ovoid_shape *, shape, create_allowed(shape, &options, error));
+ovoid_shape *ovoid_shape_create_allowed(const ovoid_shape *shape, const ovoid_shape_options *options,
+                                        ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_shape *, shape, create_allowed(shape, options, error));
 }
 
 // ---- division
@@ -113,33 +114,37 @@ static ovoid_code create_part(division *d, int side, ovoid_shape **part) {
     return *part ? OVOID_OK : why.code;
 }
 
-static ovoid_code divide(division *d, const ovoid_plane *plane, ovoid_shape *parts[2]) {
+static ovoid_shape_halves divide(division *d, const ovoid_plane *plane) {
     // Heights in units of the normal's largest entry; nothing overflows, lengths are below 1e50.
     vec3 n = vec3_scale(plane->normal, 1 / vec3_max_abs(plane->normal));
     double offset = plane->offset / vec3_max_abs(plane->normal);
     for (uint32_t i = 0; i < d->shape->vertex_count; i++)
         d->height[i] = vec3_dot(n, get_user_vertex(d->shape, i)) - offset;
     find_cuts(d);
-    ovoid_code code = create_part(d, -1, &parts[0]);
-    if (!code) code = create_part(d, 1, &parts[1]);
-    if (!code) return OVOID_OK;
-    ovoid_shape_destroy(parts[0]);
-    parts[0] = parts[1] = NULL;
-    return code;
+    ovoid_shape_halves halves = {0};
+    halves.code = create_part(d, -1, &halves.below);
+    if (!halves.code) halves.code = create_part(d, 1, &halves.above);
+    if (!halves.code) return halves;
+    ovoid_shape_destroy(halves.below);
+    return (ovoid_shape_halves){.code = halves.code};
 }
 
-static ovoid_code create_divided(const ovoid_shape *shape, const ovoid_plane *plane, const ovoid_shape_options *options,
-                                 ovoid_shape *parts[2], ovoid_error *error) {
-    parts[0] = parts[1] = NULL;
+static ovoid_code validate_division(const ovoid_shape *shape, const ovoid_plane *plane, ovoid_error *error) {
     if (!shape) return error_set(error, OVOID_ERROR_ARGUMENT, -1, "no shape to divide");
     if (!vec3_is_finite(plane->normal) || !isfinite(plane->offset))
         return error_set(error, OVOID_ERROR_NOT_FINITE, -1, "the plane is not finite");
     double size = vec3_max_abs(plane->normal);
     if (!(size > 1e-150 && size < 1e150))
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "the plane's normal is zero or of no sensible length");
+    return OVOID_OK;
+}
+
+static ovoid_shape_halves create_divided(const ovoid_shape *shape, const ovoid_plane *plane,
+                                         const ovoid_shape_options *options, ovoid_error *error) {
     ovoid_shape_options o;
-    ovoid_code code = shape_options_make(options, &o, error);
-    if (code) return code;
+    ovoid_shape_halves halves = {.code = validate_division(shape, plane, error)};
+    if (!halves.code) halves.code = shape_options_make(options, &o, error);
+    if (halves.code) return halves;
     // Every triangle has at most two edges that the plane cuts.
     size_t vertices = shape->vertex_count, edges = 2 * (size_t)shape->counts.triangles + shape->counts.neighbors;
     ovoid_allocator memory = allocator_make(o.allocator);
@@ -150,16 +155,16 @@ static ovoid_code create_divided(const ovoid_shape *shape, const ovoid_plane *pl
         d.cuts = doubles + vertices;
         d.points = d.cuts + 3 * edges;
         d.order = (uint32_t *)(crossings + edges + 1);
-        code = divide(&d, plane, parts);
+        halves = divide(&d, plane);
     } else
-        code = error_set(error, OVOID_ERROR_MEMORY, -1, "no memory to divide a shape of %zu vertices", vertices);
+        halves.code = error_set(error, OVOID_ERROR_MEMORY, -1, "no memory to divide a shape of %zu vertices", vertices);
     allocator_release(&memory, crossings);
     allocator_release(&memory, doubles);
-    return code;
+    return halves;
 }
 
-ovoid_code ovoid_shape_create_divided(const ovoid_shape *shape, const ovoid_plane *plane,
-                                      const ovoid_shape_options *options, ovoid_shape *parts[2], ovoid_error *error) {
-    OVOID_ASSERT(plane && parts);
-    ENVIRONMENT_RETURN(ovoid_code, plane, create_divided(shape, plane, options, parts, error));
+ovoid_shape_halves ovoid_shape_create_divided(const ovoid_shape *shape, const ovoid_plane *plane,
+                                              const ovoid_shape_options *options, ovoid_error *error) {
+    OVOID_ASSERT(plane);
+    ENVIRONMENT_RETURN(ovoid_shape_halves, plane, create_divided(shape, plane, options, error));
 }

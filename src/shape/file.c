@@ -391,6 +391,6 @@ static ovoid_shape *read_bytes(const void *bytes, size_t size, const ovoid_alloc
     return shape;
 }
 
-ovoid_shape *ovoid_shape_read(const void *bytes, size_t size, const ovoid_allocator *given, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_shape *, bytes, read_bytes(bytes, size, given, error));
+ovoid_shape *ovoid_shape_read(const void *bytes, size_t size, const ovoid_shape_options *options, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_shape *, bytes, read_bytes(bytes, size, options ? options->allocator : NULL, error));
 }

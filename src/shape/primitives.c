@@ -145,11 +145,11 @@ static uint32_t find_sides(double most) {
 
 static int is_along_z(ovoid_vec3 axis) { return !(fabs(axis.x) > 0) && !(fabs(axis.y) > 0) && fabs(axis.z) > 0; }
 
-static ovoid_shape *create_round(const turned *t, double tolerance, const ovoid_shape_options *options,
-                                 ovoid_error *error) {
+static ovoid_shape *create_round(const turned *t, const ovoid_shape_options *options, ovoid_error *error) {
     turned by = *t;
     ovoid_shape_options o = {0};
     if (options) o = *options;
+    double tolerance = o.tolerance;
     if (!is_length(by.radius, "radius", error)) return NULL;
     if (!(tolerance >= 0)) {
         error_write(error, OVOID_ERROR_ARGUMENT, -1, "the tolerance %g is not a length >= 0", tolerance);
@@ -173,26 +173,26 @@ static ovoid_shape *create_round(const turned *t, double tolerance, const ovoid_
     return shape;
 }
 
-ovoid_shape *ovoid_shape_create_cylinder(double radius, double half_length, double tolerance,
-                                         const ovoid_shape_options *options, ovoid_error *error) {
+ovoid_shape *ovoid_shape_create_cylinder(double radius, double half_length, const ovoid_shape_options *options,
+                                         ovoid_error *error) {
     turned prism = {radius, half_length, 0, 2};
-    ENVIRONMENT_RETURN(ovoid_shape *, prism, create_round(&prism, tolerance, options, error));
+    ENVIRONMENT_RETURN(ovoid_shape *, prism, create_round(&prism, options, error));
 }
 
-ovoid_shape *ovoid_shape_create_cone(double radius, double half_length, double tolerance,
-                                     const ovoid_shape_options *options, ovoid_error *error) {
+ovoid_shape *ovoid_shape_create_cone(double radius, double half_length, const ovoid_shape_options *options,
+                                     ovoid_error *error) {
     turned pyramid = {radius, half_length, 0, 1};
-    ENVIRONMENT_RETURN(ovoid_shape *, pyramid, create_round(&pyramid, tolerance, options, error));
+    ENVIRONMENT_RETURN(ovoid_shape *, pyramid, create_round(&pyramid, options, error));
 }
 
-ovoid_shape *ovoid_shape_create_prism(double radius, double half_length, uint32_t sides,
-                                      const ovoid_shape_options *options, ovoid_error *error) {
-    turned prism = {radius, half_length, sides, 2};
-    ENVIRONMENT_RETURN(ovoid_shape *, prism, create_turned(&prism, options, error));
+ovoid_shape *ovoid_shape_create_prism(const ovoid_prism *prism, const ovoid_shape_options *options,
+                                      ovoid_error *error) {
+    turned by = {prism->radius, prism->half_length, prism->sides, 2};
+    ENVIRONMENT_RETURN(ovoid_shape *, by, create_turned(&by, options, error));
 }
 
-ovoid_shape *ovoid_shape_create_pyramid(double radius, double half_length, uint32_t sides,
-                                        const ovoid_shape_options *options, ovoid_error *error) {
-    turned pyramid = {radius, half_length, sides, 1};
-    ENVIRONMENT_RETURN(ovoid_shape *, pyramid, create_turned(&pyramid, options, error));
+ovoid_shape *ovoid_shape_create_pyramid(const ovoid_prism *prism, const ovoid_shape_options *options,
+                                        ovoid_error *error) {
+    turned by = {prism->radius, prism->half_length, prism->sides, 1};
+    ENVIRONMENT_RETURN(ovoid_shape *, by, create_turned(&by, options, error));
 }

@@ -91,9 +91,9 @@ static ovoid_solid *assemble(ovoid_solid *made, const solid_merger *m, const uin
     return s;
 }
 
-static ovoid_solid *create(const ovoid_triangles *given, const ovoid_allocator *allocator, ovoid_error *error) {
+static ovoid_solid *create(const ovoid_triangles *given, const ovoid_solid_options *options, ovoid_error *error) {
     if (solid_validate_triangles(given, error) != OVOID_OK) return NULL;
-    ovoid_solid made = {.allocator = allocator_make(allocator)}, *s = NULL;
+    ovoid_solid made = {.allocator = allocator_make(options ? options->allocator : NULL)}, *s = NULL;
     solid_merger m;
     if (merger_make(&m, given, &made.allocator)) {
         set_header(&made, &m, (uint32_t)given->count);
@@ -110,10 +110,10 @@ static ovoid_solid *create(const ovoid_triangles *given, const ovoid_allocator *
     return s;
 }
 
-ovoid_solid *ovoid_solid_create_from_triangles(const double *xyz, size_t point_count, const uint32_t *indices,
-                                               size_t count, const ovoid_allocator *allocator, ovoid_error *error) {
-    const ovoid_triangles given = {xyz, point_count, indices, count};
-    ENVIRONMENT_RETURN(ovoid_solid *, xyz, create(&given, allocator, error));
+ovoid_solid *ovoid_solid_create_from_triangles(const ovoid_triangles *triangles, const ovoid_solid_options *options,
+                                               ovoid_error *error) {
+    OVOID_ASSERT(triangles);
+    ENVIRONMENT_RETURN(ovoid_solid *, triangles, create(triangles, options, error));
 }
 
 void ovoid_solid_destroy(ovoid_solid *solid) {

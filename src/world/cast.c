@@ -17,7 +17,7 @@
 
 typedef struct casting {
     const ovoid_world *w;
-    uint32_t group, mask;
+    ovoid_groups groups;
     vec3 origin, direction, grow; ///< of the centre of what moves; half the size of its box
     double length;
     const ovoid_ray *ray; ///< of a ray; NULL where a body is cast
@@ -64,7 +64,7 @@ static void take_hit(casting *c, uint32_t body, const part_hit *hit) {
 
 static int is_met(const casting *c, uint32_t i) {
     const world_body *b = &c->w->bodies[i];
-    return (c->group & b->mask) && (b->group & c->mask);
+    return groups_are_paired(&c->groups, &b->groups);
 }
 
 static void visit_ray(void *context, uint32_t i) {
@@ -120,10 +120,8 @@ static void visit_body(void *context, uint32_t i) {
     }
 }
 
-static void run(casting *c, uint32_t group, uint32_t mask, tree_visit *visit) {
-    int all = !group && !mask;
-    c->group = all ? ~0u : group;
-    c->mask = all ? ~0u : mask;
+static void run(casting *c, ovoid_groups groups, tree_visit *visit) {
+    c->groups = groups_make(groups);
     c->bound = c->length;
     *c->out = (ovoid_world_cast){.lower = c->length, .upper = INFINITY};
     tree_traversal traversal = {&c->w->tree, measure_entry, visit, c, &c->bound};
@@ -147,7 +145,7 @@ static ovoid_code cast_ray(const ovoid_world *w, const ovoid_world_ray *given, o
                  .length = r->length,
                  .ray = r,
                  .out = out};
-    run(&c, given->group, given->mask, visit_ray);
+    run(&c, given->groups, visit_ray);
     return OVOID_OK;
 }
 
@@ -156,9 +154,11 @@ ovoid_code ovoid_world_cast_ray(const ovoid_world *w, const ovoid_world_ray *ray
     ENVIRONMENT_RETURN(ovoid_code, w, cast_ray(w, ray, cast, error));
 }
 
-static ovoid_code cast_body(const ovoid_world *w, const ovoid_world_body *probe, vec3 way, ovoid_world_cast *out,
+static ovoid_code cast_body(const ovoid_world *w, const ovoid_world_sweep *sweep, ovoid_world_cast *out,
                             ovoid_error *error) {
-    OVOID_ASSERT(w && probe);
+    OVOID_ASSERT(w && sweep && out);
+    const ovoid_world_body *probe = &sweep->probe;
+    vec3 way = sweep->displacement;
     ovoid_code code = world_validate_body(&probe->body, -1, error);
     if (code != OVOID_OK) return code;
     if (!is_length(way))
@@ -170,11 +170,11 @@ static ovoid_code cast_body(const ovoid_world *w, const ovoid_world_body *probe,
     c.grow = vec3_scale(vec3_sub(bounds.max, bounds.min), 0.5 * (1 + WIDER));
     double slack = 4 * WIDER * vec3_max_abs(middle);
     c.grow = vec3_add(c.grow, (vec3){slack, slack, slack});
-    run(&c, probe->group, probe->mask, visit_body);
+    run(&c, probe->groups, visit_body);
     return OVOID_OK;
 }
 
-ovoid_code ovoid_world_cast_body(const ovoid_world *w, const ovoid_world_body *probe, ovoid_vec3 displacement,
-                                 ovoid_world_cast *cast, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, displacement, cast_body(w, probe, displacement, cast, error));
+ovoid_code ovoid_world_cast_body(const ovoid_world *w, const ovoid_world_sweep *sweep, ovoid_world_cast *cast,
+                                 ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, w, cast_body(w, sweep, cast, error));
 }

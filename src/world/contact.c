@@ -20,9 +20,9 @@ static const world_pair *find_pair(const ovoid_world *w, uint64_t key) {
     return NULL;
 }
 
-static ovoid_code compute_proof(const ovoid_world *w, const ovoid_contact *contact, ovoid_exclusions *exclusions,
-                                ovoid_body_answer *out, ovoid_error *error) {
-    OVOID_ASSERT(w && contact && out);
+static ovoid_code compute_proof(const ovoid_world *w, const ovoid_contact *contact, ovoid_contact_proof *proof,
+                                ovoid_error *error) {
+    OVOID_ASSERT(w && contact && proof);
     uint32_t a = world_find_body(w, contact->a), b = world_find_body(w, contact->b);
     if (a == NONE) return world_refuse_id(error, 0, contact->a);
     if (b == NONE) return world_refuse_id(error, 1, contact->b);
@@ -32,11 +32,11 @@ static ovoid_code compute_proof(const ovoid_world *w, const ovoid_contact *conta
     const world_pair *p = find_pair(w, key_make(a, b));
     const pair_cache *warm = p && p->flags & PAIR_KNOWN ? &w->pair_cache[p->slot] : NULL;
     ovoid_body_pair both = {w->bodies[a].body, w->bodies[b].body};
-    pair_query(w, &both, warm, exclusions, out);
+    pair_query(w, &both, warm, proof->exclusions, &proof->answer);
     return OVOID_OK;
 }
 
-ovoid_code ovoid_world_compute_proof(const ovoid_world *w, const ovoid_contact *contact, ovoid_exclusions *exclusions,
-                                     ovoid_body_answer *out, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, w, compute_proof(w, contact, exclusions, out, error));
+ovoid_code ovoid_world_compute_proof(const ovoid_world *w, const ovoid_contact *contact, ovoid_contact_proof *proof,
+                                     ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, w, compute_proof(w, contact, proof, error));
 }

@@ -5,12 +5,10 @@
 
 #include <string.h>
 
-ovoid_code ovoid_world_set_groups(ovoid_world *w, ovoid_id id, uint32_t group, uint32_t mask, ovoid_error *error) {
+ovoid_code ovoid_world_set_groups(ovoid_world *w, ovoid_id id, ovoid_groups groups, ovoid_error *error) {
     uint32_t i = world_find_body(w, id);
     if (i == NONE) return world_refuse_id(error, -1, id);
-    int all = !group && !mask;
-    w->bodies[i].group = all ? ~0u : group;
-    w->bodies[i].mask = all ? ~0u : mask;
+    w->bodies[i].groups = groups_make(groups);
     body_mark_fresh(w, i);
     return OVOID_OK;
 }
@@ -37,24 +35,45 @@ static int reserve_ignored(ovoid_world *w) {
     return 1;
 }
 
-static ovoid_code set_ignored(ovoid_world *w, ovoid_id a, ovoid_id b, int is_ignored, ovoid_error *error) {
+static ovoid_code validate_pair(const ovoid_world *w, ovoid_id a, ovoid_id b, ovoid_error *error) {
     uint32_t i = world_find_body(w, a), j = world_find_body(w, b);
     if (i == NONE) return world_refuse_id(error, 0, a);
     if (j == NONE) return world_refuse_id(error, 1, b);
     if (i == j) return error_set(error, OVOID_ERROR_ARGUMENT, -1, "a body and itself are no pair");
-    if (is_ignored && !reserve_ignored(w))
-        return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory to ignore a pair");
-    uint64_t key = key_make(i, j);
-    if (!(is_ignored ? ignored_add(&w->ignored, key) : ignored_remove(&w->ignored, key))) return OVOID_OK;
-    uint32_t change = is_ignored ? 1 : ~0u;
-    w->bodies[i].next += change;
-    w->bodies[j].next += change;
-    body_mark_fresh(w, i < j ? i : j);
     return OVOID_OK;
 }
 
-ovoid_code ovoid_world_set_ignored(ovoid_world *w, ovoid_id a, ovoid_id b, int is_ignored, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, a, set_ignored(w, a, b, is_ignored, error));
+// Both bodies of a pair are in `change` more ignored pairs.
+static void count_ignored(ovoid_world *w, uint64_t key, uint32_t change) {
+    uint32_t i = key_get_a(key), j = key_get_b(key);
+    w->bodies[i].next += change;
+    w->bodies[j].next += change;
+    body_mark_fresh(w, i < j ? i : j);
+}
+
+static ovoid_code add_ignored(ovoid_world *w, ovoid_id a, ovoid_id b, ovoid_error *error) {
+    ovoid_code code = validate_pair(w, a, b, error);
+    if (code != OVOID_OK) return code;
+    if (!reserve_ignored(w)) return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory to ignore a pair");
+    uint64_t key = key_make((uint32_t)(a >> 32), (uint32_t)(b >> 32));
+    if (ignored_add(&w->ignored, key)) count_ignored(w, key, 1);
+    return OVOID_OK;
+}
+
+static ovoid_code remove_ignored(ovoid_world *w, ovoid_id a, ovoid_id b, ovoid_error *error) {
+    ovoid_code code = validate_pair(w, a, b, error);
+    if (code != OVOID_OK) return code;
+    uint64_t key = key_make((uint32_t)(a >> 32), (uint32_t)(b >> 32));
+    if (ignored_remove(&w->ignored, key)) count_ignored(w, key, ~0u);
+    return OVOID_OK;
+}
+
+ovoid_code ovoid_world_add_ignored(ovoid_world *w, ovoid_id a, ovoid_id b, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, a, add_ignored(w, a, b, error));
+}
+
+ovoid_code ovoid_world_remove_ignored(ovoid_world *w, ovoid_id a, ovoid_id b, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, a, remove_ignored(w, a, b, error));
 }
 
 static int is_pair(const ovoid_world *w, ovoid_id a, ovoid_id b) {

@@ -29,7 +29,7 @@ typedef struct state_search {
     ovoid_options options;
     query_goal goal;
     placed_probe *probe; ///< the one that traverses the tree
-    uint32_t group, mask;
+    ovoid_groups groups;
     ovoid_body_answer found;
     uint32_t body; ///< the one that was found, or NONE
 } state_search;
@@ -71,7 +71,7 @@ static int find_touch(void *context, const tree_node *leaf) {
     state_search *state = context;
     const world_body *b = &state->w->bodies[leaf->body];
     placed_probe *p = state->probe;
-    if (!(state->group & b->mask) || !(b->group & state->mask)) return 1;
+    if (!groups_are_paired(&state->groups, &b->groups)) return 1;
     if (are_apart(p->at.at, state->w->places[leaf->body].at, p->at.reach + (b->reach + b->radius + b->center_error)))
         return 1;
     tighten(p);
@@ -84,9 +84,7 @@ static int find_touch(void *context, const tree_node *leaf) {
 
 // 1 if the probe touches a body of the world.
 static int meets_world(state_search *state, placed_probe *p, const ovoid_world_body *given) {
-    int all = !given->group && !given->mask;
-    state->group = all ? ~0u : given->group;
-    state->mask = all ? ~0u : given->mask;
+    state->groups = groups_make(given->groups);
     state->probe = p;
     return !dynamic_tree_find_overlaps(&state->w->tree, &p->at.bounds, find_touch, state);
 }
@@ -166,10 +164,4 @@ static ovoid_code find_any_of(const ovoid_world *w, const ovoid_world_probes *al
 ovoid_code ovoid_world_find_any_of(const ovoid_world *w, const ovoid_world_probes *probes, ovoid_world_hit *hit,
                                    ovoid_error *error) {
     ENVIRONMENT_RETURN(ovoid_code, probes, find_any_of(w, probes, hit, error));
-}
-
-ovoid_code ovoid_world_find_any_to(const ovoid_world *w, const ovoid_world_body *probes, size_t count,
-                                   ovoid_world_hit *hit, ovoid_error *error) {
-    ovoid_world_probes all = {.items = probes, .count = count};
-    ENVIRONMENT_RETURN(ovoid_code, count, find_any_of(w, &all, hit, error));
 }

@@ -219,8 +219,10 @@ static int are_different(ovoid_world *w, const ovoid_id *ids, size_t count) {
     return k == count;
 }
 
-static ovoid_code move_many(ovoid_world *w, const ovoid_id *ids, const ovoid_pose *poses, size_t count,
-                            ovoid_error *error) {
+static ovoid_code move_many(ovoid_world *w, const ovoid_world_moves *all, ovoid_error *error) {
+    const ovoid_id *ids = all->ids;
+    const ovoid_pose *poses = all->poses;
+    size_t count = all->count;
     OVOID_ASSERT(w && ((ids && poses) || !count));
     for (size_t k = 0; k < count; k++) {
         ovoid_code code = validate_move(w, ids[k], &poses[k], (int64_t)k, error);
@@ -237,13 +239,13 @@ static ovoid_code move_many(ovoid_world *w, const ovoid_id *ids, const ovoid_pos
     return OVOID_OK;
 }
 
-ovoid_code ovoid_world_move_many(ovoid_world *w, const ovoid_id *ids, const ovoid_pose *poses, size_t count,
-                                 ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, count, move_many(w, ids, poses, count, error));
+ovoid_code ovoid_world_move_many(ovoid_world *w, const ovoid_world_moves *given, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, w, move_many(w, given, error));
 }
 
 ovoid_code ovoid_world_move(ovoid_world *w, ovoid_id id, const ovoid_pose *pose, ovoid_error *error) {
-    return ovoid_world_move_many(w, &id, pose, 1, error);
+    const ovoid_world_moves one = {&id, pose, 1};
+    return ovoid_world_move_many(w, &one, error);
 }
 
 // ---- the tree over the boxes

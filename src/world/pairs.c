@@ -15,10 +15,8 @@ enum { LEAST = 64 };
 
 // ---- filters
 
-static int is_in_groups(const world_body *a, const world_body *b) { return a->group & b->mask && b->group & a->mask; }
-
 int world_is_pair(const ovoid_world *w, uint32_t a, uint32_t b) {
-    if (!is_in_groups(&w->bodies[a], &w->bodies[b])) return 0;
+    if (!groups_are_paired(&w->bodies[a].groups, &w->bodies[b].groups)) return 0;
     if (w->ignored.count && ignored_is_in(&w->ignored, key_make(a, b))) return 0;
     if (!w->filter) return 1;
     uint32_t low = a < b ? a : b, high = a < b ? b : a;

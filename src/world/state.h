@@ -37,10 +37,19 @@ typedef struct world_body {
     float way[3], turn;    ///< displacement and turn of the last move: only a forecast
     box seen;              ///< MARK_BOX: the box from which the list of pairs was made; empty where MARK_FRESH
     uint64_t user;
-    uint32_t group, mask;
+    ovoid_groups groups;
     uint32_t next;  ///< of a free index: the next one; else the number of the body's ignored pairs
     uint32_t boxes; ///< how many were made since it was added
 } world_body;
+
+/// The groups of a body or a probe, both zero made into all of both.
+static inline ovoid_groups groups_make(ovoid_groups given) {
+    return given.group || given.mask ? given : (ovoid_groups){~0u, ~0u};
+}
+
+static inline int groups_are_paired(const ovoid_groups *a, const ovoid_groups *b) {
+    return (a->group & b->mask) && (b->group & a->mask);
+}
 
 /// The part of a pair's state that every step reads. Whether a cached answer still holds is one comparison:
 ///   PLANE:  c + v.d - t > 0        v the normal, farther than the margin

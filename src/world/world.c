@@ -143,7 +143,6 @@ static uint32_t take_index(ovoid_world *w) {
 static uint32_t add_record(ovoid_world *w, const ovoid_world_body *given) {
     uint32_t i = take_index(w);
     world_body *b = &w->bodies[i];
-    int all = !given->group && !given->mask;
     body_sphere ball = body_compute_sphere(&given->body);
     *b = (world_body){.body = given->body,
                       .local = ball.local,
@@ -151,8 +150,7 @@ static uint32_t add_record(ovoid_world *w, const ovoid_world_body *given) {
                       .radius = ball.radius,
                       .size = ball.size,
                       .user = given->user,
-                      .group = all ? ~0u : given->group,
-                      .mask = all ? ~0u : given->mask,
+                      .groups = groups_make(given->groups),
                       .seen = box_make_empty()};
     w->places[i] = (body_place){body_compute_center(&ball, &b->body.pose, &b->center_error), 0};
     if (world_get_extent(&given->body) > OVOID_LENGTH_MAX / 2) w->has_vast = 1;
@@ -167,7 +165,8 @@ static ovoid_code validate_room(const ovoid_world *w, size_t count, ovoid_error 
 }
 
 // Adds many leaves at once: builds one new tree over all.
-static int add_by_building(ovoid_world *w, const ovoid_world_body *bodies, uint32_t count, ovoid_id *ids) {
+static int add_by_building(ovoid_world *w, const ovoid_world_additions *all) {
+    uint32_t count = (uint32_t)all->count;
     size_t total = (size_t)w->count + count;
     tree_item *items = world_allocate(w, total, sizeof *items);
     if (!items) return 0;
@@ -175,9 +174,9 @@ static int add_by_building(ovoid_world *w, const ovoid_world_body *bodies, uint3
     for (uint32_t i = 0; i < w->used; i++)
         if (w->leaf_of[i] != NONE) items[at++] = (tree_item){w->tree.nodes[w->leaf_of[i]].bounds, i};
     for (uint32_t k = 0; k < count; k++) {
-        uint32_t i = add_record(w, &bodies[k]);
+        uint32_t i = add_record(w, &all->bodies[k]);
         items[at++] = (tree_item){world_compute_box(w, i), i};
-        if (ids) ids[k] = body_get_id(w, i);
+        if (all->ids) all->ids[k] = body_get_id(w, i);
     }
     dynamic_tree_build(&w->tree, items, (uint32_t)total, w->leaf_of);
     world_release(w, items, total, sizeof *items);
@@ -185,34 +184,33 @@ static int add_by_building(ovoid_world *w, const ovoid_world_body *bodies, uint3
     return 1;
 }
 
-static ovoid_code add_many(ovoid_world *w, const ovoid_world_body *bodies, size_t count, ovoid_id *ids,
-                           ovoid_error *error) {
-    OVOID_ASSERT(w && (bodies || !count));
+static ovoid_code add_many(ovoid_world *w, const ovoid_world_additions *all, ovoid_error *error) {
+    OVOID_ASSERT(w && all && (all->bodies || !all->count));
+    size_t count = all->count;
     ovoid_code code = validate_room(w, count, error);
     for (size_t k = 0; k < count && code == OVOID_OK; k++)
-        code = world_validate_body(&bodies[k].body, (int64_t)k, error);
+        code = world_validate_body(&all->bodies[k].body, (int64_t)k, error);
     if (code != OVOID_OK) return code;
     // Indices in use: at most the bodies at one time, and those freed.
     if (!reserve_bodies(w, w->used + (uint32_t)count)) return refuse_memory(error, count);
-    if (count > 64 && count > w->count / 4)
-        return add_by_building(w, bodies, (uint32_t)count, ids) ? OVOID_OK : refuse_memory(error, count);
+    if (count > 64 && count > w->count / 4) return add_by_building(w, all) ? OVOID_OK : refuse_memory(error, count);
     for (size_t k = 0; k < count; k++) {
-        uint32_t i = add_record(w, &bodies[k]);
+        uint32_t i = add_record(w, &all->bodies[k]);
         box bounds = world_compute_box(w, i);
         dynamic_tree_add(&w->tree, i, &bounds, w->leaf_of);
-        if (ids) ids[k] = body_get_id(w, i);
+        if (all->ids) all->ids[k] = body_get_id(w, i);
     }
     return OVOID_OK;
 }
 
-ovoid_code ovoid_world_add_many(ovoid_world *w, const ovoid_world_body *bodies, size_t count, ovoid_id *ids,
-                                ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, count, add_many(w, bodies, count, ids, error));
+ovoid_code ovoid_world_add_many(ovoid_world *w, const ovoid_world_additions *additions, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, w, add_many(w, additions, error));
 }
 
 ovoid_id ovoid_world_add(ovoid_world *w, const ovoid_world_body *given, ovoid_error *error) {
     ovoid_id id = 0;
-    return ovoid_world_add_many(w, given, 1, &id, error) == OVOID_OK ? id : 0;
+    const ovoid_world_additions one = {given, 1, &id};
+    return ovoid_world_add_many(w, &one, error) == OVOID_OK ? id : 0;
 }
 
 // ---- removing
@@ -277,7 +275,7 @@ ovoid_code ovoid_world_get(const ovoid_world *w, ovoid_id id, ovoid_world_body *
     uint32_t i = world_find_body(w, id);
     if (i == NONE) return world_refuse_id(error, -1, id);
     const world_body *b = &w->bodies[i];
-    *out = (ovoid_world_body){b->body, b->group, b->mask, b->user};
+    *out = (ovoid_world_body){b->body, b->groups, b->user};
     return OVOID_OK;
 }
 

@@ -17,7 +17,7 @@ typedef struct world_search {
     ovoid_body body;
     uint32_t self, after; ///< the querying body, or NONE for a probe; only bodies with higher indices than `after`
                           ///< count, NONE: all
-    uint32_t group, mask;
+    ovoid_groups groups;
     box bounds;
     ovoid_options options;
     query_goal goal;
@@ -46,11 +46,9 @@ static void take_body(world_search *state, uint32_t i) {
 static ovoid_code take_probe(world_search *state, const ovoid_world_body *probe, ovoid_error *error) {
     ovoid_code code = world_validate_body(&probe->body, -1, error);
     if (code != OVOID_OK) return code;
-    int all = !probe->group && !probe->mask;
     state->self = NONE;
     state->body = probe->body;
-    state->group = all ? ~0u : probe->group;
-    state->mask = all ? ~0u : probe->mask;
+    state->groups = groups_make(probe->groups);
     set_box(state);
     return OVOID_OK;
 }
@@ -67,7 +65,7 @@ static void world_search_make(world_search *state, const ovoid_world *w) {
 
 static int is_queried(const world_search *state, uint32_t j) {
     const world_body *b = &state->w->bodies[j];
-    if (state->self == NONE) return (state->group & b->mask) && (b->group & state->mask);
+    if (state->self == NONE) return groups_are_paired(&state->groups, &b->groups);
     return j != state->self && (state->after == NONE || j > state->after) && world_is_pair(state->w, state->self, j);
 }
 
@@ -139,63 +137,56 @@ static void write_hit(const world_search *state, ovoid_world_hit *hit) {
                              min2(state->lower, state->found.lower), state->found};
 }
 
-static ovoid_code find_nearest_of(world_search *state, ovoid_world_hit *hit) {
-    state->bound = state->options.cap;
-    state->goal = query_goal_make_distance(NULL);
-    run(state, visit_nearest);
-    write_hit(state, hit);
+// The options and the querying body of a query.
+static ovoid_code take_query(world_search *state, const ovoid_world_query *query, ovoid_error *error) {
+    ovoid_code code = options_validate(query->options, &state->options, error);
+    if (code != OVOID_OK) return code;
+    if (query->id == 0 && !query->probe)
+        return error_set(error, OVOID_ERROR_ARGUMENT, -1, "a query names a body of the world or has a probe");
+    if (query->id == 0) return take_probe(state, query->probe, error);
+    uint32_t i = world_find_body(state->w, query->id);
+    if (i == NONE) return world_refuse_id(error, -1, query->id);
+    take_body(state, i);
     return OVOID_OK;
 }
 
-static ovoid_code find_nearest(const ovoid_world *w, ovoid_id id, const ovoid_options *options, ovoid_world_hit *hit,
+static ovoid_code find_nearest(const ovoid_world *w, const ovoid_world_query *query, ovoid_world_hit *hit,
                                ovoid_error *error) {
-    OVOID_ASSERT(w && hit);
+    OVOID_ASSERT(w && query && hit);
     world_search state;
     world_search_make(&state, w);
-    ovoid_code code = options_validate(options, &state.options, error);
-    uint32_t i = world_find_body(w, id);
-    if (code == OVOID_OK && i == NONE) code = world_refuse_id(error, -1, id);
+    ovoid_code code = take_query(&state, query, error);
     if (code != OVOID_OK) return code;
-    take_body(&state, i);
-    return find_nearest_of(&state, hit);
+    state.bound = state.options.cap;
+    state.goal = query_goal_make_distance(NULL);
+    run(&state, visit_nearest);
+    write_hit(&state, hit);
+    return OVOID_OK;
 }
 
-ovoid_code ovoid_world_find_nearest(const ovoid_world *w, ovoid_id id, const ovoid_options *options,
-                                    ovoid_world_hit *hit, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, id, find_nearest(w, id, options, hit, error));
-}
-
-static ovoid_code find_nearest_to(const ovoid_world *w, const ovoid_world_body *probe, const ovoid_options *options,
-                                  ovoid_world_hit *hit, ovoid_error *error) {
-    OVOID_ASSERT(w && probe && hit);
-    world_search state;
-    world_search_make(&state, w);
-    ovoid_code code = options_validate(options, &state.options, error);
-    if (code == OVOID_OK) code = take_probe(&state, probe, error);
-    return code == OVOID_OK ? find_nearest_of(&state, hit) : code;
-}
-
-ovoid_code ovoid_world_find_nearest_to(const ovoid_world *w, const ovoid_world_body *probe,
-                                       const ovoid_options *options, ovoid_world_hit *hit, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, w, find_nearest_to(w, probe, options, hit, error));
+ovoid_code ovoid_world_find_nearest(const ovoid_world *w, const ovoid_world_query *query, ovoid_world_hit *hit,
+                                    ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, w, find_nearest(w, query, hit, error));
 }
 
 // For each of the named bodies, or for all, each against those with higher indices.
-static ovoid_code find_any(const ovoid_world *w, const ovoid_id *ids, size_t count, const ovoid_options *options,
-                           ovoid_world_hit *hit, ovoid_error *error) {
-    OVOID_ASSERT(w && hit);
+static ovoid_code find_any(const ovoid_world *w, const ovoid_world_ids *named, ovoid_world_hit *hit,
+                           ovoid_error *error) {
+    OVOID_ASSERT(w && hit && (!named || named->items || !named->count));
+    const ovoid_id *ids = named ? named->items : NULL;
+    size_t count = named ? named->count : w->used;
     world_search state;
     world_search_make(&state, w);
-    ovoid_code code = options_validate(options, &state.options, error);
+    ovoid_code code = options_validate(NULL, &state.options, error);
     for (size_t k = 0; ids && k < count && code == OVOID_OK; k++)
         if (world_find_body(w, ids[k]) == NONE) code = world_refuse_id(error, (int64_t)k, ids[k]);
     if (code != OVOID_OK) return code;
     state.goal = query_goal_make_collide();
-    for (size_t k = 0; k < (ids ? count : w->used) && state.found_b == NONE; k++) {
+    for (size_t k = 0; k < count && state.found_b == NONE; k++) {
         uint32_t i = ids ? (uint32_t)(ids[k] >> 32) : (uint32_t)k;
         if (w->leaf_of[i] == NONE) continue;
         take_body(&state, i);
-        if (!ids) state.after = i;
+        if (!named) state.after = i;
         (void)dynamic_tree_find_overlaps(&w->tree, &state.bounds, find_touch, &state);
     }
     state.bound = 0;
@@ -203,9 +194,9 @@ static ovoid_code find_any(const ovoid_world *w, const ovoid_id *ids, size_t cou
     return OVOID_OK;
 }
 
-ovoid_code ovoid_world_find_any(const ovoid_world *w, const ovoid_id *ids, size_t count, const ovoid_options *options,
-                                ovoid_world_hit *hit, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, count, find_any(w, ids, count, options, hit, error));
+ovoid_code ovoid_world_find_any(const ovoid_world *w, const ovoid_world_ids *ids, ovoid_world_hit *hit,
+                                ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, w, find_any(w, ids, hit, error));
 }
 
 // ---- overlaps, sorted in place by heap sort (J. W. J. Williams, 1964)
@@ -231,15 +222,15 @@ static void sort_hits(ovoid_world_hit *hits, size_t count) {
     }
 }
 
-static ovoid_code find_overlaps(const ovoid_world *w, const ovoid_world_body *probe, double margin,
-                                ovoid_world_hits *hits, ovoid_error *error) {
-    OVOID_ASSERT(w && probe && hits);
+static ovoid_code find_overlaps(const ovoid_world *w, const ovoid_world_query *query, ovoid_world_hits *hits,
+                                ovoid_error *error) {
+    OVOID_ASSERT(w && query && hits);
+    double margin = query->margin;
     world_search state;
     world_search_make(&state, w);
     if (!(margin >= 0 && margin <= OVOID_LENGTH_MAX))
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "margin %.17g: it must be finite and not negative", margin);
-    ovoid_code code = options_validate(hits->options, &state.options, error);
-    if (code == OVOID_OK) code = take_probe(&state, probe, error);
+    ovoid_code code = take_query(&state, query, error);
     if (code != OVOID_OK) return code;
     state.hits = hits->items;
     state.capacity = hits->items ? hits->capacity : 0;
@@ -251,9 +242,9 @@ static ovoid_code find_overlaps(const ovoid_world *w, const ovoid_world_body *pr
     return OVOID_OK;
 }
 
-ovoid_code ovoid_world_find_overlaps(const ovoid_world *w, const ovoid_world_body *probe, double margin,
-                                     ovoid_world_hits *hits, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, margin, find_overlaps(w, probe, margin, hits, error));
+ovoid_code ovoid_world_find_overlaps(const ovoid_world *w, const ovoid_world_query *query, ovoid_world_hits *hits,
+                                     ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, w, find_overlaps(w, query, hits, error));
 }
 
 // ---- the nearest two of all

@@ -45,7 +45,8 @@ static inline void mesh_clear(mesh *m) {
 }
 static inline ovoid_solid *mesh_make_solid(const mesh *m) {
     ovoid_error error = {.message = ""};
-    ovoid_solid *s = ovoid_solid_create_from_triangles(m->xyz, m->points, m->indices, m->triangles, NULL, &error);
+    ovoid_solid *s = ovoid_solid_create_from_triangles(&(ovoid_triangles){m->xyz, m->points, m->indices, m->triangles},
+                                                       NULL, &error);
     if (!s) printf("  %s\n", error.message);
     return s;
 }

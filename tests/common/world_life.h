@@ -20,8 +20,8 @@ static inline ovoid_world_body life_make_body(life *l) {
     if (random_next(&l->s) % 8 == 0) b.body = (ovoid_body){.compound = l->compound};
     b.body.pose = (ovoid_pose){random_place(&l->s, l->side), random_quat(&l->s)};
     if (random_next(&l->s) % 4 == 0) {
-        b.group = 1u << random_next(&l->s) % 3;
-        b.mask = (uint32_t)random_next(&l->s) % 7 + 1;
+        b.groups.group = 1u << random_next(&l->s) % 3;
+        b.groups.mask = (uint32_t)random_next(&l->s) % 7 + 1;
     }
     b.user = random_next(&l->s);
     return b;
@@ -56,7 +56,9 @@ static inline void life_step(life *l) {
     }
     if (l->count > 2 && random_next(&l->s) % 4 == 0) {
         ovoid_id a = l->ids[random_next(&l->s) % l->count], b = l->ids[random_next(&l->s) % l->count];
-        if (a != b) CHECK(ovoid_world_set_ignored(l->world, a, b, random_next(&l->s) % 2, NULL) == OVOID_OK);
+        if (a != b)
+            CHECK((random_next(&l->s) % 2 ? ovoid_world_add_ignored(l->world, a, b, NULL)
+                                          : ovoid_world_remove_ignored(l->world, a, b, NULL)) == OVOID_OK);
     }
 }
 

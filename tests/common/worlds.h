@@ -89,9 +89,10 @@ static inline void world_check_contact(const ovoid_world *w, const ovoid_contact
     // The reported bounds show the status.
     CHECK(c->verdict.status != OVOID_SEPARATED || c->verdict.lower > 0);
     CHECK(c->verdict.status != OVOID_OVERLAPPING || c->verdict.upper < 0);
-    ovoid_body_answer proven;
+    ovoid_contact_proof proof = {.exclusions = &exclusions};
     ovoid_error error = {0};
-    CHECK(ovoid_world_compute_proof(w, c, &exclusions, &proven, &error) == OVOID_OK);
+    CHECK(ovoid_world_compute_proof(w, c, &proof, &error) == OVOID_OK);
+    ovoid_body_answer proven = proof.answer;
     if (!CHECK(ovoid_body_verify(&pair, &proven, q->options, &exclusions, &error) == OVOID_OK))
         printf("  %s\n", error.message);
     CHECK_EQ(proven.status, alone.status);

@@ -181,8 +181,9 @@ void check_shapes() {
     CHECK(is_same_shape(shape::sphere(2), adopt(ovoid_shape_create_sphere(2, nullptr, &e)).get()));
     CHECK(is_same_shape(shape::capsule(0.5, 2), adopt(ovoid_shape_create_capsule(0.5, 2, nullptr, &e)).get()));
     CHECK_EQ(shape::capsule(0.5, 2).radius(), 0.5);
-    CHECK(is_same_shape(shape::prism(1, 2, 7), adopt(ovoid_shape_create_prism(1, 2, 7, nullptr, &e)).get()));
-    CHECK(is_same_shape(shape::pyramid(1, 2, 5, o), adopt(ovoid_shape_create_pyramid(1, 2, 5, &c, &e)).get()));
+    const ovoid_prism seven = {1, 2, 7}, five = {1, 2, 5};
+    CHECK(is_same_shape(shape::prism(1, 2, 7), adopt(ovoid_shape_create_prism(&seven, nullptr, &e)).get()));
+    CHECK(is_same_shape(shape::pyramid(1, 2, 5, o), adopt(ovoid_shape_create_pyramid(&five, &c, &e)).get()));
 
     const std::vector<vec3> points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     const std::uint32_t indices[12] = {0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3}, sizes[4] = {3, 3, 3, 3};

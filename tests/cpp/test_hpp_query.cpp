@@ -235,8 +235,9 @@ void check_ellipsoids() {
     const bodies b;
     const ovoid_polytope p = b.hull.polytope();
     ovoid_fit outer, inner;
-    CHECK_EQ(ovoid_ellipsoid_compute_outer(&p, 1e-4, &outer, nullptr), OVOID_OK);
-    CHECK_EQ(ovoid_ellipsoid_compute_inner(&p, 1e-4, &inner, nullptr), OVOID_OK);
+    const ovoid_ellipsoid_options loose = {1e-4, nullptr};
+    CHECK_EQ(ovoid_ellipsoid_compute_outer(&p, &loose, &outer, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_ellipsoid_compute_inner(&p, &loose, &inner, NULL), OVOID_OK);
     const ovoid_ellipsoid &e = outer.ellipsoid, &f = inner.ellipsoid;
     CHECK(is_same(ovoid::compute_outer(p, 1e-4).ellipsoid, e) && is_same(ovoid::compute_inner(p, 1e-4).ellipsoid, f));
     const ovoid_fit shrunk = ovoid::compute_shrunk(p, e), stretched = ovoid::compute_stretched(p, shrunk.ellipsoid);

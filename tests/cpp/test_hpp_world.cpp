@@ -59,9 +59,9 @@ void check_contacts(worlds &w) {
             i++;
         }
         CHECK_EQ(i, truth.count);
-        ovoid_body_answer proof;
-        CHECK_EQ(ovoid_world_compute_proof(w.theirs, truth.items, nullptr, &proof, nullptr), OVOID_OK);
-        CHECK(is_same_answer(w.ours.compute_proof(found[0]).deciding, proof.deciding));
+        ovoid_contact_proof proof = {};
+        CHECK_EQ(ovoid_world_compute_proof(w.theirs, truth.items, &proof, nullptr), OVOID_OK);
+        CHECK(is_same_answer(w.ours.compute_proof(found[0]).deciding, proof.answer.deciding));
     }
 }
 
@@ -79,7 +79,8 @@ void check_bodies(worlds &w) {
     const std::vector<pose> poses = {vec3(0.1, 0, 0), vec3(0, 0.1, 0)};
     w.ours.move_many(two, poses);
     w.ours.move(w.ids[5], vec3(0, 0, 0.1));
-    ovoid_world_move_many(w.theirs, two.data(), poses.data(), 2, nullptr);
+    const ovoid_world_moves moves = {two.data(), poses.data(), 2};
+    ovoid_world_move_many(w.theirs, &moves, nullptr);
     const pose third = vec3(0, 0, 0.1);
     ovoid_world_move(w.theirs, w.ids[5], &third, nullptr);
     check_contacts(w);
@@ -107,23 +108,27 @@ void check_bodies(worlds &w) {
 void check_finds(worlds &w) {
     const ovoid_world *c = w.theirs;
     ovoid_world_hit hit;
-    ovoid_world_find_any(c, nullptr, 0, nullptr, &hit, nullptr);
+    ovoid_world_find_any(c, nullptr, &hit, nullptr);
     CHECK(is_same_hit(w.ours.find_any(), hit) && hit.b != 0);
     const std::vector<ovoid::id> some = {w.ids[9], w.ids[10]};
-    ovoid_world_find_any(c, some.data(), 2, nullptr, &hit, nullptr);
+    const ovoid_world_ids named = {some.data(), 2};
+    ovoid_world_find_any(c, &named, &hit, nullptr);
     CHECK(is_same_hit(w.ours.find_any(some), hit));
     CHECK_EQ(w.ours.find_any(std::vector<ovoid::id>()).b, 0);
     const std::vector<ovoid::world_body> probes = {{{w.ball, vec3(50, 0, 0)}}, {{w.ball, vec3(0, 0, 0)}}};
-    ovoid_world_find_any_to(c, probes.data(), 2, &hit, nullptr);
+    const ovoid_world_probes all = {probes.data(), 2, nullptr, 0};
+    ovoid_world_find_any_of(c, &all, &hit, nullptr);
     CHECK(is_same_hit(w.ours.find_any_to(probes), hit) && hit.a == 1 && hit.b != 0);
     const std::vector<ovoid::world_body> aside = {{{w.ball, vec3(50, 0, 0)}}, {{w.ball, vec3(50.5, 0, 0)}}};
     const std::vector<ovoid::couple> couples = {{0, 1}};
     const ovoid_world_probes state = {aside.data(), 2, couples.data(), 1};
     ovoid_world_find_any_of(c, &state, &hit, nullptr);
     CHECK(is_same_hit(w.ours.find_any_of(aside, couples), hit) && hit.a == 0 && hit.b == (OVOID_WORLD_PROBE | 1));
-    ovoid_world_find_nearest(c, w.ids[0], nullptr, &hit, nullptr);
+    ovoid_world_query query = {w.ids[0], nullptr, 0, nullptr};
+    ovoid_world_find_nearest(c, &query, &hit, nullptr);
     CHECK(is_same_hit(w.ours.find_nearest(w.ids[0]), hit));
-    ovoid_world_find_nearest_to(c, &probes[0], nullptr, &hit, nullptr);
+    query = {0, &probes[0], 0, nullptr};
+    ovoid_world_find_nearest(c, &query, &hit, nullptr);
     CHECK(is_same_hit(w.ours.find_nearest_to(probes[0]), hit) && hit.b != 0);
     ovoid::options near;
     near.cap = 1;
@@ -132,8 +137,9 @@ void check_finds(worlds &w) {
     CHECK(is_same_hit(w.ours.find_nearest_pair(), hit));
 
     std::vector<ovoid_world_hit> space(60);
-    ovoid_world_hits truth = {space.data(), 60, 0, nullptr}, mine = truth;
-    ovoid_world_find_overlaps(c, &probes[1], 0.5, &truth, nullptr);
+    ovoid_world_hits truth = {space.data(), 60, 0}, mine = truth;
+    query = {0, &probes[1], 0.5, nullptr};
+    ovoid_world_find_overlaps(c, &query, &truth, nullptr);
     const std::vector<ovoid::world_hit> overlaps = w.ours.find_overlaps(probes[1], 0.5);
     CHECK(overlaps.size() == truth.count && overlaps.size() > 2);
     for (std::size_t i = 0; i < overlaps.size(); i++) CHECK(is_same_hit(overlaps[i], space[i]));
@@ -149,7 +155,8 @@ void check_finds(worlds &w) {
     const ovoid::world_cast met = w.ours.cast_ray(ray);
     CHECK(met.body == cast.body && met.body != 0 && met.lower == cast.lower && is_same(met.point, cast.point));
     CHECK(met.lower > 15 && met.upper < 20);
-    ovoid_world_cast_body(c, &probes[0], {-100, 0, 0}, &cast, nullptr);
+    const ovoid_world_sweep sweep = {probes[0], {-100, 0, 0}};
+    ovoid_world_cast_body(c, &sweep, &cast, nullptr);
     const ovoid::world_cast moved = w.ours.cast_body(probes[0], {-100, 0, 0});
     CHECK(moved.body == cast.body && moved.body != 0 && moved.lower == cast.lower);
 }

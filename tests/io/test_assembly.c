@@ -46,7 +46,7 @@ static ovoid_world *make_world(const assembly *a, double cell) {
     static ovoid_world_body bodies[PARTS];
     ovoid_world *w = ovoid_world_create(NULL, NULL);
     for (size_t i = 0; i < PARTS; i++) bodies[i] = place(a, i, cell);
-    CHECK_EQ(ovoid_world_add_many(w, bodies, PARTS, NULL, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_world_add_many(w, &(ovoid_world_additions){bodies, PARTS, NULL}, NULL), OVOID_OK);
     return w;
 }
 

@@ -229,7 +229,7 @@ static void check_kinds(void) {
                              ovoid_shape_create_capsule(0.3, 1, NULL, NULL),
                              ovoid_shape_create_from_points(points, 4, &rounded, NULL),
                              ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, &rounded, NULL),
-                             ovoid_shape_create_pyramid(1, 1, 7, NULL, NULL)};
+                             ovoid_shape_create_pyramid(&(ovoid_prism){1, 1, 7}, NULL, NULL)};
     enum { COUNT = sizeof shapes / sizeof *shapes };
     static const char *const names[COUNT] = {"<&>\"'", "\xff\x01x", "\xc3\xa4", "",
                                              "a b",    "]]>",       NULL,       "long name of a body"};

@@ -160,14 +160,14 @@ static void check_judge(void) {
 // All steps of one body, judged.
 static void check_steps(made m) {
     ovoid_fit fit[5];
-    CHECK_EQ(ovoid_ellipsoid_compute_outer(&m.p, 0, &fit[0], NULL), OVOID_OK);
+    CHECK_EQ(ovoid_ellipsoid_compute_outer(&m.p, NULL, &fit[0], NULL), OVOID_OK);
     CHECK(is_enclosing(&m, &fit[0].ellipsoid));
     CHECK(ellipsoid_is_enclosing(&m.p, &fit[0].ellipsoid));
     if (m.p.rank == 3) {
         fit[1] = ovoid_ellipsoid_compute_shrunk(&m.p, &fit[0].ellipsoid);
         fit[2] = ovoid_ellipsoid_compute_stretched(&m.p, &fit[1].ellipsoid);
         fit[3] = ovoid_ellipsoid_compute_enlarged(&m.p, &fit[2].ellipsoid);
-        CHECK_EQ(ovoid_ellipsoid_compute_inner(&m.p, 0, &fit[4], NULL), OVOID_OK);
+        CHECK_EQ(ovoid_ellipsoid_compute_inner(&m.p, NULL, &fit[4], NULL), OVOID_OK);
         for (int i = 1; i < 5; i++) {
             CHECK(is_enclosed(&m, &fit[i].ellipsoid));
             CHECK(ellipsoid_is_enclosed(&m.p, &fit[i].ellipsoid));
@@ -233,8 +233,8 @@ static void check_yes(void) {
         made m = made_random(8, 1, &s);
         made_map(&m, mat3_mul(mat3_random_rotation(&s), mat3_diagonal(1, 0.3, 0.05)), vec3_make(0.1, 0.2, 0));
         ovoid_fit inner, outer;
-        (void)ovoid_ellipsoid_compute_inner(&m.p, 0, &inner, NULL);
-        (void)ovoid_ellipsoid_compute_outer(&m.p, 0, &outer, NULL);
+        (void)ovoid_ellipsoid_compute_inner(&m.p, NULL, &inner, NULL);
+        (void)ovoid_ellipsoid_compute_outer(&m.p, NULL, &outer, NULL);
         for (int k = -6; k <= 6; k++) {
             ovoid_ellipsoid in = inner.ellipsoid, out = outer.ellipsoid;
             in.q = sym3_scale(in.q, 1 + k * 0x1p-50), out.q = sym3_scale(out.q, 1 + k * 0x1p-50);

@@ -107,7 +107,7 @@ int main(void) {
     static const double offsets[] = {0, 1e-9, 1e-3, 0.1};
     exact = judge_create();
     uint64_t s = 17;
-    ovoid_shape *cylinder = ovoid_shape_create_cylinder(1, 5, 256, NULL, NULL);
+    ovoid_shape *cylinder = ovoid_shape_create_cylinder(1, 5, &(ovoid_shape_options){.tolerance = 256}, NULL);
     check_pair(cylinder, cylinder, ovoid_pose_make_identity());
     for (int i = 0; i < 3; i++)
         for (int k = 0; k < 4; k++) {

@@ -21,7 +21,7 @@ static void make_shapes(ovoid_shape *shapes[SHAPES], uint64_t *s) {
     shapes[1] = ovoid_shape_create_from_points(turned, 8, NULL, &error);
     shapes[2] = ovoid_shape_create_from_points(xyz, 32, NULL, &error);
     shapes[3] = ovoid_shape_create_from_points(xyz, 9, &(ovoid_shape_options){.radius = 0.03}, &error);
-    shapes[4] = ovoid_shape_create_cylinder(0.03, 0.2, 0, NULL, &error);
+    shapes[4] = ovoid_shape_create_cylinder(0.03, 0.2, NULL, &error);
     shapes[5] = ovoid_shape_create_capsule(0.05, 0.2, NULL, &error);
     shapes[6] = ovoid_shape_create_sphere(0.1, NULL, &error);
     shapes[7] = ovoid_shape_create_from_points(xyz, 32, &smaller, &error);
@@ -138,7 +138,8 @@ static void test_solid(const ovoid_shape *point) {
     for (int kind = 0; kind < 3; kind++) {
         uint32_t t[60];
         for (int i = 0; i < 60; i++) t[i] = kind == 1 ? faces[i / 3 * 3 + 2 - i % 3] : faces[i];
-        ovoid_solid *solid = ovoid_solid_create_from_triangles(xyz, 12, t, kind == 2 ? 18 : 20, NULL, &error);
+        ovoid_solid *solid =
+            ovoid_solid_create_from_triangles(&(ovoid_triangles){xyz, 12, t, kind == 2 ? 18 : 20}, NULL, &error);
         if (!CHECK(hull && solid)) return;
         shape_inside in;
         int count = 0;

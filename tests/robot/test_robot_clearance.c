@@ -16,7 +16,7 @@ static ovoid_robot_near find_nearest(ovoid_robot_checker *x, const double *q, co
     ovoid_robot_nears nears = {.items = &near, .capacity = 1};
     ovoid_robot_query_options all = *o;
     all.margin = INFINITY;
-    CHECK_EQ(ovoid_robot_find_nearest(x, q, &all, &nears, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_find_nearest(x, &(ovoid_robot_query){q, &all}, &nears, &error), OVOID_OK);
     return near;
 }
 

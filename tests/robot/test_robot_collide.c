@@ -20,7 +20,7 @@ static void make_shapes(void) {
     shapes[2] = ovoid_shape_create_capsule(0.05, 0.2, NULL, &error);
     shapes[3] = ovoid_shape_create_from_points(xyz, 20, NULL, &error);
     shapes[4] = ovoid_shape_create_from_points(xyz, 12, &(ovoid_shape_options){.radius = 0.03}, &error);
-    shapes[5] = ovoid_shape_create_cylinder(0.1, 0.2, 0, NULL, &error);
+    shapes[5] = ovoid_shape_create_cylinder(0.1, 0.2, NULL, &error);
     ovoid_posed_shape parts[2] = {{shapes[0], {{0.3, 0, 0}, {1, 0.5, 0, 0}}},
                                   {shapes[4], {{-0.2, 0.1, 0}, {1, 0, 0, 2}}}};
     compound = ovoid_compound_create(parts, 2, NULL, &error);
@@ -76,12 +76,13 @@ static void make_scene(uint64_t *s, scene *c) {
     }
     c->held = random_body(s, 0.2);
     c->held_link = random_below(s, links), c->held_touches = random_below(s, links);
-    c->held_id = ovoid_robot_cell_attach(c->cell, c->held_link, &c->held, &c->held_touches, 1, &error);
+    c->held_id =
+        ovoid_robot_cell_attach(c->cell, &(ovoid_robot_attachment){c->held_link, c->held, &c->held_touches, 1}, &error);
     CHECK(c->held_id != 0);
     c->allowed[0] = random_below(s, links), c->allowed[1] = (c->allowed[0] + 1 + random_below(s, links - 1)) % links;
-    CHECK_EQ(ovoid_robot_cell_set_allowed(c->cell, c->allowed[0], c->allowed[1], 1, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_cell_add_allowed(c->cell, c->allowed[0], c->allowed[1], &error), OVOID_OK);
     c->free_obstacle = random_below(s, OBSTACLES), c->free_link = random_below(s, links);
-    CHECK_EQ(ovoid_robot_cell_set_body_allowed(c->cell, c->ids[c->free_obstacle], c->free_link, 1, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_cell_add_body_allowed(c->cell, c->ids[c->free_obstacle], c->free_link, &error), OVOID_OK);
     for (uint32_t i = 0; i < links; i++) {
         c->padding[i] = random_below(s, 3) ? 0 : 0.02;
         CHECK_EQ(ovoid_robot_cell_set_padding(c->cell, i, c->padding[i], &error), OVOID_OK);
@@ -162,7 +163,7 @@ static size_t find_truth(const scene *c, const double *q, true_pair *pairs) {
     ovoid_pose poses[ROBOT_LINKS];
     true_item items[ITEMS + 2 * OBSTACLES];
     size_t moving = 0, count = 0;
-    CHECK_EQ(ovoid_robot_compute_poses(c->r, q, poses, NULL, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_compute_poses(c->r, q, poses, &error), OVOID_OK);
     for (uint32_t i = 0; i < c->a.d.element_count; i++) {
         const ovoid_robot_element *e = &c->a.elements[i];
         items[moving++] =
@@ -211,7 +212,7 @@ static void compare_check(const scene *c, ovoid_robot_checker *x, const double *
     for (int m = 0; m < 3; m++) {
         ovoid_robot_query_options options = {.margin = margins[m], .limit_slack = 0};
         ovoid_robot_answer is;
-        CHECK_EQ(ovoid_robot_collide(x, q, &options, &is, &error), OVOID_OK);
+        CHECK_EQ(ovoid_robot_collide(x, &(ovoid_robot_query){q, &options}, &is, &error), OVOID_OK);
         double least = INFINITY;
         for (size_t i = 0; i < count; i++) least = fmin(least, pairs[i].answer.lower);
         if (is.status == OVOID_ROBOT_FREE) {
@@ -241,7 +242,7 @@ static void compare_near(const scene *c, ovoid_robot_checker *x, const double *q
     ovoid_robot_query_options options = {.margin = 0.3};
     ovoid_robot_nears nears = {.items = items, .gradients = rows, .capacity = MOST};
     CHECK_LE(variables, 7 * ROBOT_LINKS);
-    CHECK_EQ(ovoid_robot_find_near(x, q, &options, &nears, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_find_near(x, &(ovoid_robot_query){q, &options}, &nears, &error), OVOID_OK);
     size_t expected = 0;
     double least = INFINITY;
     for (size_t i = 0; i < count; i++) {
@@ -266,7 +267,7 @@ static void compare_near(const scene *c, ovoid_robot_checker *x, const double *q
     ovoid_robot_near few[FEW];
     double own[FEW * 7 * ROBOT_LINKS];
     ovoid_robot_nears some = {.items = few, .gradients = own, .capacity = FEW};
-    CHECK_EQ(ovoid_robot_find_near(x, q, &options, &some, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_find_near(x, &(ovoid_robot_query){q, &options}, &some, &error), OVOID_OK);
     CHECK_EQ(some.count, expected);
     for (size_t i = 0; i < FEW && i < expected; i++) {
         CHECK_NEAR(few[i].lower, items[i].lower, 1e-8);
@@ -279,7 +280,7 @@ static void compare_near(const scene *c, ovoid_robot_checker *x, const double *q
     static ovoid_robot_near plain_items[MOST];
     ovoid_robot_nears plain = {.items = plain_items, .capacity = MOST, .without_depths = 1};
     for (int round = 0; round < 2; round++) {
-        CHECK_EQ(ovoid_robot_find_near(x, q, &options, &plain, &error), OVOID_OK);
+        CHECK_EQ(ovoid_robot_find_near(x, &(ovoid_robot_query){q, &options}, &plain, &error), OVOID_OK);
         CHECK_EQ(plain.count, expected);
         for (size_t i = 0; i < plain.count && i < MOST; i++) {
             const true_pair *p = find_true_pair(pairs, count, &plain_items[i].a, &plain_items[i].b);
@@ -295,11 +296,11 @@ static void compare_near(const scene *c, ovoid_robot_checker *x, const double *q
         ovoid_robot_checker_reset(x);
     }
     some.capacity = 0;
-    CHECK_EQ(ovoid_robot_find_near(x, q, &options, &some, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_find_near(x, &(ovoid_robot_query){q, &options}, &some, &error), OVOID_OK);
     CHECK_EQ(some.count, expected);
     some.capacity = FEW;
     options.margin = INFINITY;
-    CHECK_EQ(ovoid_robot_find_nearest(x, q, &options, &some, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_find_nearest(x, &(ovoid_robot_query){q, &options}, &some, &error), OVOID_OK);
     CHECK_EQ(some.count, count > 0);
     if (count) CHECK_LE(few[0].lower, least + near_enough);
 }
@@ -368,7 +369,7 @@ static void test_batches(void) {
         for (size_t i = 0; i < COUNT; i++) {
             ovoid_robot_answer alone;
             if (i % OVOID_ROBOT_BLOCK == 0) ovoid_robot_checker_reset(x[0]);
-            CHECK_EQ(ovoid_robot_collide(x[0], q + i * n, &options, &alone, &error), OVOID_OK);
+            CHECK_EQ(ovoid_robot_collide(x[0], &(ovoid_robot_query){q + i * n, &options}, &alone, &error), OVOID_OK);
             CHECK(same_answer(&alone, &answers[0][i]) && same_answer(&alone, &answers[1][i]));
             statuses[alone.status]++;
         }
@@ -389,7 +390,7 @@ static double find_distance(ovoid_robot_checker *x, const double *q, const ovoid
     static ovoid_robot_near items[1000];
     ovoid_robot_query_options options = {.margin = 1, .limit_slack = INFINITY};
     ovoid_robot_nears nears = {.items = items, .capacity = 1000};
-    (void)ovoid_robot_find_near(x, q, &options, &nears, &error);
+    (void)ovoid_robot_find_near(x, &(ovoid_robot_query){q, &options}, &nears, &error);
     for (size_t i = 0; i < nears.count; i++)
         if (same_side(&items[i].a, &of->a) && same_side(&items[i].b, &of->b))
             return (items[i].lower + items[i].upper) / 2;
@@ -432,7 +433,7 @@ static void test_gradients(void) {
         make_random_state(&s, c.r, q);
         ovoid_robot_query_options options = {.margin = 0.5};
         ovoid_robot_nears nears = {.items = items, .gradients = rows, .capacity = MOST};
-        CHECK_EQ(ovoid_robot_find_near(x, q, &options, &nears, &error), OVOID_OK);
+        CHECK_EQ(ovoid_robot_find_near(x, &(ovoid_robot_query){q, &options}, &nears, &error), OVOID_OK);
         size_t n = ovoid_robot_get_variable_count(c.r), kept = nears.count < MOST ? nears.count : MOST;
         // Differences of brackets are those of the shapes; gradients of cylinders are those of true cylinders, which
         // test_gradient_round compares.
@@ -459,21 +460,21 @@ static void test_refusals(void) {
     ovoid_robot_near item;
     ovoid_robot_nears nears = {.items = &item};
     ovoid_robot_query_options options = {.margin = -1};
-    CHECK_EQ(ovoid_robot_collide(x, q, &options, &is, &error), OVOID_ERROR_ARGUMENT);
+    CHECK_EQ(ovoid_robot_collide(x, &(ovoid_robot_query){q, &options}, &is, &error), OVOID_ERROR_ARGUMENT);
     CHECK_EQ(is.status, OVOID_ROBOT_UNDECIDED);
-    CHECK_EQ(ovoid_robot_find_nearest(x, q, NULL, &nears, &error), OVOID_ERROR_ARGUMENT);
+    CHECK_EQ(ovoid_robot_find_nearest(x, &(ovoid_robot_query){q, NULL}, &nears, &error), OVOID_ERROR_ARGUMENT);
     size_t limited = 0;
     while (!isfinite(ovoid_robot_get_variable(c.r, limited).upper)) limited++;
     q[limited] = ovoid_robot_get_variable(c.r, limited).upper + 0.25;
-    CHECK_EQ(ovoid_robot_collide(x, q, NULL, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide(x, &(ovoid_robot_query){q, NULL}, &is, &error), OVOID_OK);
     CHECK(is.status == OVOID_ROBOT_REFUSED && is.code == OVOID_ERROR_RANGE && is.variable == limited);
-    CHECK_EQ(ovoid_robot_find_near(x, q, NULL, &nears, &error), OVOID_ERROR_RANGE);
+    CHECK_EQ(ovoid_robot_find_near(x, &(ovoid_robot_query){q, NULL}, &nears, &error), OVOID_ERROR_RANGE);
     options = (ovoid_robot_query_options){.limit_slack = 0.25};
-    CHECK_EQ(ovoid_robot_collide(x, q, &options, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide(x, &(ovoid_robot_query){q, &options}, &is, &error), OVOID_OK);
     CHECK(is.status != OVOID_ROBOT_REFUSED);
     q[limited] = NAN;
     options.limit_slack = INFINITY;
-    CHECK_EQ(ovoid_robot_collide(x, q, &options, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide(x, &(ovoid_robot_query){q, &options}, &is, &error), OVOID_OK);
     CHECK(is.status == OVOID_ROBOT_REFUSED && is.code == OVOID_ERROR_NOT_FINITE && is.variable == limited);
     // Bodies.
     ovoid_body none = {.pose = ovoid_pose_make_identity()};
@@ -483,18 +484,19 @@ static void test_refusals(void) {
     CHECK_EQ(ovoid_robot_cell_add(c.cell, &none, &error), (ovoid_id)0);
     CHECK_EQ(error.code, OVOID_ERROR_NOT_FINITE);
     CHECK_EQ(ovoid_robot_cell_move(c.cell, c.ids[0], &none.pose, &error), OVOID_ERROR_NOT_FINITE);
-    CHECK_EQ(ovoid_robot_cell_attach(c.cell, 99, &c.held, NULL, 0, &error), (ovoid_id)0);
+    CHECK_EQ(ovoid_robot_cell_attach(c.cell, &(ovoid_robot_attachment){99, c.held, NULL, 0}, &error), (ovoid_id)0);
     CHECK_EQ(error.code, OVOID_ERROR_INDEX);
     uint32_t there_is_none = 99;
-    CHECK_EQ(ovoid_robot_cell_attach(c.cell, 0, &c.held, &there_is_none, 1, &error), (ovoid_id)0);
+    CHECK_EQ(ovoid_robot_cell_attach(c.cell, &(ovoid_robot_attachment){0, c.held, &there_is_none, 1}, &error),
+             (ovoid_id)0);
     CHECK_EQ(error.code, OVOID_ERROR_INDEX);
-    CHECK_EQ(ovoid_robot_cell_set_allowed(c.cell, 0, 0, 1, &error), OVOID_ERROR_ARGUMENT);
-    CHECK_EQ(ovoid_robot_cell_set_allowed(c.cell, 0, 99, 1, &error), OVOID_ERROR_INDEX);
+    CHECK_EQ(ovoid_robot_cell_add_allowed(c.cell, 0, 0, &error), OVOID_ERROR_ARGUMENT);
+    CHECK_EQ(ovoid_robot_cell_add_allowed(c.cell, 0, 99, &error), OVOID_ERROR_INDEX);
     CHECK_EQ(ovoid_robot_cell_set_padding(c.cell, 0, -1, &error), OVOID_ERROR_RADIUS);
     CHECK_EQ(ovoid_robot_cell_set_padding(c.cell, 99, 0, &error), OVOID_ERROR_INDEX);
     CHECK_EQ(ovoid_robot_cell_remove(c.cell, c.ids[2], &error), OVOID_OK);
     CHECK_EQ(ovoid_robot_cell_remove(c.cell, c.ids[2], &error), OVOID_ERROR_INDEX);
-    CHECK_EQ(ovoid_robot_cell_set_body_allowed(c.cell, c.ids[2], 0, 1, &error), OVOID_ERROR_INDEX);
+    CHECK_EQ(ovoid_robot_cell_add_body_allowed(c.cell, c.ids[2], 0, &error), OVOID_ERROR_INDEX);
     ovoid_id again = ovoid_robot_cell_add(c.cell, &c.obstacles[2], &error);
     CHECK(again >> 32 == c.ids[2] >> 32 && again != c.ids[2]);
     CHECK(ovoid_robot_cell_create(NULL, NULL, &error) == NULL);
@@ -528,45 +530,45 @@ static void test_by_hand(void) {
     ovoid_robot_query_options options = {.margin = 0.5};
     // Half sizes 0.1: the gap at q is 4.8 - q.
     for (double q = 4; q <= 5; q += 0.0625) {
-        CHECK_EQ(ovoid_robot_collide(x, &q, &options, &is, &error), OVOID_OK);
+        CHECK_EQ(ovoid_robot_collide(x, &(ovoid_robot_query){&q, &options}, &is, &error), OVOID_OK);
         CHECK_EQ(is.status, q < 4.3 ? OVOID_ROBOT_FREE : OVOID_ROBOT_HIT);
     }
     double q = 4.3 + 1e-10;
-    CHECK_EQ(ovoid_robot_collide(x, &q, &options, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide(x, &(ovoid_robot_query){&q, &options}, &is, &error), OVOID_OK);
     CHECK(is.status == OVOID_ROBOT_HIT && is.a.link == 1 && is.a.element == 0 && is.b.link == OVOID_ROBOT_NONE &&
           is.b.body == id);
     q = 4.3 - 1e-10;
-    CHECK_EQ(ovoid_robot_collide(x, &q, &options, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide(x, &(ovoid_robot_query){&q, &options}, &is, &error), OVOID_OK);
     CHECK_EQ(is.status, OVOID_ROBOT_FREE);
     (void)ovoid_robot_cell_set_padding(cell, 1, 0.25, &error);
-    CHECK_EQ(ovoid_robot_collide(x, &q, &options, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide(x, &(ovoid_robot_query){&q, &options}, &is, &error), OVOID_OK);
     CHECK_EQ(is.status, OVOID_ROBOT_HIT);
     CHECK_NEAR(is.upper, 0.25, 1e-3);
     options.without_obstacles = 1;
-    CHECK_EQ(ovoid_robot_collide(x, &q, &options, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide(x, &(ovoid_robot_query){&q, &options}, &is, &error), OVOID_OK);
     CHECK(is.status == OVOID_ROBOT_UNDECIDED && is.code == OVOID_ERROR_EMPTY); // of no pair
     options.without_obstacles = 0;
-    (void)ovoid_robot_cell_set_body_allowed(cell, id, 1, 1, &error);
-    CHECK_EQ(ovoid_robot_collide(x, &q, &options, &is, &error), OVOID_OK);
+    (void)ovoid_robot_cell_add_body_allowed(cell, id, 1, &error);
+    CHECK_EQ(ovoid_robot_collide(x, &(ovoid_robot_query){&q, &options}, &is, &error), OVOID_OK);
     CHECK(is.status == OVOID_ROBOT_UNDECIDED && is.code == OVOID_ERROR_EMPTY); // of no pair
     ovoid_body held = {.shape = shapes[1], .pose = {{0, 0, 1}, {1, 0, 0, 0}}};
-    ovoid_id sphere = ovoid_robot_cell_attach(cell, 1, &held, NULL, 0, &error);
+    ovoid_id sphere = ovoid_robot_cell_attach(cell, &(ovoid_robot_attachment){1, held, NULL, 0}, &error);
     wall.pose.position.z = 1;
     ovoid_id second = ovoid_robot_cell_add(cell, &wall, &error);
-    CHECK_EQ(ovoid_robot_collide(x, &q, &options, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide(x, &(ovoid_robot_query){&q, &options}, &is, &error), OVOID_OK);
     CHECK(is.status == OVOID_ROBOT_HIT && is.a.body == sphere && is.b.body == second && is.a.link == 1);
     // Both links, and a rail that an attached body touches.
     ovoid_body on_rail = {.shape = shapes[1], .pose = {{4, 0, 1}, {1, 0, 0, 0}}};
     (void)ovoid_robot_cell_remove(cell, second, &error);
-    ovoid_id fixed = ovoid_robot_cell_attach(cell, 0, &on_rail, NULL, 0, &error);
-    CHECK_EQ(ovoid_robot_collide(x, &q, &options, &is, &error), OVOID_OK);
+    ovoid_id fixed = ovoid_robot_cell_attach(cell, &(ovoid_robot_attachment){0, on_rail, NULL, 0}, &error);
+    CHECK_EQ(ovoid_robot_collide(x, &(ovoid_robot_query){&q, &options}, &is, &error), OVOID_OK);
     CHECK(is.status == OVOID_ROBOT_HIT && is.a.body && is.b.body);
     options.without_self = 1;
-    CHECK_EQ(ovoid_robot_collide(x, &q, &options, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide(x, &(ovoid_robot_query){&q, &options}, &is, &error), OVOID_OK);
     CHECK_EQ(is.status, OVOID_ROBOT_FREE);
     options.without_self = 0;
-    (void)ovoid_robot_cell_set_body_allowed(cell, fixed, 1, 1, &error);
-    CHECK_EQ(ovoid_robot_collide(x, &q, &options, &is, &error), OVOID_OK);
+    (void)ovoid_robot_cell_add_body_allowed(cell, fixed, 1, &error);
+    CHECK_EQ(ovoid_robot_collide(x, &(ovoid_robot_query){&q, &options}, &is, &error), OVOID_OK);
     CHECK_EQ(is.status, OVOID_ROBOT_FREE);
     CHECK(ovoid_robot_is_rigid_pair(r, 0, 1) == 0 && ovoid_robot_is_rigid_pair(r, 1, 1) == 1);
     ovoid_robot_checker_destroy(x);
@@ -583,18 +585,18 @@ static void test_half_changes(void) {
     make_random_state(&s, c.r, q);
     countdown left = {.left = 1 << 20};
     ovoid_allocator allocator = countdown_make_allocator(&left);
-    ovoid_robot_cell *cell = ovoid_robot_cell_create(c.r, &allocator, &error);
+    ovoid_robot_cell *cell = ovoid_robot_cell_create(c.r, &(ovoid_robot_cell_options){&allocator}, &error);
     ovoid_robot_checker *x = ovoid_robot_checker_create(cell, NULL, &error);
     ovoid_robot_answer is;
     left.left = 0;
     CHECK_EQ(ovoid_robot_cell_add(cell, &c.obstacles[0], &error), (ovoid_id)0);
     CHECK_EQ(error.code, OVOID_ERROR_MEMORY);
-    CHECK_EQ(ovoid_robot_cell_set_allowed(cell, 0, 1, 0, &error), OVOID_ERROR_MEMORY);
-    CHECK_EQ(ovoid_robot_collide(x, q, NULL, &is, &error), OVOID_ERROR_MEMORY);
+    CHECK_EQ(ovoid_robot_cell_remove_allowed(cell, 0, 1, &error), OVOID_ERROR_MEMORY);
+    CHECK_EQ(ovoid_robot_collide(x, &(ovoid_robot_query){q, NULL}, &is, &error), OVOID_ERROR_MEMORY);
     CHECK_EQ(is.status, OVOID_ROBOT_UNDECIDED);
     left.left = 1 << 20;
-    CHECK_EQ(ovoid_robot_cell_set_allowed(cell, 0, 1, 0, &error), OVOID_OK);
-    CHECK_EQ(ovoid_robot_collide(x, q, NULL, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_cell_remove_allowed(cell, 0, 1, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide(x, &(ovoid_robot_query){q, NULL}, &is, &error), OVOID_OK);
     ovoid_robot_checker_destroy(x);
     ovoid_robot_cell_destroy(cell);
     CHECK_EQ(left.held, 0);
@@ -611,15 +613,16 @@ static void test_memory(void) {
         countdown left = {.left = k};
         ovoid_allocator allocator = countdown_make_allocator(&left);
         error = (ovoid_error){0};
-        ovoid_robot_cell *cell = ovoid_robot_cell_create(c.r, &allocator, &error);
+        ovoid_robot_cell *cell = ovoid_robot_cell_create(c.r, &(ovoid_robot_cell_options){&allocator}, &error);
         ovoid_id id = cell ? ovoid_robot_cell_add(cell, &c.obstacles[0], &error) : 0;
-        ovoid_robot_checker *x = cell ? ovoid_robot_checker_create(cell, &allocator, &error) : NULL;
+        ovoid_robot_checker *x =
+            cell ? ovoid_robot_checker_create(cell, &(ovoid_robot_checker_options){&allocator}, &error) : NULL;
         int is_done = id && x;
         if (!is_done) CHECK_EQ(error.code, OVOID_ERROR_MEMORY);
         if (x) { // queries allocate nothing, and find what there is
             left.left = 0;
             ovoid_robot_answer is;
-            CHECK_EQ(ovoid_robot_collide(x, q, NULL, &is, &error), OVOID_OK);
+            CHECK_EQ(ovoid_robot_collide(x, &(ovoid_robot_query){q, NULL}, &is, &error), OVOID_OK);
         }
         ovoid_robot_checker_destroy(x);
         ovoid_robot_cell_destroy(cell);
@@ -642,7 +645,7 @@ static void test_appended(void) {
         for (int i = 0; i < OBSTACLES; i++) {
             ovoid_id id = ovoid_robot_cell_add(cell, &c.obstacles[i], &error);
             if (!CHECK(id)) break;
-            if (i == 3) CHECK_EQ(ovoid_robot_cell_set_body_allowed(cell, id, links - 1, 1, &error), OVOID_OK);
+            if (i == 3) CHECK_EQ(ovoid_robot_cell_add_body_allowed(cell, id, links - 1, &error), OVOID_OK);
             // One that is taken out leaves its slot to the next.
             if (i == 5) CHECK_EQ(ovoid_robot_cell_remove(cell, id, &error), OVOID_OK);
         }
@@ -653,9 +656,9 @@ static void test_appended(void) {
         ovoid_robot_query_options options = {.margin = 0.5, .limit_slack = INFINITY};
         make_random_state(&s, c.r, q);
         for (int k = 0; k < 2; k++) {
-            CHECK_EQ(ovoid_robot_find_near(x, q, &options, &nears[k], &error), OVOID_OK);
+            CHECK_EQ(ovoid_robot_find_near(x, &(ovoid_robot_query){q, &options}, &nears[k], &error), OVOID_OK);
             // Any change of links compiles all.
-            CHECK_EQ(ovoid_robot_cell_set_allowed(cell, 0, links - 1, 0, &error), OVOID_OK);
+            CHECK_EQ(ovoid_robot_cell_remove_allowed(cell, 0, links - 1, &error), OVOID_OK);
         }
         CHECK_EQ(nears[0].count, nears[1].count);
         for (size_t i = 0; i < nears[0].count && i < ROOM; i++) {

@@ -36,7 +36,7 @@ static void open_stage(stage *s, double radius) {
     ovoid_robot_description d = {NULL, links, 2, &slide, 1, elements, 2, NULL, 0, NULL};
     s->robots[0] = ovoid_robot_create(&d, NULL, &error);
     ovoid_robot_link_sphere balls[2] = {{0, {{0, 0, 0}, 0.1}}, {1, {{0, 0, 0}, radius}}};
-    s->robots[1] = ovoid_robot_create_from_spheres(s->robots[0], balls, 2, NULL, &error);
+    s->robots[1] = ovoid_robot_create_from_spheres(s->robots[0], &(ovoid_robot_link_spheres){balls, 2}, NULL, &error);
     CHECK(s->robots[0] && s->robots[1]);
     ovoid_body wall = {.shape = s->box, .pose = home};
     wall.pose.position.x = 5;
@@ -197,12 +197,12 @@ static void test_refused(void) {
 
     ovoid_robot_link_sphere balls[2] = {{1, {{0, 0, 0}, 1}}, {0, {{0, 0, 0}, 1}}};
     balls[1].link = 2;
-    CHECK(!ovoid_robot_create_from_spheres(s.robots[0], balls, 2, NULL, &error));
+    CHECK(!ovoid_robot_create_from_spheres(s.robots[0], &(ovoid_robot_link_spheres){balls, 2}, NULL, &error));
     CHECK(error.code == OVOID_ERROR_INDEX && error.place == 1);
     balls[1] = (ovoid_robot_link_sphere){0, {{0, 0, 0}, -1}};
-    CHECK(!ovoid_robot_create_from_spheres(s.robots[0], balls, 2, NULL, &error));
+    CHECK(!ovoid_robot_create_from_spheres(s.robots[0], &(ovoid_robot_link_spheres){balls, 2}, NULL, &error));
     CHECK(error.code == OVOID_ERROR_RADIUS && error.place == 1);
-    CHECK(!ovoid_robot_create_from_spheres(NULL, balls, 2, NULL, &error));
+    CHECK(!ovoid_robot_create_from_spheres(NULL, &(ovoid_robot_link_spheres){balls, 2}, NULL, &error));
     CHECK_EQ(error.code, OVOID_ERROR_ARGUMENT);
     close_stage(&s);
 }
@@ -215,7 +215,8 @@ static void test_robot_of_spheres(void) {
     for (long k = 0, done = 0; !done && k < 100; k++) {
         countdown c = {k, 0};
         ovoid_allocator allocator = countdown_make_allocator(&c);
-        ovoid_robot *r = ovoid_robot_create_from_spheres(s.robots[0], balls, 3, &allocator, &error);
+        ovoid_robot *r = ovoid_robot_create_from_spheres(s.robots[0], &(ovoid_robot_link_spheres){balls, 3},
+                                                         &(ovoid_robot_options){.allocator = &allocator}, &error);
         done = r != NULL;
         if (!done) {
             CHECK_EQ(error.code, OVOID_ERROR_MEMORY);
@@ -231,7 +232,8 @@ static void test_robot_of_spheres(void) {
         ovoid_robot_destroy(r);
         CHECK_EQ(c.held, 0L);
     }
-    ovoid_robot *empty = ovoid_robot_create_from_spheres(s.robots[0], NULL, 0, NULL, &error);
+    ovoid_robot *empty =
+        ovoid_robot_create_from_spheres(s.robots[0], &(ovoid_robot_link_spheres){NULL, 0}, NULL, &error);
     CHECK(empty && ovoid_robot_get_description(empty).element_count == 0);
     ovoid_robot_destroy(empty);
     close_stage(&s);

@@ -163,7 +163,7 @@ static void test_gradients(uint64_t *s) {
         make_random_state(s, r, q);
         ovoid_robot_query_options options = {.margin = 0.5, .limit_slack = INFINITY};
         ovoid_robot_nears nears = {.items = items, .gradients = rows, .capacity = MOST};
-        CHECK_EQ(ovoid_robot_find_near(x, q, &options, &nears, &error), OVOID_OK);
+        CHECK_EQ(ovoid_robot_find_near(x, &(ovoid_robot_query){q, &options}, &nears, &error), OVOID_OK);
         size_t n = ovoid_robot_get_variable_count(r), kept = nears.count < MOST ? nears.count : MOST;
         for (size_t i = 0; i < kept; i += 5)
             if (items[i].has_gradient && items[i].lower > 0.01) compare(r, q, &items[i], rows + i * n);

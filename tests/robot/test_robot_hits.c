@@ -44,9 +44,11 @@ static void compare(const flyer *f, const ovoid_shape *a, const ovoid_body *b, c
     ovoid_robot_answer is;
     ovoid_pose links[2];
     ovoid_robot_checker_reset(f->checker);
-    CHECK_EQ(ovoid_robot_collide(f->checker, q, &(ovoid_robot_query_options){.limit_slack = INFINITY}, &is, &error),
+    CHECK_EQ(ovoid_robot_collide(f->checker,
+                                 &(ovoid_robot_query){q, &(ovoid_robot_query_options){.limit_slack = INFINITY}}, &is,
+                                 &error),
              OVOID_OK);
-    CHECK_EQ(ovoid_robot_compute_poses(f->robot, q, links, NULL, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_compute_poses(f->robot, q, links, &error), OVOID_OK);
     ovoid_pose in_link = {{0.1, -0.2, 0.05}, {1, 0.2, -0.3, 0.4}};
     ovoid_pair pair = {a, b->shape, ovoid_pose_compute_product(&links[1], &in_link), b->pose};
     ovoid_answer truth = ovoid_depth(&pair, NULL, NULL, NULL);
@@ -108,7 +110,7 @@ static void test_many(void) {
         flyer f = make_flyer(tetrahedron, beads, count);
         ovoid_robot_query_options options = {.limit_slack = INFINITY};
         ovoid_robot_answer is;
-        CHECK_EQ(ovoid_robot_collide(f.checker, q, &options, &is, &error), OVOID_OK);
+        CHECK_EQ(ovoid_robot_collide(f.checker, &(ovoid_robot_query){q, &options}, &is, &error), OVOID_OK);
         CHECK_EQ(is.status, count > BEADS ? OVOID_ROBOT_HIT : OVOID_ROBOT_FREE);
         destroy_flyer(&f);
     }
@@ -125,7 +127,7 @@ int main(void) {
         ovoid_shape_create_box((ovoid_vec3){0.1, 0.05, 0.2}, NULL, &error),
         ovoid_shape_create_from_points(xyz, 20, NULL, &error),
         ovoid_shape_create_from_points(xyz, 12, &(ovoid_shape_options){.radius = 0.03}, &error),
-        ovoid_shape_create_cylinder(0.1, 0.2, 0, NULL, &error),
+        ovoid_shape_create_cylinder(0.1, 0.2, NULL, &error),
         ovoid_shape_create_box((ovoid_vec3){0.1, 0.15, 0.1}, &smaller, &error)};
     for (int i = 0; i < SHAPES; i++)
         if (!shapes[i]) exit(1);

@@ -17,7 +17,7 @@ static void make_shapes(void) {
     shapes[0] = ovoid_shape_create_box((ovoid_vec3){0.3, 0.1, 0.2}, NULL, &error);
     shapes[1] = ovoid_shape_create_sphere(0.25, NULL, &error);
     shapes[2] = ovoid_shape_create_capsule(0.1, 0.5, NULL, &error);
-    shapes[3] = ovoid_shape_create_cylinder(0.2, 0.2, 0, NULL, &error);
+    shapes[3] = ovoid_shape_create_cylinder(0.2, 0.2, NULL, &error);
     for (int i = 0; i < SHAPES; i++)
         if (!shapes[i]) exit(1);
 }
@@ -25,7 +25,7 @@ static void make_shapes(void) {
 static ovoid_robot_matrix *make_matrix(const ovoid_robot_description *d, const ovoid_robot_matrix_options *options) {
     ovoid_robot *r = ovoid_robot_create(d, NULL, &error);
     if (!r) printf("%s\n", error.message), exit(1);
-    ovoid_robot_matrix *m = ovoid_robot_matrix_create(r, options, NULL, &error);
+    ovoid_robot_matrix *m = ovoid_robot_matrix_create(r, options, &error);
     if (!m) printf("%s\n", error.message), exit(1);
     ovoid_robot_destroy(r);
     return m;
@@ -228,7 +228,7 @@ static void measure(const scene *c, const double *q, double slack, const ovoid_r
     ovoid_robot_nears nears = {.items = near_items, .capacity = NEARS};
     ovoid_robot_query_options options = {.limit_slack = slack};
     *lower = *upper = 1;
-    CHECK_EQ(ovoid_robot_find_near(c->checker, q, &options, &nears, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_find_near(c->checker, &(ovoid_robot_query){q, &options}, &nears, &error), OVOID_OK);
     CHECK_LE(nears.count, (size_t)NEARS);
     for (size_t i = 0; i < nears.count; i++) {
         if (near_items[i].a.link != p->a || near_items[i].b.link != p->b) continue;
@@ -303,8 +303,8 @@ static void test_again(void) {
     scene c;
     make_scene(&s, &c);
     ovoid_robot_matrix_options options = {.samples = 50, .budget = 50, .seed = 7};
-    ovoid_robot_matrix *a = ovoid_robot_matrix_create(c.r, &options, NULL, &error);
-    ovoid_robot_matrix *b = ovoid_robot_matrix_create(c.r, &options, NULL, &error);
+    ovoid_robot_matrix *a = ovoid_robot_matrix_create(c.r, &options, &error);
+    ovoid_robot_matrix *b = ovoid_robot_matrix_create(c.r, &options, &error);
     size_t size = ovoid_robot_get_variable_count(c.r) * sizeof(double);
     CHECK_EQ(ovoid_robot_matrix_get_count(a), ovoid_robot_matrix_get_count(b));
     for (size_t i = 0; i < ovoid_robot_matrix_get_count(a); i++) {
@@ -321,12 +321,12 @@ static void test_memory(void) {
     uint64_t s = 99;
     scene c;
     make_scene(&s, &c);
-    ovoid_robot_matrix_options options = {.samples = 20, .budget = 20};
     for (long k = 0, is_done = 0; !is_done; k++) {
         countdown left = {.left = k};
         ovoid_allocator allocator = countdown_make_allocator(&left);
         error = (ovoid_error){0};
-        ovoid_robot_matrix *m = ovoid_robot_matrix_create(c.r, &options, &allocator, &error);
+        ovoid_robot_matrix_options options = {.samples = 20, .budget = 20, .allocator = &allocator};
+        ovoid_robot_matrix *m = ovoid_robot_matrix_create(c.r, &options, &error);
         is_done = m != NULL;
         if (!m) CHECK_EQ(error.code, OVOID_ERROR_MEMORY);
         ovoid_robot_matrix_destroy(m);
@@ -334,7 +334,7 @@ static void test_memory(void) {
         if (!CHECK_LE(k, 2000)) break;
     }
     destroy_scene(&c);
-    CHECK(!ovoid_robot_matrix_create(NULL, NULL, NULL, &error));
+    CHECK(!ovoid_robot_matrix_create(NULL, NULL, &error));
     CHECK_EQ(error.code, OVOID_ERROR_ARGUMENT);
 }
 

@@ -158,7 +158,7 @@ static void sweep(ovoid_robot_checker *x, const double *q0, const double *q1, si
         if (t >= is->from && is->from < 1) break;
         for (size_t k = 0; k < n; k++) q[k] = q0[k] + t * (q1[k] - q0[k]);
         ovoid_robot_answer at;
-        CHECK_EQ(ovoid_robot_collide(x, q, &options, &at, &error), OVOID_OK);
+        CHECK_EQ(ovoid_robot_collide(x, &(ovoid_robot_query){q, &options}, &at, &error), OVOID_OK);
         CHECK(at.status == OVOID_ROBOT_FREE);
         looked++;
     }
@@ -166,7 +166,7 @@ static void sweep(ovoid_robot_checker *x, const double *q0, const double *q1, si
     double q[7 * ROBOT_LINKS];
     for (size_t k = 0; k < n; k++) q[k] = q0[k] + is->until * (q1[k] - q0[k]);
     ovoid_robot_answer at;
-    CHECK_EQ(ovoid_robot_collide(x, q, &options, &at, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide(x, &(ovoid_robot_query){q, &options}, &at, &error), OVOID_OK);
     CHECK(at.status != OVOID_ROBOT_FREE);
 }
 
@@ -183,7 +183,7 @@ static void test_random(void) {
         if (!cell) exit(1);
         for (uint32_t i = 0; i < a.d.link_count; i++)
             for (uint32_t k = i + 1; k < a.d.link_count; k++)
-                if (k < i + 4 || random_below(&s, 3)) (void)ovoid_robot_cell_set_allowed(cell, i, k, 1, &error);
+                if (k < i + 4 || random_below(&s, 3)) (void)ovoid_robot_cell_add_allowed(cell, i, k, &error);
         for (int i = 0; i < 3; i++) {
             ovoid_body body = {.shape = i ? ball : post, .pose = random_pose(&s, 2)};
             (void)ovoid_robot_cell_add(cell, &body, &error);

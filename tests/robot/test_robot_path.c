@@ -18,7 +18,7 @@ static void make_shapes(void) {
     shapes[0] = ovoid_shape_create_box((ovoid_vec3){0.1, 0.05, 0.2}, NULL, &error);
     shapes[1] = ovoid_shape_create_sphere(0.1, NULL, &error);
     shapes[2] = ovoid_shape_create_capsule(0.03, 0.2, NULL, &error);
-    shapes[3] = ovoid_shape_create_cylinder(0.1, 0.2, 0, NULL, &error);
+    shapes[3] = ovoid_shape_create_cylinder(0.1, 0.2, NULL, &error);
     for (int i = 0; i < SHAPES; i++)
         if (!shapes[i]) exit(1);
 }
@@ -81,8 +81,10 @@ static void get_state(const scene *c, const double *states, size_t count, double
 
 static ovoid_robot_status ask_state(const scene *c, const double *q, double margin) {
     ovoid_robot_answer is;
-    CHECK_EQ(ovoid_robot_collide(c->checker, q, &(ovoid_robot_query_options){.margin = margin, .limit_slack = 1e-9},
-                                 &is, &error),
+    CHECK_EQ(ovoid_robot_collide(
+                 c->checker,
+                 &(ovoid_robot_query){q, &(ovoid_robot_query_options){.margin = margin, .limit_slack = 1e-9}}, &is,
+                 &error),
              OVOID_OK);
     return is.status;
 }
@@ -302,9 +304,9 @@ static void test_refusals(void) {
     CHECK_EQ(ovoid_robot_path_find_hit(x, &path, &o, &is, &error), OVOID_ERROR_ARGUMENT);
     CHECK_EQ(ovoid_robot_path_find_hit(x, &path, NULL, &is, &error), OVOID_OK);
     CHECK(is.status == OVOID_ROBOT_UNDECIDED && is.hit.code == OVOID_ERROR_EMPTY && is.step_count == 0);
-    ovoid_robot_side a, b;
+    ovoid_robot_sides sides;
     CHECK_EQ(ovoid_robot_cell_get_pair_count(cell), 0);
-    CHECK_EQ(ovoid_robot_cell_get_pair(cell, 0, &a, &b, &error), OVOID_ERROR_INDEX);
+    CHECK_EQ(ovoid_robot_cell_get_pair(cell, 0, &sides, &error), OVOID_ERROR_INDEX);
     ovoid_robot_checker_destroy(x);
     ovoid_robot_cell_destroy(cell);
     ovoid_robot_destroy(r);
@@ -326,7 +328,7 @@ static void test_memory(void) {
     for (int is_done = 0; !is_done; failures += !is_done) {
         countdown left = {.left = 1 << 20};
         ovoid_allocator allocator = countdown_make_allocator(&left);
-        ovoid_robot_checker *x = ovoid_robot_checker_create(cell, &allocator, &error);
+        ovoid_robot_checker *x = ovoid_robot_checker_create(cell, &(ovoid_robot_checker_options){&allocator}, &error);
         left.left = failures;
         ovoid_code code = ovoid_robot_path_find_hit(x, &path, NULL, &first, &error);
         is_done = code == OVOID_OK;

@@ -134,9 +134,9 @@ static double find_distance(const arm *m, const ovoid_robot_side *a, const ovoid
 }
 
 static int is_pair_near(const arm *m, size_t pair, double at) {
-    ovoid_robot_side a, b;
-    if (ovoid_robot_cell_get_pair(m->cell, pair, &a, &b, NULL) != OVOID_OK) return 1;
-    return find_distance(m, &a, &b, at) < m->margin - slack;
+    ovoid_robot_sides sides;
+    if (ovoid_robot_cell_get_pair(m->cell, pair, &sides, NULL) != OVOID_OK) return 1;
+    return find_distance(m, &sides.a, &sides.b, at) < m->margin - slack;
 }
 
 // A pair comes within the margin at a sampled place between two.
@@ -157,10 +157,11 @@ static int step_is_false(const arm *m, const ovoid_robot_step *x) {
 }
 
 static int hit_is_false(const arm *m, const ovoid_robot_path_answer *x) {
-    ovoid_robot_side a, b;
+    ovoid_robot_sides sides;
     if (!(x->hit_at >= x->free_until && x->hit_at <= get_last(m))) return 1;
     for (size_t i = 0; i < ovoid_robot_cell_get_pair_count(m->cell); i++) {
-        if (ovoid_robot_cell_get_pair(m->cell, i, &a, &b, NULL) != OVOID_OK) continue;
+        if (ovoid_robot_cell_get_pair(m->cell, i, &sides, NULL) != OVOID_OK) continue;
+        ovoid_robot_side a = sides.a, b = sides.b;
         if (a.link != x->hit.a.link || a.element != x->hit.a.element || a.body != x->hit.a.body ||
             b.link != x->hit.b.link || b.element != x->hit.b.element || b.body != x->hit.b.body)
             continue;

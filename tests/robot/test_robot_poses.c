@@ -42,7 +42,8 @@ static void test_exact(void) {
             ovoid_robot_pose_error errors[ROBOT_LINKS];
             exact_frame exact[ROBOT_LINKS];
             make_random_state(&s, r, q);
-            CHECK_EQ(ovoid_robot_compute_poses(r, q, poses, errors, &error), OVOID_OK);
+            CHECK_EQ(ovoid_robot_compute_poses(r, q, poses, &error), OVOID_OK);
+            ovoid_robot_compute_pose_errors(r, q, poses, errors);
             exact_poses(r, q, exact);
             for (size_t i = 0; i < a.d.link_count; i++) compare(&poses[i], &errors[i], &exact[i]);
         }
@@ -81,7 +82,8 @@ static void test_mimic(void) {
         ovoid_pose poses[3];
         ovoid_robot_pose_error errors[3];
         exact_frame exact[3];
-        CHECK_EQ(ovoid_robot_compute_poses(r, &q, poses, errors, &error), OVOID_OK);
+        CHECK_EQ(ovoid_robot_compute_poses(r, &q, poses, &error), OVOID_OK);
+        ovoid_robot_compute_pose_errors(r, &q, poses, errors);
         exact_poses(r, &q, exact);
         for (int i = 0; i < 3; i++) compare(&poses[i], &errors[i], &exact[i]);
         worst = fmax(worst, errors[2].rotation);
@@ -106,9 +108,9 @@ static void test_lanes(void) {
         static ovoid_pose poses[COUNT * ROBOT_LINKS], alone[ROBOT_LINKS];
         for (int k = 0; k < COUNT; k++) make_random_state(&s, r, q + (size_t)k * n);
         if (n) q[n] = -0.0;
-        CHECK_EQ(ovoid_robot_compute_poses_batch(r, q, COUNT, poses, &error), OVOID_OK);
+        CHECK_EQ(ovoid_robot_compute_poses_batch(r, &(ovoid_robot_pose_batch){q, COUNT, poses}, &error), OVOID_OK);
         for (size_t k = 0; k < COUNT; k++) {
-            CHECK_EQ(ovoid_robot_compute_poses(r, q + k * n, alone, NULL, &error), OVOID_OK);
+            CHECK_EQ(ovoid_robot_compute_poses(r, q + k * n, alone, &error), OVOID_OK);
             CHECK(memcmp(alone, poses + k * links, links * sizeof *alone) == 0);
         }
         ovoid_robot_destroy(r);
@@ -289,7 +291,8 @@ static void test_bits(void) {
         ovoid_pose poses[7];
         ovoid_robot_pose_error errors[7];
         for (int k = 0; k < 13; k++) q[k] = random_uniform(&s, -9, 9);
-        CHECK_EQ(ovoid_robot_compute_poses(r, q, poses, errors, NULL), OVOID_OK);
+        CHECK_EQ(ovoid_robot_compute_poses(r, q, poses, NULL), OVOID_OK);
+        ovoid_robot_compute_pose_errors(r, q, poses, errors);
         BITS_ADD(hash, poses);
         BITS_ADD(hash, errors);
     }
@@ -321,7 +324,7 @@ static void test_refusals(void) {
     if (!r) exit(1);
     double q[8] = {1, 2, 3, 1e-200, 0, 0, 1e-200, 0.5};
     ovoid_pose poses[3];
-    CHECK_EQ(ovoid_robot_compute_poses(r, q, poses, NULL, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_compute_poses(r, q, poses, &error), OVOID_OK);
     CHECK_NEAR(poses[1].rotation.w, sqrt(0.5), 1e-15);
     CHECK_EQ(poses[2].position.z, 3.0);
     CHECK_EQ(ovoid_robot_validate_limits(r, q, 0, &error), OVOID_OK);
@@ -330,16 +333,16 @@ static void test_refusals(void) {
     CHECK(error.place == 7 && strstr(error.message, "\"turn\", is 1.25, outside its limits -1 to 1"));
     CHECK_EQ(ovoid_robot_validate_limits(r, q, 0.25, &error), OVOID_OK);
     q[7] = 2e9;
-    CHECK_EQ(ovoid_robot_compute_poses(r, q, poses, NULL, &error), OVOID_ERROR_RANGE);
+    CHECK_EQ(ovoid_robot_compute_poses(r, q, poses, &error), OVOID_ERROR_RANGE);
     CHECK_EQ(error.place, 7);
     q[7] = 0, q[1] = NAN;
-    CHECK_EQ(ovoid_robot_compute_poses(r, q, poses, NULL, &error), OVOID_ERROR_NOT_FINITE);
+    CHECK_EQ(ovoid_robot_compute_poses(r, q, poses, &error), OVOID_ERROR_NOT_FINITE);
     CHECK_EQ(error.place, 1);
     CHECK_EQ(ovoid_robot_validate_limits(r, q, 1, &error), OVOID_ERROR_NOT_FINITE);
     q[1] = 1e51;
-    CHECK_EQ(ovoid_robot_compute_poses_batch(r, q, 1, poses, &error), OVOID_ERROR_RANGE);
+    CHECK_EQ(ovoid_robot_compute_poses_batch(r, &(ovoid_robot_pose_batch){q, 1, poses}, &error), OVOID_ERROR_RANGE);
     q[1] = 0, q[3] = q[6] = 0;
-    CHECK_EQ(ovoid_robot_compute_poses(r, q, poses, NULL, &error), OVOID_ERROR_ROTATION);
+    CHECK_EQ(ovoid_robot_compute_poses(r, q, poses, &error), OVOID_ERROR_ROTATION);
     CHECK_EQ(error.place, 6);
     CHECK(strstr(error.message, "\"free\"") != NULL);
     ovoid_robot_destroy(r);
@@ -360,11 +363,12 @@ static void test_memory(void) {
     long held = c.held;
     for (long k = 0; k < 2; k++) {
         c.left = k;
-        CHECK_EQ(ovoid_robot_compute_poses_batch(r, q, 1, poses, &error), OVOID_ERROR_MEMORY);
+        CHECK_EQ(ovoid_robot_compute_poses_batch(r, &(ovoid_robot_pose_batch){q, 1, poses}, &error),
+                 OVOID_ERROR_MEMORY);
         CHECK_EQ(c.held, held);
     }
     c.left = 0;
-    CHECK_EQ(ovoid_robot_compute_poses(r, q, poses, NULL, &error), OVOID_OK); // allocates nothing
+    CHECK_EQ(ovoid_robot_compute_poses(r, q, poses, &error), OVOID_OK); // allocates nothing
     ovoid_robot_destroy(r);
     CHECK_EQ(c.held, 0);
 }

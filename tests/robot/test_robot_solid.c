@@ -99,7 +99,7 @@ static void make_scene(scene *c, uint64_t *s) {
     if (!c->cell) exit(1);
     const uint32_t touching[2] = {0, LINKS - 1};
     ovoid_body held = get_body(&c->held);
-    c->held_id = ovoid_robot_cell_attach(c->cell, LINKS - 1, &held, touching, 1, &error);
+    c->held_id = ovoid_robot_cell_attach(c->cell, &(ovoid_robot_attachment){LINKS - 1, held, touching, 1}, &error);
     CHECK(c->held_id != 0);
     for (int i = 0; i < OBSTACLES; i++) {
         c->obstacles[i] = make_body(i > 0, 0.7, s);
@@ -107,7 +107,7 @@ static void make_scene(scene *c, uint64_t *s) {
         ovoid_body b = get_body(&c->obstacles[i]);
         c->ids[i] = ovoid_robot_cell_add(c->cell, &b, &error);
         CHECK(c->ids[i] != 0);
-        CHECK_EQ(ovoid_robot_cell_set_body_allowed(c->cell, c->ids[i], 0, 1, &error), OVOID_OK);
+        CHECK_EQ(ovoid_robot_cell_add_body_allowed(c->cell, c->ids[i], 0, &error), OVOID_OK);
     }
     c->padding = random_next(s) % 2 ? 0 : 0.03;
     CHECK_EQ(ovoid_robot_cell_set_padding(c->cell, LINKS - 1, c->padding, &error), OVOID_OK);
@@ -153,7 +153,7 @@ static true_pair make_pair(const scene *c, const ovoid_pose *poses, int held, in
 static int find_truth(const scene *c, const double *q, true_pair *pairs) {
     ovoid_pose poses[LINKS];
     int count = 0;
-    CHECK_EQ(ovoid_robot_compute_poses(c->r, q, poses, NULL, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_compute_poses(c->r, q, poses, &error), OVOID_OK);
     pairs[count++] = make_pair(c, poses, 0, -1);
     for (int held = 0; held < 2; held++)
         for (int i = 0; i < OBSTACLES; i++) pairs[count++] = make_pair(c, poses, held, i);
@@ -235,7 +235,7 @@ static void check_gradient(const scene *c, const double *q, const true_pair *p, 
 static void collide_state(const scene *c, const double *q, const true_pair *pairs, int count, double margin) {
     const ovoid_robot_query_options o = {.margin = margin};
     ovoid_robot_answer is;
-    CHECK_EQ(ovoid_robot_collide(c->x, q, &o, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide(c->x, &(ovoid_robot_query){q, &o}, &is, &error), OVOID_OK);
     int hits = 0, open = 0;
     for (int i = 0; i < count; i++) {
         double d = pairs[i].is.is_common ? -1 : get_distance(&pairs[i]);
@@ -262,7 +262,7 @@ static void test_states(void) {
         ovoid_robot_near items[PAIRS];
         ovoid_robot_nears nears = {.items = items, .gradients = gradients, .capacity = PAIRS};
         const ovoid_robot_query_options all = {.margin = 100};
-        CHECK_EQ(ovoid_robot_find_near(c.x, q, &all, &nears, &error), OVOID_OK);
+        CHECK_EQ(ovoid_robot_find_near(c.x, &(ovoid_robot_query){q, &all}, &nears, &error), OVOID_OK);
         CHECK_EQ(nears.count, count);
         for (size_t k = 0; k < nears.count && k < PAIRS; k++) {
             const true_pair *p = find_pair(pairs, count, &items[k].a, &items[k].b);
@@ -274,7 +274,7 @@ static void test_states(void) {
         }
         ovoid_robot_near nearest;
         ovoid_robot_nears one = {.items = &nearest, .capacity = 1};
-        CHECK_EQ(ovoid_robot_find_nearest(c.x, q, &all, &one, &error), OVOID_OK);
+        CHECK_EQ(ovoid_robot_find_nearest(c.x, &(ovoid_robot_query){q, &all}, &one, &error), OVOID_OK);
         CHECK(one.count == 1 && nearest.lower <= items[0].upper && nearest.upper >= items[0].lower);
         for (double margin = 0; margin < 0.5; margin += 0.1) collide_state(&c, q, pairs, count, margin);
         destroy_scene(&c);
@@ -286,7 +286,7 @@ static void test_states(void) {
 
 static int is_free(const scene *c, const double *q) {
     ovoid_robot_answer is;
-    CHECK_EQ(ovoid_robot_collide(c->x, q, NULL, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide(c->x, &(ovoid_robot_query){q, NULL}, &is, &error), OVOID_OK);
     return is.status == OVOID_ROBOT_FREE;
 }
 
@@ -450,7 +450,7 @@ static ovoid_robot_touch find_touch(const scene *c, double x, double slack) {
     d.joints = joints;
     ovoid_robot *r = ovoid_robot_create(&d, NULL, &error);
     ovoid_robot_matrix_options o = {.samples = 300};
-    ovoid_robot_matrix *m = ovoid_robot_matrix_create(r, &o, NULL, &error);
+    ovoid_robot_matrix *m = ovoid_robot_matrix_create(r, &o, &error);
     const ovoid_robot_matrix_pair *p = m ? ovoid_robot_matrix_find_pair(m, 0, LINKS - 1) : NULL;
     ovoid_robot_touch is = CHECK(p != NULL) ? p->touch : OVOID_ROBOT_TOUCH_OPEN;
     ovoid_robot_matrix_destroy(m);
@@ -498,7 +498,7 @@ static void test_peg(void) {
     double q0[JOINTS] = {0};
     true_pair middle[PAIRS];
     ovoid_pose poses[LINKS];
-    CHECK_EQ(ovoid_robot_compute_poses(c.r, q0, poses, NULL, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_compute_poses(c.r, q0, poses, &error), OVOID_OK);
     middle[0] = make_pair(&c, poses, 0, -1);
     CHECK_NEAR(near.upper, middle[0].is.surfaces, 2e-5);
     CHECK(near.lower > 0.45 && near.upper < 0.55 && near.upper - near.lower <= 1.001e-5);
@@ -506,7 +506,7 @@ static void test_peg(void) {
     ovoid_robot_near inside;
     ovoid_robot_nears nears = {.items = &inside, .capacity = 1};
     q0[0] = 1;
-    CHECK_EQ(ovoid_robot_find_near(c.x, q0, NULL, &nears, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_find_near(c.x, &(ovoid_robot_query){q0, NULL}, &nears, &error), OVOID_OK);
     CHECK(nears.count == 1 && inside.status == OVOID_OVERLAPPING && inside.upper < 0 && inside.lower < -0.2);
     // Deeper in the tube by less than it has to spare: the depth of solids may jump, so no state tells more than the
     // first.
@@ -566,7 +566,7 @@ static void test_padded_peg(void) {
     const double q[JOINTS] = {0};
     ovoid_robot_near is;
     ovoid_robot_nears nears = {.items = &is, .capacity = 1};
-    CHECK_EQ(ovoid_robot_find_near(c.x, q, NULL, &nears, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_find_near(c.x, &(ovoid_robot_query){q, NULL}, &nears, &error), OVOID_OK);
     CHECK(nears.count == 1 && is.upper < 0 && is.lower <= -0.4);
     ovoid_robot_checker_destroy(c.x);
     ovoid_robot_cell_destroy(c.cell);
@@ -596,10 +596,10 @@ static void test_post(void) {
     c.x = ovoid_robot_checker_create(c.cell, NULL, &error);
     double q[JOINTS] = {0};
     ovoid_robot_answer is;
-    CHECK_EQ(ovoid_robot_collide(c.x, q, NULL, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide(c.x, &(ovoid_robot_query){q, NULL}, &is, &error), OVOID_OK);
     CHECK_EQ(is.status, OVOID_ROBOT_FREE);
     q[0] = 0.7;
-    CHECK_EQ(ovoid_robot_collide(c.x, q, NULL, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide(c.x, &(ovoid_robot_query){q, NULL}, &is, &error), OVOID_OK);
     CHECK_EQ(is.status, OVOID_ROBOT_HIT);
     ovoid_robot_checker_destroy(c.x);
     ovoid_robot_cell_destroy(c.cell);
@@ -622,13 +622,14 @@ static void test_cell(void) {
     CHECK_EQ(ovoid_robot_cell_remove(c.cell, c.ids[1], &error), OVOID_OK);
     CHECK(ovoid_robot_cell_remove(c.cell, c.ids[1], &error) == OVOID_ERROR_INDEX);
     c.ids[1] = ovoid_robot_cell_add(c.cell, &b, &error);
-    CHECK_EQ(ovoid_robot_cell_set_body_allowed(c.cell, c.ids[1], 0, 1, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_cell_add_body_allowed(c.cell, c.ids[1], 0, &error), OVOID_OK);
     c.obstacles[2].pose.position = (ovoid_vec3){0.3, 0.2, 0.1};
     CHECK_EQ(ovoid_robot_cell_move(c.cell, c.ids[2], &c.obstacles[2].pose, &error), OVOID_OK);
     int count = find_truth(&c, q, pairs);
     ovoid_robot_near items[PAIRS];
     ovoid_robot_nears nears = {.items = items, .capacity = PAIRS};
-    CHECK_EQ(ovoid_robot_find_near(c.x, q, &(const ovoid_robot_query_options){.margin = 100}, &nears, &error),
+    CHECK_EQ(ovoid_robot_find_near(c.x, &(ovoid_robot_query){q, &(const ovoid_robot_query_options){.margin = 100}},
+                                   &nears, &error),
              OVOID_OK);
     CHECK_EQ(nears.count, count);
     for (size_t k = 0; k < nears.count && k < PAIRS; k++) {

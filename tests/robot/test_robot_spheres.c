@@ -36,7 +36,8 @@ static const ovoid_robot_audit_options depth_alone = {.without_volumes = 1}, coa
 static ovoid_robot_sphere_audit audit(const ovoid_robot *r, const ovoid_robot_sphere *s, size_t count,
                                       const ovoid_robot_audit_options *options) {
     ovoid_robot_sphere_audit a;
-    CHECK_EQ(ovoid_robot_compute_sphere_audit(r, 0, s, count, options, &a, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_compute_sphere_audit(&(ovoid_robot_sphere_model){r, 0, s, count}, options, &a, &error),
+             OVOID_OK);
     CHECK(is_ordered(a.depth) && is_ordered(a.uncovered) && is_ordered(a.excess) && is_ordered(a.link));
     CHECK(is_ordered(a.spheres));
     return a;
@@ -143,7 +144,7 @@ static void test_round(void) {
 // Allowances: a true cylinder stands out of its prism, a true body may be less than its shape.
 static void test_allowance(void) {
     const ovoid_robot_audit_options quick = {.depth_cells = 2048, .volume_cells = 4096};
-    ovoid_robot *cylinder = make_single(ovoid_shape_create_cylinder(1, 1, 0, NULL, &error));
+    ovoid_robot *cylinder = make_single(ovoid_shape_create_cylinder(1, 1, NULL, &error));
     ovoid_robot_sphere s = {{0, 0, 0}, 1.3};
     ovoid_robot_sphere_audit a = audit(cylinder, &s, 1, &quick);
     check_bracket(a.depth, sqrt(2) - 1.3, 0.01);
@@ -384,7 +385,8 @@ static void test_scales(void) {
         ovoid_robot_audit_options o = {.tolerance = 0};                                                                \
         ovoid_robot_sphere_audit a;                                                                                    \
         change;                                                                                                        \
-        CHECK_EQ(ovoid_robot_compute_sphere_audit(r, link, s, count, &o, &a, &error), code_);                          \
+        CHECK_EQ(ovoid_robot_compute_sphere_audit(&(ovoid_robot_sphere_model){r, link, s, count}, &o, &a, &error),     \
+                 code_);                                                                                               \
         CHECK_EQ(error.place, (int64_t)(place_));                                                                      \
         CHECK(strstr(error.message, words) != NULL);                                                                   \
     } while (0)
@@ -410,14 +412,14 @@ static void test_refused(void) {
     REFUSED(o.depth_cells = 3, OVOID_ERROR_ARGUMENT, -1, "fewer than 64 cells");
     REFUSED(o.volume_cells = (size_t)1 << 40, OVOID_ERROR_ARGUMENT, -1, "more than 2^24");
     ovoid_robot_sphere s[1];
-    size_t count = 0;
-    CHECK_EQ(ovoid_robot_compute_sphere_cover(r, 0, NULL, s, &count, NULL, &error), OVOID_ERROR_ARGUMENT);
+    ovoid_robot_sphere_cover cover = {.spheres = s};
+    CHECK_EQ(ovoid_robot_compute_sphere_cover(r, NULL, &cover, &error), OVOID_ERROR_ARGUMENT);
     CHECK(strstr(error.message, "give 1 to 4096") != NULL);
-    count = 1;
+    cover.capacity = 1;
     ovoid_robot_cover_options o = {.excess = NAN};
-    CHECK_EQ(ovoid_robot_compute_sphere_cover(r, 0, &o, s, &count, NULL, &error), OVOID_ERROR_ARGUMENT);
+    CHECK_EQ(ovoid_robot_compute_sphere_cover(r, &o, &cover, &error), OVOID_ERROR_ARGUMENT);
     o.excess = 0.5;
-    CHECK_EQ(ovoid_robot_compute_sphere_cover(r, 0, &o, s, &count, NULL, &error), OVOID_ERROR_LIMIT);
+    CHECK_EQ(ovoid_robot_compute_sphere_cover(r, &o, &cover, &error), OVOID_ERROR_LIMIT);
     CHECK(strstr(error.message, "give more spheres") != NULL);
     ovoid_robot_destroy(r);
 }
@@ -434,12 +436,12 @@ static void test_memory(void) {
         ovoid_robot_cover_options p = {.rounds = 8, .allocator = &allocator};
         ovoid_robot_sphere s[3] = {{{0, 0, 0}, 1}};
         ovoid_robot_sphere_audit a;
-        size_t count = 3;
-        ovoid_code code = ovoid_robot_compute_sphere_audit(r, 0, s, 1, &o, &a, &error);
+        ovoid_robot_sphere_cover cover = {.spheres = s, .capacity = 3};
+        ovoid_code code = ovoid_robot_compute_sphere_audit(&(ovoid_robot_sphere_model){r, 0, s, 1}, &o, &a, &error);
         CHECK(code == OVOID_OK || code == OVOID_ERROR_MEMORY);
         CHECK_EQ(c.held, 0L);
         c.left = k;
-        code = ovoid_robot_compute_sphere_cover(r, 0, &p, s, &count, NULL, &error);
+        code = ovoid_robot_compute_sphere_cover(r, &p, &cover, &error);
         CHECK(code == OVOID_OK || code == OVOID_ERROR_MEMORY);
         CHECK_EQ(c.held, 0L);
         done = code == OVOID_OK;
@@ -456,19 +458,19 @@ static void test_cover(void) {
     for (size_t n = 1; n <= 8; n *= 2) {
         if (n == 2) continue;
         ovoid_robot_sphere s[8], again[8];
-        size_t count = n;
-        ovoid_robot_bracket depth;
+        ovoid_robot_sphere_cover cover = {.spheres = s, .capacity = n};
         ovoid_robot_cover_options o = {.rounds = 100, .seed = 3};
-        CHECK_EQ(ovoid_robot_compute_sphere_cover(r, 0, &o, s, &count, &depth, &error), OVOID_OK);
-        CHECK_EQ(count, n);
-        CHECK_LE(depth.upper, 0.0);
-        ovoid_robot_sphere_audit a = audit(r, s, count, &coarse);
+        CHECK_EQ(ovoid_robot_compute_sphere_cover(r, &o, &cover, &error), OVOID_OK);
+        CHECK_EQ(cover.count, n);
+        CHECK_LE(cover.depth.upper, 0.0);
+        ovoid_robot_sphere_audit a = audit(r, s, n, &coarse);
         CHECK_LE(a.depth.upper, 0.0);
         CHECK_LE(-0.01, a.depth.lower); // no radius is much larger than it must be
         CHECK_LE(a.excess.upper, most[n]);
         if (n == 1) CHECK_NEAR(s[0].radius, sqrt(3), 1e-9);
         if (n != 4) continue;
-        CHECK_EQ(ovoid_robot_compute_sphere_cover(r, 0, &o, again, &count, NULL, &error), OVOID_OK);
+        cover.spheres = again;
+        CHECK_EQ(ovoid_robot_compute_sphere_cover(r, &o, &cover, &error), OVOID_OK);
         CHECK(memcmp(s, again, n * sizeof *s) == 0);
     }
     ovoid_robot_destroy(r);
@@ -480,11 +482,11 @@ static void test_cover_bodies(void) {
         cloud c = make_cloud(&random, (int)seed);
         ovoid_robot *r = make_from_cloud(&c, ovoid_pose_make_identity());
         ovoid_robot_sphere s[6];
-        size_t count = 1 + seed % 6;
+        ovoid_robot_sphere_cover cover = {.spheres = s, .capacity = 1 + seed % 6};
         ovoid_robot_cover_options o = {.rounds = 20, .seed = seed};
-        CHECK_EQ(ovoid_robot_compute_sphere_cover(r, 0, &o, s, &count, NULL, &error), OVOID_OK);
+        CHECK_EQ(ovoid_robot_compute_sphere_cover(r, &o, &cover, &error), OVOID_OK);
         double worst = -INFINITY;
-        for (int i = 0; i < 10000; i++) worst = fmax(worst, compute_value(s, count, draw_point(&c, &random)));
+        for (int i = 0; i < 10000; i++) worst = fmax(worst, compute_value(s, cover.count, draw_point(&c, &random)));
         CHECK_LE(worst, 1e-14);
         ovoid_robot_destroy(r);
     }
@@ -495,11 +497,11 @@ static void test_cover_bodies(void) {
 static void test_fewest(void) {
     ovoid_robot *r = make_cube();
     ovoid_robot_sphere s[64];
-    size_t count = 64;
+    ovoid_robot_sphere_cover cover = {.spheres = s, .capacity = 64};
     ovoid_robot_cover_options o = {.rounds = 20, .excess = 0.7};
-    CHECK_EQ(ovoid_robot_compute_sphere_cover(r, 0, &o, s, &count, NULL, &error), OVOID_OK);
-    CHECK(count > 1 && count < 64);
-    for (size_t i = 0; i < count; i++) {
+    CHECK_EQ(ovoid_robot_compute_sphere_cover(r, &o, &cover, &error), OVOID_OK);
+    CHECK(cover.count > 1 && cover.count < 64);
+    for (size_t i = 0; i < cover.count; i++) {
         double out = fmax(fabs(s[i].center.x), fmax(fabs(s[i].center.y), fabs(s[i].center.z))) - 1;
         CHECK_LE(s[i].radius + out, 0.7);
     }

@@ -134,7 +134,8 @@ static void grow_as_needed(const ovoid_robot *robot, ovoid_robot_sphere *s, size
     for (int round = 0; round < 2000; round++) {
         ovoid_robot_sphere_audit a;
         ovoid_error error;
-        CHECK_EQ(ovoid_robot_compute_sphere_audit(robot, 0, s, count, &o, &a, &error), OVOID_OK);
+        CHECK_EQ(ovoid_robot_compute_sphere_audit(&(ovoid_robot_sphere_model){robot, 0, s, count}, &o, &a, &error),
+                 OVOID_OK);
         if (a.depth.upper <= 0) return;
         if (a.depth.lower > 1e-4)
             s[a.sphere].radius += a.depth.lower;
@@ -153,22 +154,31 @@ static void compare(const char *name, const body *link, const body *given, sums 
     ovoid_robot_sphere_audit theirs, grown, needed, ours;
     ovoid_robot_sphere found[MOST_SPHERES], larger[MOST_SPHERES];
     size_t count = given->sphere_count;
-    ovoid_robot_bracket depth;
     ovoid_robot_cover_options options = {.rounds = rounds};
-    CHECK_EQ(ovoid_robot_compute_sphere_audit(robot, 0, given->spheres, count, &cells, &theirs, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_compute_sphere_audit(&(ovoid_robot_sphere_model){robot, 0, given->spheres, count}, &cells,
+                                              &theirs, &error),
+             OVOID_OK);
     for (size_t i = 0; i < count; i++) {
         larger[i] = given->spheres[i];
         larger[i].radius += theirs.depth.upper > 0 ? theirs.depth.upper : 0;
     }
-    CHECK_EQ(ovoid_robot_compute_sphere_audit(robot, 0, larger, count, &cells, &grown, &error), OVOID_OK);
+    CHECK_EQ(
+        ovoid_robot_compute_sphere_audit(&(ovoid_robot_sphere_model){robot, 0, larger, count}, &cells, &grown, &error),
+        OVOID_OK);
     memcpy(larger, given->spheres, count * sizeof *larger);
     grow_as_needed(robot, larger, count);
-    CHECK_EQ(ovoid_robot_compute_sphere_audit(robot, 0, larger, count, &cells, &needed, &error), OVOID_OK);
+    CHECK_EQ(
+        ovoid_robot_compute_sphere_audit(&(ovoid_robot_sphere_model){robot, 0, larger, count}, &cells, &needed, &error),
+        OVOID_OK);
     CHECK_LE(needed.depth.upper, 0.0);
     CHECK_LE(needed.excess.lower, grown.excess.upper);
-    CHECK_EQ(ovoid_robot_compute_sphere_cover(robot, 0, &options, found, &count, &depth, &error), OVOID_OK);
-    CHECK_EQ(ovoid_robot_compute_sphere_audit(robot, 0, found, count, &cells, &ours, &error), OVOID_OK);
-    CHECK_LE(depth.upper, 0.0);
+    ovoid_robot_sphere_cover cover = {.spheres = found, .capacity = count};
+    CHECK_EQ(ovoid_robot_compute_sphere_cover(robot, &options, &cover, &error), OVOID_OK);
+    count = cover.count;
+    CHECK_EQ(
+        ovoid_robot_compute_sphere_audit(&(ovoid_robot_sphere_model){robot, 0, found, count}, &cells, &ours, &error),
+        OVOID_OK);
+    CHECK_LE(cover.depth.upper, 0.0);
     CHECK_LE(ours.depth.upper, 0.0);
     CHECK_LE(ours.excess.lower, grown.excess.upper);
     double l = ours.link.upper;

@@ -56,8 +56,8 @@ static void open_scene(scene *s) {
     s->cell = ovoid_robot_cell_create(s->robot, NULL, &error);
     there.position = (ovoid_vec3){1.6, 1.4, 0};
     CHECK(ovoid_robot_cell_add(s->cell, &(const ovoid_body){.shape = s->ball, .pose = there}, &error) != 0);
-    CHECK(ovoid_robot_cell_set_allowed(s->cell, 1, 2, 1, &error) == OVOID_OK);
-    CHECK(ovoid_robot_cell_set_allowed(s->cell, 0, 1, 1, &error) == OVOID_OK);
+    CHECK(ovoid_robot_cell_add_allowed(s->cell, 1, 2, &error) == OVOID_OK);
+    CHECK(ovoid_robot_cell_add_allowed(s->cell, 0, 1, &error) == OVOID_OK);
     s->checker = ovoid_robot_checker_create(s->cell, NULL, &error);
     CHECK(s->checker != NULL);
 }
@@ -115,12 +115,12 @@ static void check_clearance(scene *s) {
 static void check_matrix(scene *s) {
     patience p;
     ovoid_robot_matrix_options o = {.samples = 48, .budget = 100};
-    ovoid_robot_matrix *all = ovoid_robot_matrix_create(s->robot, &o, NULL, &error);
+    ovoid_robot_matrix *all = ovoid_robot_matrix_create(s->robot, &o, &error);
     if (!CHECK(all != NULL)) return;
     size_t whole = SIZE_MAX;
     for (size_t most = 0; most < whole && most < 400; most++) {
         o.watch = make_watch(&p, most);
-        ovoid_robot_matrix *m = ovoid_robot_matrix_create(s->robot, &o, NULL, &error);
+        ovoid_robot_matrix *m = ovoid_robot_matrix_create(s->robot, &o, &error);
         if (!CHECK(m != NULL)) break;
         if (p.asked <= most) whole = most;
         for (size_t i = 0; i < ovoid_robot_matrix_get_count(m); i++) {
@@ -142,10 +142,12 @@ static void check_spheres(scene *s) {
     patience p;
     ovoid_robot_sphere_audit all, is;
     ovoid_robot_audit_options o = {.depth_cells = 256, .volume_cells = 256};
-    CHECK_EQ(ovoid_robot_compute_sphere_audit(s->robot, 1, &half, 1, &o, &all, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_compute_sphere_audit(&(ovoid_robot_sphere_model){s->robot, 1, &half, 1}, &o, &all, &error),
+             OVOID_OK);
     for (size_t most = 0; most < 64; most++) {
         o.watch = make_watch(&p, most);
-        CHECK_EQ(ovoid_robot_compute_sphere_audit(s->robot, 1, &half, 1, &o, &is, &error), OVOID_OK);
+        CHECK_EQ(ovoid_robot_compute_sphere_audit(&(ovoid_robot_sphere_model){s->robot, 1, &half, 1}, &o, &is, &error),
+                 OVOID_OK);
         CHECK(is.depth.lower <= all.depth.upper && all.depth.lower <= is.depth.upper &&
               is.depth.upper >= all.depth.upper);
         CHECK(is.link.lower <= 0.04 && 0.04 <= is.link.upper && is.cells <= all.cells);
@@ -156,14 +158,15 @@ static void check_spheres(scene *s) {
         ovoid_robot_sphere spheres[8];
         for (int fewest = 0; fewest < 2; fewest++) {
             ovoid_robot_cover_options c = {.rounds = 200, .excess = fewest ? 0.05 : 0, .watch = make_watch(&p, most)};
-            size_t count = 6;
-            ovoid_robot_bracket depth;
-            ovoid_code code = ovoid_robot_compute_sphere_cover(s->robot, 1, &c, spheres, &count, &depth, &error);
+            ovoid_robot_sphere_cover cover = {.link = 1, .spheres = spheres, .capacity = 6};
+            ovoid_code code = ovoid_robot_compute_sphere_cover(s->robot, &c, &cover, &error);
             CHECK(code == OVOID_OK || (fewest && code == OVOID_ERROR_LIMIT));
             if (code != OVOID_OK) continue;
             o.watch = (ovoid_watch){NULL, NULL};
-            CHECK_EQ(ovoid_robot_compute_sphere_audit(s->robot, 1, spheres, count, &o, &is, &error), OVOID_OK);
-            CHECK(depth.upper <= 0 && is.depth.lower <= 0);
+            CHECK_EQ(ovoid_robot_compute_sphere_audit(&(ovoid_robot_sphere_model){s->robot, 1, spheres, cover.count},
+                                                      &o, &is, &error),
+                     OVOID_OK);
+            CHECK(cover.depth.upper <= 0 && is.depth.lower <= 0);
         }
     }
 }

@@ -46,7 +46,7 @@ static void check_states(const ovoid_robot *r, const ovoid_robot_matrix *m, ovoi
     for (int i = 0; i < STATES; i++) {
         ovoid_robot_nears nears = {.items = items, .capacity = NEARS};
         make_state(&s, r, q);
-        CHECK_EQ(ovoid_robot_find_near(x, q, NULL, &nears, &error), OVOID_OK);
+        CHECK_EQ(ovoid_robot_find_near(x, &(ovoid_robot_query){q, NULL}, &nears, &error), OVOID_OK);
         if (!CHECK_LE(nears.count, (size_t)NEARS)) return;
         mark_pairs(m, &nears, marks);
         for (size_t k = 0; k < ovoid_robot_matrix_get_count(m); k++) {
@@ -64,7 +64,7 @@ static void test_matrix(const ovoid_robot_file *file, const known_robot *k, size
     ovoid_robot *r = ovoid_robot_create(&d, NULL, &error);
     ovoid_robot_cell *cell = r ? ovoid_robot_cell_create(r, NULL, &error) : NULL;
     ovoid_robot_checker *x = cell ? ovoid_robot_checker_create(cell, NULL, &error) : NULL;
-    ovoid_robot_matrix *m = r ? ovoid_robot_matrix_create(r, NULL, NULL, &error) : NULL;
+    ovoid_robot_matrix *m = r ? ovoid_robot_matrix_create(r, NULL, &error) : NULL;
     if (!CHECK(x && m) || !CHECK_LE(ovoid_robot_get_variable_count(r), (size_t)VARIABLES)) exit(1);
     size_t of[7] = {0};
     for (size_t i = 0; i < ovoid_robot_matrix_get_count(m); i++) of[ovoid_robot_matrix_get_pair(m, i).touch]++;

@@ -60,7 +60,8 @@ static void close_setup(setup *s) {
 static ovoid_robot_answer ask(const setup *s, double j, double k) {
     ovoid_robot_answer answer;
     ovoid_robot_query_options options = {.limit_slack = 0};
-    CHECK_EQ(ovoid_robot_collide(s->checker, (double[2]){j, k}, &options, &answer, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide(s->checker, &(ovoid_robot_query){(double[2]){j, k}, &options}, &answer, NULL),
+             OVOID_OK);
     return answer;
 }
 
@@ -305,10 +306,10 @@ static void test_nothing(void) {
     // Options may leave nothing: the two links alone are a pair.
     if (!open_with(&s, urdf, NULL, WORLD(""), 0)) return;
     ovoid_robot_query_options without = {.without_self = 1};
-    CHECK_EQ(ovoid_robot_collide(s.checker, (double[2]){0, 0}, &without, &one, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_robot_collide(s.checker, &(ovoid_robot_query){(double[2]){0, 0}, &without}, &one, NULL), OVOID_OK);
     CHECK(one.status == OVOID_ROBOT_UNDECIDED && one.code == OVOID_ERROR_EMPTY);
     CHECK_EQ(ask(&s, 0, 0).status, OVOID_ROBOT_FREE);
-    CHECK_EQ(ovoid_robot_cell_set_allowed(s.cell, 1, 2, 1, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_robot_cell_add_allowed(s.cell, 1, 2, NULL), OVOID_OK);
     CHECK_EQ(ask(&s, 0, 0).status, OVOID_ROBOT_UNDECIDED);
     close_setup(&s);
 }

@@ -78,7 +78,7 @@ int EXPORT(robot_compute_poses)(const ovoid_robot *robot, const double *q, doubl
     size_t count = ovoid_robot_get_description(robot).link_count;
     ovoid_pose *poses = calloc(count, sizeof *poses);
     if (!poses) return OVOID_ERROR_MEMORY;
-    int code = (int)ovoid_robot_compute_poses(robot, q, poses, NULL, &exchange_error);
+    int code = (int)ovoid_robot_compute_poses(robot, q, poses, &exchange_error);
     for (size_t i = 0; !code && i < count; i++) out = write_pose(out, &poses[i]);
     free(poses);
     return code;
@@ -102,13 +102,16 @@ double EXPORT(cell_attach)(ovoid_robot_cell *cell, uint32_t link, unsigned kind,
                            const uint32_t *touching, size_t count) {
     ovoid_body held;
     read_body(exchange, kind, body, &held);
-    return (double)ovoid_robot_cell_attach(cell, link, &held, touching, count, &exchange_error);
+    return (double)ovoid_robot_cell_attach(cell, &(ovoid_robot_attachment){link, held, touching, count},
+                                           &exchange_error);
 }
 int EXPORT(cell_set_allowed)(ovoid_robot_cell *cell, uint32_t a, uint32_t b, int allowed) {
-    return (int)ovoid_robot_cell_set_allowed(cell, a, b, allowed, &exchange_error);
+    return (int)(allowed ? ovoid_robot_cell_add_allowed(cell, a, b, &exchange_error)
+                         : ovoid_robot_cell_remove_allowed(cell, a, b, &exchange_error));
 }
 int EXPORT(cell_set_body_allowed)(ovoid_robot_cell *cell, double id, uint32_t link, int allowed) {
-    return (int)ovoid_robot_cell_set_body_allowed(cell, (ovoid_id)id, link, allowed, &exchange_error);
+    return (int)(allowed ? ovoid_robot_cell_add_body_allowed(cell, (ovoid_id)id, link, &exchange_error)
+                         : ovoid_robot_cell_remove_body_allowed(cell, (ovoid_id)id, link, &exchange_error));
 }
 int EXPORT(cell_set_padding)(ovoid_robot_cell *cell, uint32_t link, double padding) {
     return (int)ovoid_robot_cell_set_padding(cell, link, padding, &exchange_error);
@@ -143,7 +146,7 @@ int EXPORT(checker_collide)(ovoid_robot_checker *checker, const double *q) {
     ovoid_robot_query_options options = {.margin = exchange[0], .limit_slack = exchange[1]};
     ovoid_robot_answer a;
     ovoid_robot_checker_reset(checker);
-    int code = (int)ovoid_robot_collide(checker, q, &options, &a, &exchange_error);
+    int code = (int)ovoid_robot_collide(checker, &(ovoid_robot_query){q, &options}, &a, &exchange_error);
     double *to = exchange;
     *to++ = a.status, *to++ = a.code, *to++ = a.variable;
     *to++ = a.status == OVOID_ROBOT_HIT || (a.status == OVOID_ROBOT_UNDECIDED && a.code != OVOID_ERROR_EMPTY);
@@ -158,7 +161,7 @@ int EXPORT(checker_find_near)(ovoid_robot_checker *checker, const double *q, dou
     ovoid_robot_query_options options = {.margin = exchange[0], .limit_slack = HUGE_VAL};
     ovoid_robot_nears nears = {.items = calloc(capacity + 1, sizeof(ovoid_robot_near)), .capacity = capacity};
     if (!nears.items) return OVOID_ERROR_MEMORY;
-    int code = (int)ovoid_robot_find_near(checker, q, &options, &nears, &exchange_error);
+    int code = (int)ovoid_robot_find_near(checker, &(ovoid_robot_query){q, &options}, &nears, &exchange_error);
     exchange[0] = code ? 0 : (double)nears.count;
     for (size_t i = 0; !code && i < nears.count && i < capacity; i++) {
         const ovoid_robot_near *n = &nears.items[i];

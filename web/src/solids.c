@@ -3,7 +3,8 @@
 #include "src/exchange.h"
 
 ovoid_solid *EXPORT(solid_create)(const double *xyz, size_t point_count, const uint32_t *indices, size_t count) {
-    return ovoid_solid_create_from_triangles(xyz, point_count, indices, count, NULL, &exchange_error);
+    return ovoid_solid_create_from_triangles(&(ovoid_triangles){xyz, point_count, indices, count}, NULL,
+                                             &exchange_error);
 }
 void EXPORT(solid_destroy)(ovoid_solid *solid) { ovoid_solid_destroy(solid); }
 

@@ -69,7 +69,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (code) return code;
     ovoid_error error;
     ovoid_robot_matrix_options making = {.samples = s.samples, .budget = s.budget, .seed = s.seed};
-    ovoid_robot_matrix *matrix = ovoid_robot_matrix_create(robot.robot, &making, NULL, &error);
+    ovoid_robot_matrix *matrix = ovoid_robot_matrix_create(robot.robot, &making, &error);
     if (matrix) {
         matrix_view view = {robot.robot, ovoid_robot_get_description(robot.robot), matrix, s.robot.srdf != NULL};
         code = report(&s, &view);

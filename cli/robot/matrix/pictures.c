@@ -86,7 +86,7 @@ static int draw_pair(const char *folder, const matrix_view *v, size_t number, co
              pair->samples);
     if (!poses || !p.bodies || !path)
         message_error("out of memory for a picture");
-    else if (ovoid_robot_compute_poses(v->robot, pair->hit, poses, NULL, &error) != OVOID_OK)
+    else if (ovoid_robot_compute_poses(v->robot, pair->hit, poses, &error) != OVOID_OK)
         message_error("%s", error.message);
     else {
         add_link(&p, d, pair->a, &poses[pair->a], 1);

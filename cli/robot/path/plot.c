@@ -70,7 +70,7 @@ static int sample(plot *p, ovoid_robot_checker *checker, const ovoid_robot_query
     for (size_t i = 0; i < p->count && !code; i++) {
         p->x[i] = p->count > 1 ? (double)(states->count - 1) * (double)i / (double)(p->count - 1) : 0;
         path_compute_state(states, p->x[i], q);
-        if (ovoid_robot_find_nearest(checker, q, &all, &nears, &error) != OVOID_OK)
+        if (ovoid_robot_find_nearest(checker, &(ovoid_robot_query){q, &all}, &nears, &error) != OVOID_OK)
             message_error("plot: s %.9g: %s", p->x[i], error.message), code = EXIT_INPUT;
         else if (nears.count)
             set_sample(p, i, &near);

@@ -91,8 +91,9 @@ uint64_t proof_compute_digest(const cli_cell *cell) {
 uint32_t proof_find_pair(const cli_cell *cell, const ovoid_robot_side *a, const ovoid_robot_side *b) {
     size_t count = ovoid_robot_cell_get_pair_count(cell->cell);
     for (size_t i = 0; i < count; i++) {
-        ovoid_robot_side p, q;
-        if (ovoid_robot_cell_get_pair(cell->cell, i, &p, &q, NULL) != OVOID_OK) continue;
+        ovoid_robot_sides sides;
+        if (ovoid_robot_cell_get_pair(cell->cell, i, &sides, NULL) != OVOID_OK) continue;
+        ovoid_robot_side p = sides.a, q = sides.b;
         if (p.link == a->link && p.element == a->element && p.body == a->body && p.part == a->part &&
             q.link == b->link && q.element == b->element && q.body == b->body && q.part == b->part)
             return (uint32_t)i;
@@ -130,12 +131,12 @@ static void write_pairs(FILE *file, const cli_cell *cell) {
     size_t count = ovoid_robot_cell_get_pair_count(cell->cell);
     fputs(",\"pairs\":[", file);
     for (size_t i = 0; i < count; i++) {
-        ovoid_robot_side a, b;
-        if (ovoid_robot_cell_get_pair(cell->cell, i, &a, &b, NULL) != OVOID_OK) continue;
+        ovoid_robot_sides sides;
+        if (ovoid_robot_cell_get_pair(cell->cell, i, &sides, NULL) != OVOID_OK) continue;
         fputs(i ? ",[" : "[", file);
-        cell_write_side_json(file, cell, &a);
+        cell_write_side_json(file, cell, &sides.a);
         fputc(',', file);
-        cell_write_side_json(file, cell, &b);
+        cell_write_side_json(file, cell, &sides.b);
         fputc(']', file);
     }
     fputc(']', file);

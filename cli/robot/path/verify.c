@@ -44,9 +44,9 @@ static int is_side(const cli_cell *cell, const ovoid_robot_side *side, const ovo
 
 static int are_sides(const cli_cell *cell, size_t pair, const ovoid_robot_proof_side *a,
                      const ovoid_robot_proof_side *b) {
-    ovoid_robot_side p, q;
-    return ovoid_robot_cell_get_pair(cell->cell, pair, &p, &q, NULL) == OVOID_OK && is_side(cell, &p, a) &&
-           is_side(cell, &q, b);
+    ovoid_robot_sides sides;
+    return ovoid_robot_cell_get_pair(cell->cell, pair, &sides, NULL) == OVOID_OK && is_side(cell, &sides.a, a) &&
+           is_side(cell, &sides.b, b);
 }
 
 static int has_variables(const cli_cell *cell, const ovoid_robot_proof_source *source) {
@@ -141,7 +141,10 @@ static const char *find_fault(verify *v, const ovoid_robot_proof *p, int64_t *li
     if (p->has_pair) {
         if (!are_sides(&v->cell, p->pair, &p->a, &p->b)) return "a and b are not the sides of the pair";
         if (p->segment != path_get_segment(&answer, p->count)) return "the segment is not that of free_until";
-        (void)ovoid_robot_cell_get_pair(v->cell.cell, p->pair, &answer.hit.a, &answer.hit.b, NULL);
+        ovoid_robot_sides sides = {answer.hit.a, answer.hit.b};
+        (void)ovoid_robot_cell_get_pair(v->cell.cell, p->pair, &sides, NULL);
+        answer.hit.a = sides.a;
+        answer.hit.b = sides.b;
     }
     if (ovoid_robot_path_verify(v->cell.cell, &path, &o, &answer, p->steps, error) == OVOID_OK) return NULL;
     if (error->code == OVOID_ERROR_PROOF && error->place >= 0) *line += 1 + error->place;

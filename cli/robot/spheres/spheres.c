@@ -102,8 +102,9 @@ static int audit(const cli_cell *cell, const ovoid_robot_audit_options *how, sph
         ovoid_robot_sphere *balls = copy_balls(&set->list, i, &row->count);
         good = balls != NULL;
         if (good && row->count)
-            good = ovoid_robot_compute_sphere_audit(cell->robot.robot, i, balls, row->count, how, &row->audit,
-                                                    &error) == OVOID_OK;
+            good =
+                ovoid_robot_compute_sphere_audit(&(ovoid_robot_sphere_model){cell->robot.robot, i, balls, row->count},
+                                                 how, &row->audit, &error) == OVOID_OK;
         if (!good && balls) message_error("link %s: %s", cell->description.links[i].name, error.message);
         free(balls);
         progress_set(set->row_count);
@@ -132,9 +133,10 @@ static int find_spheres(const run_state *r, uint32_t link, size_t count, sphere_
     ovoid_error error;
     ovoid_robot_sphere *balls = malloc(count * sizeof *balls);
     if (!balls) return message_error("out of memory"), 0;
-    int good = ovoid_robot_compute_sphere_cover(r->cell.robot.robot, link, &o, balls, &count, NULL, &error) == OVOID_OK;
+    ovoid_robot_sphere_cover cover = {.link = link, .spheres = balls, .capacity = count};
+    int good = ovoid_robot_compute_sphere_cover(r->cell.robot.robot, &o, &cover, &error) == OVOID_OK;
     if (!good) message_error("link %s: %s", name, error.message);
-    for (size_t i = 0; i < count && good; i++) good = sphere_list_add(list, link, balls[i]);
+    for (size_t i = 0; i < cover.count && good; i++) good = sphere_list_add(list, link, balls[i]);
     free(balls);
     return good;
 }

@@ -64,7 +64,8 @@ static void close_model(model *m) {
 
 static int open_model(model *m, const cli_cell *cell, const cell_settings *settings, const sphere_list *list) {
     ovoid_error error;
-    *m = (model){.robot = ovoid_robot_create_from_spheres(cell->robot.robot, list->items, list->count, NULL, &error)};
+    *m = (model){.robot = ovoid_robot_create_from_spheres(
+                     cell->robot.robot, &(ovoid_robot_link_spheres){list->items, list->count}, NULL, &error)};
     if (m->robot) m->cell = ovoid_robot_cell_create(m->robot, NULL, &error);
     int good = m->cell != NULL;
     if (good && cell->obstacles)

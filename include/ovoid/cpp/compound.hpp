@@ -56,7 +56,8 @@ class compound : public detail::owner<compound_view, ovoid_compound, ovoid_compo
     template <class Parts> static compound create(const Parts &parts, const ovoid_allocator *allocator = nullptr) {
         const auto items = detail::items_of<ovoid_posed_shape>(parts);
         ovoid_error e;
-        return compound(detail::require(ovoid_compound_create(items.data(), items.size(), allocator, &e), e));
+        const ovoid_compound_options o = {allocator};
+        return compound(detail::require(ovoid_compound_create(items.data(), items.size(), &o, &e), e));
     }
     /** Of parts in braces. */
     static compound create(std::initializer_list<ovoid::posed_shape> parts,

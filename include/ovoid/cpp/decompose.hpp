@@ -67,7 +67,9 @@ inline decomposition_proof prove(const decomposition &d, const decomposition_opt
                                  double *excess = nullptr) {
     ovoid_error e;
     decomposition_proof found;
-    detail::require(ovoid_decomposition_compute_proof(&d, &o, &found, excess, &e), e);
+    ovoid_decomposition_options all = o;
+    if (excess) all.excesses = excess;
+    detail::require(ovoid_decomposition_compute_proof(&d, &all, &found, &e), e);
     return found;
 }
 

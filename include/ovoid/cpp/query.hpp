@@ -108,22 +108,22 @@ struct prepared_shape : ovoid_prepared_shape {
 /** collide of prepared shapes. */
 inline verdict collide(const ovoid_prepared_shape &a, const ovoid_prepared_shape &b, const ovoid_options &o = options(),
                        const ovoid_evidence *e = nullptr) noexcept {
-    return ovoid_prepared_collide(&a, &b, &o, e);
+    return ovoid_prepared_collide({&a, &b}, &o, e);
 }
 /** within of prepared shapes. */
 inline verdict within(const ovoid_prepared_shape &a, const ovoid_prepared_shape &b, double margin,
                       const ovoid_options &o = options(), const ovoid_evidence *e = nullptr) noexcept {
-    return ovoid_prepared_within(&a, &b, margin, &o, e);
+    return ovoid_prepared_within({&a, &b}, margin, &o, e);
 }
 /** distance of prepared shapes. */
 inline verdict distance(const ovoid_prepared_shape &a, const ovoid_prepared_shape &b,
                         const ovoid_options &o = options(), const ovoid_evidence *e = nullptr) noexcept {
-    return ovoid_prepared_distance(&a, &b, &o, e);
+    return ovoid_prepared_distance({&a, &b}, &o, e);
 }
 /** depth of prepared shapes, without a cover. */
 inline verdict depth(const ovoid_prepared_shape &a, const ovoid_prepared_shape &b, const ovoid_options &o = options(),
                      const ovoid_evidence *e = nullptr) noexcept {
-    return ovoid_prepared_depth(&a, &b, &o, e);
+    return ovoid_prepared_depth({&a, &b}, &o, e);
 }
 /** is_within of a verdict. */
 inline int is_within(const ovoid_verdict &v, double margin) noexcept { return ovoid_verdict_is_within(&v, margin); }
@@ -208,7 +208,8 @@ class areas : public detail::owner<detail::pointer<ovoid_areas>, ovoid_areas, ov
     static areas create(const ovoid_polytope &p, const ovoid_ellipsoid &e, ovoid_split split, std::uint32_t k = 1,
                         const ovoid_allocator *allocator = nullptr) {
         ovoid_error error;
-        return areas(detail::require(ovoid_areas_create(&p, &e, split, k, allocator, &error), error));
+        const ovoid_areas_options o = {split, k, allocator};
+        return areas(detail::require(ovoid_areas_create(&p, &e, &o, &error), error));
     }
     /** How large the tables are. */
     ovoid_area_counts counts() const noexcept { return ovoid_areas_get_counts(get()); }

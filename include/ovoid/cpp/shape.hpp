@@ -131,31 +131,36 @@ class shape : public detail::owner<shape_view, ovoid_shape, ovoid_shape_destroy>
     /** The cylinder along z, held by a prism with an allowance of at most the tolerance, a length; 0: radius / 200. */
     static shape cylinder(double radius, double half_length, double tolerance = 0,
                           const ovoid_shape_options &options = shape_options()) {
-        return made(
-            [&](ovoid_error *e) { return ovoid_shape_create_cylinder(radius, half_length, tolerance, &options, e); });
+        ovoid_shape_options o = options;
+        if (tolerance != 0) o.tolerance = tolerance;
+        return made([&](ovoid_error *e) { return ovoid_shape_create_cylinder(radius, half_length, &o, e); });
     }
     /** The cone along z, apex at z = +half_length, held by a pyramid with an allowance of at most the tolerance. */
     static shape cone(double radius, double half_length, double tolerance = 0,
                       const ovoid_shape_options &options = shape_options()) {
-        return made(
-            [&](ovoid_error *e) { return ovoid_shape_create_cone(radius, half_length, tolerance, &options, e); });
+        ovoid_shape_options o = options;
+        if (tolerance != 0) o.tolerance = tolerance;
+        return made([&](ovoid_error *e) { return ovoid_shape_create_cone(radius, half_length, &o, e); });
     }
     /** A prism of n >= 3 sides along z, inscribed in the cylinder: the polyhedron itself. */
     static shape prism(double radius, double half_length, std::uint32_t sides,
                        const ovoid_shape_options &options = shape_options()) {
-        return made([&](ovoid_error *e) { return ovoid_shape_create_prism(radius, half_length, sides, &options, e); });
+        const ovoid_prism by = {radius, half_length, sides};
+        return made([&](ovoid_error *e) { return ovoid_shape_create_prism(&by, &options, e); });
     }
     /** A pyramid of n >= 3 sides along z, apex at z = +half_length. */
     static shape pyramid(double radius, double half_length, std::uint32_t sides,
                          const ovoid_shape_options &options = shape_options()) {
-        return made(
-            [&](ovoid_error *e) { return ovoid_shape_create_pyramid(radius, half_length, sides, &options, e); });
+        const ovoid_prism by = {radius, half_length, sides};
+        return made([&](ovoid_error *e) { return ovoid_shape_create_pyramid(&by, &options, e); });
     }
     /** From the bytes of an .ovoid file, each of them checked: anything contiguous. Throws FORMAT (place: the byte),
      * MEMORY. */
     template <class Bytes> static shape read(const Bytes &bytes, const ovoid_allocator *allocator = nullptr) {
         const std::size_t size = std::size(bytes) * sizeof(*std::data(bytes));
-        return made([&](ovoid_error *e) { return ovoid_shape_read(std::data(bytes), size, allocator, e); });
+        shape_options o;
+        o.allocator = allocator;
+        return made([&](ovoid_error *e) { return ovoid_shape_read(std::data(bytes), size, &o, e); });
     }
 
   private:
@@ -167,11 +172,15 @@ class shape : public detail::owner<shape_view, ovoid_shape, ovoid_shape_destroy>
 };
 
 inline shape shape_view::allowed(ovoid_allowance allowance) const {
-    return shape::made([&](ovoid_error *e) { return ovoid_shape_create_allowed(shape_, allowance, nullptr, e); });
+    shape_options o;
+    o.allowance = allowance;
+    return shape::made([&](ovoid_error *e) { return ovoid_shape_create_allowed(shape_, &o, e); });
 }
 
 inline shape shape_view::copy(const ovoid_allocator *allocator) const {
-    return shape::made([&](ovoid_error *e) { return ovoid_shape_create_copy(shape_, allocator, e); });
+    shape_options o;
+    o.allocator = allocator;
+    return shape::made([&](ovoid_error *e) { return ovoid_shape_create_copy(shape_, &o, e); });
 }
 
 template <class Points> shape shape_view::deformed(const Points &points, const ovoid_shape_options &options) const {
@@ -183,9 +192,9 @@ template <class Points> shape shape_view::deformed(const Points &points, const o
 
 inline std::pair<shape, shape> shape_view::divided(const ovoid_plane &plane, const ovoid_shape_options &options) const {
     ovoid_error e;
-    ovoid_shape *parts[2] = {nullptr, nullptr};
-    detail::require(ovoid_shape_create_divided(shape_, &plane, &options, parts, &e), e);
-    return {shape(parts[0]), shape(parts[1])};
+    const ovoid_shape_halves halves = ovoid_shape_create_divided(shape_, &plane, &options, &e);
+    detail::require(halves.code, e);
+    return {shape(halves.below), shape(halves.above)};
 }
 
 /** Measures of a polyhedron. */
@@ -194,15 +203,17 @@ inline ovoid_measures compute_measures(const ovoid_polytope &p) noexcept { retur
 /** The smallest ellipsoid around a polyhedron, to a relative gap of its volume (0: 1e-6). Throws ARGUMENT, MEMORY. */
 inline ovoid_fit compute_outer(const ovoid_polytope &p, double gap = 0, const ovoid_allocator *allocator = nullptr) {
     ovoid_fit made;
-    const ovoid_code code = ovoid_ellipsoid_compute_outer(&p, gap, &made, allocator);
-    if (code != OVOID_OK) detail::fail(code);
+    ovoid_error e;
+    const ovoid_ellipsoid_options o = {gap, allocator};
+    detail::require(ovoid_ellipsoid_compute_outer(&p, &o, &made, &e), e);
     return made;
 }
 /** The largest ellipsoid inside a polyhedron, to a relative gap of its volume (0: 1e-6). Throws ARGUMENT, MEMORY. */
 inline ovoid_fit compute_inner(const ovoid_polytope &p, double gap = 0, const ovoid_allocator *allocator = nullptr) {
     ovoid_fit made;
-    const ovoid_code code = ovoid_ellipsoid_compute_inner(&p, gap, &made, allocator);
-    if (code != OVOID_OK) detail::fail(code);
+    ovoid_error e;
+    const ovoid_ellipsoid_options o = {gap, allocator};
+    detail::require(ovoid_ellipsoid_compute_inner(&p, &o, &made, &e), e);
     return made;
 }
 /** Phase 1 of the paper: the outer ellipsoid, shrunk until it is inside. */

@@ -60,8 +60,9 @@ class solid : public detail::owner<solid_view, ovoid_solid, ovoid_solid_destroy>
     static solid from_triangles(const double *xyz, std::size_t point_count, const std::uint32_t *indices,
                                 std::size_t count, const ovoid_allocator *allocator = nullptr) {
         ovoid_error e;
-        return solid(
-            detail::require(ovoid_solid_create_from_triangles(xyz, point_count, indices, count, allocator, &e), e));
+        const ovoid_triangles triangles = {xyz, point_count, indices, count};
+        const ovoid_solid_options o = {allocator};
+        return solid(detail::require(ovoid_solid_create_from_triangles(&triangles, &o, &e), e));
     }
 };
 

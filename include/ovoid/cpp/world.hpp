@@ -28,7 +28,7 @@ struct world_body : ovoid_world_body {
     /** group and mask both zero: all of both. */
     world_body(const ovoid::body &b, std::uint32_t group_ = 0, std::uint32_t mask_ = 0,
                std::uint64_t user_ = 0) noexcept
-        : ovoid_world_body{b, group_, mask_, user_} {}
+        : ovoid_world_body{b, {group_, mask_}, user_} {}
     /** From the C struct. */
     template <class T, std::enable_if_t<std::is_same<T, ovoid_world_body>::value, int> = 0>
     world_body(const T &from) noexcept : ovoid_world_body(from) {}
@@ -93,7 +93,8 @@ class world : public detail::owner<detail::pointer<ovoid_world>, ovoid_world, ov
     template <class Bodies> std::vector<id> add_many(const Bodies &bodies) {
         const auto items = detail::items_of<ovoid_world_body>(bodies);
         std::vector<id> ids(items.size());
-        call(ovoid_world_add_many, items.data(), items.size(), ids.data());
+        const ovoid_world_additions all = {items.data(), items.size(), ids.data()};
+        call(ovoid_world_add_many, &all);
         return ids;
     }
     /** Removes a body. Throws INDEX. */
@@ -108,14 +109,19 @@ class world : public detail::owner<detail::pointer<ovoid_world>, ovoid_world, ov
     template <class Ids, class Poses> void move_many(const Ids &ids, const Poses &poses) {
         const auto items = detail::items_of<ovoid_pose>(poses);
         if (std::size(ids) != items.size()) detail::fail(OVOID_ERROR_ARGUMENT, "as many poses as bodies are needed");
-        call(ovoid_world_move_many, std::data(ids), items.data(), items.size());
+        const ovoid_world_moves all = {std::data(ids), items.data(), items.size()};
+        call(ovoid_world_move_many, &all);
     }
     /** Other groups for a body. Throws INDEX. */
-    void set_groups(id b, std::uint32_t group, std::uint32_t mask) { call(ovoid_world_set_groups, b, group, mask); }
+    void set_groups(id b, std::uint32_t group, std::uint32_t mask) {
+        call(ovoid_world_set_groups, b, ovoid_groups{group, mask});
+    }
     /** The filter's answers for this body may have changed. Throws INDEX. */
     void renew(id b) { call(ovoid_world_renew, b); }
     /** Leaves a pair out from now on, or takes it back. Throws INDEX, ARGUMENT, MEMORY. */
-    void set_ignored(id a, id b, bool ignored) { call(ovoid_world_set_ignored, a, b, ignored ? 1 : 0); }
+    void set_ignored(id a, id b, bool ignored) {
+        call(ignored ? ovoid_world_add_ignored : ovoid_world_remove_ignored, a, b);
+    }
     /** All pairs that are not proven farther than the margin. Throws ARGUMENT, MEMORY. */
     contacts compute_contacts(const contact_query &query) {
         ovoid_contacts found;
@@ -138,25 +144,24 @@ class world : public detail::owner<detail::pointer<ovoid_world>, ovoid_world, ov
     /** The whole answer of a contact, with its proof. excluded: receives exclusions, or nullptr. Throws INDEX,
      * ARGUMENT. */
     body_answer compute_proof(const contact &c, ovoid_exclusions *excluded = nullptr) const {
-        ovoid_body_answer found;
-        call(ovoid_world_compute_proof, &c, excluded, &found);
-        return found;
+        ovoid_contact_proof found = {excluded, {}};
+        call(ovoid_world_compute_proof, &c, &found);
+        return found.answer;
     }
 
     /** Does any body touch another one? Throws ARGUMENT. */
-    world_hit find_any(const ovoid_options &o = options()) const {
-        return find(ovoid_world_find_any, static_cast<const ovoid_id *>(nullptr), std::size_t{0}, &o);
-    }
+    world_hit find_any() const { return find(ovoid_world_find_any, static_cast<const ovoid_world_ids *>(nullptr)); }
     /** Does any of these bodies touch another one? None of no ids. Throws INDEX, ARGUMENT. */
     template <class Ids, class = decltype(std::size(std::declval<const Ids &>()))>
-    world_hit find_any(const Ids &ids, const ovoid_options &o = options()) const {
-        if (std::size(ids) == 0) return {};
-        return find(ovoid_world_find_any, std::data(ids), std::size(ids), &o);
+    world_hit find_any(const Ids &ids) const {
+        const ovoid_world_ids some = {std::data(ids), std::size(ids)};
+        return find(ovoid_world_find_any, &some);
     }
     /** Does any of these probes, a contiguous container of world_body, touch a body of the world? Throws as add. */
     template <class Probes> world_hit find_any_to(const Probes &probes) const {
         const auto items = detail::items_of<ovoid_world_body>(probes);
-        return find(ovoid_world_find_any_to, items.data(), items.size());
+        const ovoid_world_probes all = {items.data(), items.size(), nullptr, 0};
+        return find(ovoid_world_find_any_of, &all);
     }
     /**
      * Does any of these probes touch a body of the world, or does one of the couples of probes, a contiguous container
@@ -170,11 +175,13 @@ class world : public detail::owner<detail::pointer<ovoid_world>, ovoid_world, ov
     }
     /** The body nearest to a body. Throws INDEX, ARGUMENT. */
     world_hit find_nearest(id b, const ovoid_options &o = options()) const {
-        return find(ovoid_world_find_nearest, b, &o);
+        const ovoid_world_query query = {b, nullptr, 0, &o};
+        return find(ovoid_world_find_nearest, &query);
     }
     /** The body nearest to a probe. Throws as add. */
     world_hit find_nearest_to(const world_body &probe, const ovoid_options &o = options()) const {
-        return find(ovoid_world_find_nearest_to, &probe, &o);
+        const ovoid_world_query query = {0, &probe, 0, &o};
+        return find(ovoid_world_find_nearest, &query);
     }
     /** The two nearest of all bodies. Throws ARGUMENT. */
     world_hit find_nearest_pair(const ovoid_options &o = options()) const {
@@ -184,34 +191,37 @@ class world : public detail::owner<detail::pointer<ovoid_world>, ovoid_world, ov
     std::vector<world_hit> find_overlaps(const world_body &probe, double margin = 0,
                                          const ovoid_options &o = options()) const {
         std::vector<world_hit> found;
-        ovoid_world_hits hits = {nullptr, 0, 0, &o};
+        const ovoid_world_query query = {0, &probe, margin, &o};
+        ovoid_world_hits hits = {nullptr, 0, 0};
         // Twice: how many there are, and then all of them.
-        call(ovoid_world_find_overlaps, &probe, margin, &hits);
+        call(ovoid_world_find_overlaps, &query, &hits);
         while (hits.count > hits.capacity) {
             found.resize(hits.count);
             hits.items = found.data();
             hits.capacity = found.size();
-            call(ovoid_world_find_overlaps, &probe, margin, &hits);
+            call(ovoid_world_find_overlaps, &query, &hits);
         }
         return found;
     }
     /** Into an array of the caller's; allocates nothing. Throws as add. */
     void find_overlaps(const world_body &probe, double margin, ovoid_world_hits &hits) const {
-        call(ovoid_world_find_overlaps, &probe, margin, &hits);
+        const ovoid_world_query query = {0, &probe, margin, nullptr};
+        call(ovoid_world_find_overlaps, &query, &hits);
     }
     /** A probe that is a point. */
     world_body make_point(const vec3 &point) const noexcept { return ovoid_world_make_point(get(), point); }
     /** What a ray meets first. Throws ARGUMENT. */
     world_cast cast_ray(const ray &r, std::uint32_t group = 0, std::uint32_t mask = 0) const {
-        const ovoid_world_ray grouped = {r, group, mask};
+        const ovoid_world_ray grouped = {r, {group, mask}};
         ovoid_world_cast found;
         call(ovoid_world_cast_ray, &grouped, &found);
         return found;
     }
     /** What a probe meets first on its way along displacement, without turning. Throws as add. */
     world_cast cast_body(const world_body &probe, const vec3 &displacement) const {
+        const ovoid_world_sweep sweep = {probe, displacement};
         ovoid_world_cast found;
-        call(ovoid_world_cast_body, &probe, displacement, &found);
+        call(ovoid_world_cast_body, &sweep, &found);
         return found;
     }
 

@@ -153,7 +153,9 @@ static PyObject *attach(PyObject *object, PyObject *arguments, PyObject *keyword
         pose_read(state, pose, "pose", &body.pose) || (touching && !(links = read_links(self, touching, &count))))
         return NULL;
     if (!begin_change(self))
-        made = end_adding(self, ovoid_robot_cell_attach(self->cell, link, &body, links, count, &error), given, &error);
+        made = end_adding(
+            self, ovoid_robot_cell_attach(self->cell, &(ovoid_robot_attachment){link, body, links, count}, &error),
+            given, &error);
     free(links);
     return made;
 }
@@ -192,7 +194,9 @@ static PyObject *allow(PyObject *object, PyObject *arguments, PyObject *keywords
     if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OO|p:allow", names, &first, &second, &allowed) ||
         link_read(self->robot, first, &a) || link_read(self->robot, second, &b) || begin_change(self))
         return NULL;
-    return end_change(self, ovoid_robot_cell_set_allowed(self->cell, a, b, allowed, &error), &error);
+    ovoid_code code = allowed ? ovoid_robot_cell_add_allowed(self->cell, a, b, &error)
+                              : ovoid_robot_cell_remove_allowed(self->cell, a, b, &error);
+    return end_change(self, code, &error);
 }
 
 static PyObject *allow_body(PyObject *object, PyObject *arguments, PyObject *keywords) {
@@ -206,7 +210,9 @@ static PyObject *allow_body(PyObject *object, PyObject *arguments, PyObject *key
     if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O&O|p:allow_body", names, id_read, &id, &given, &allowed) ||
         link_read(self->robot, given, &link) || begin_change(self))
         return NULL;
-    return end_change(self, ovoid_robot_cell_set_body_allowed(self->cell, id, link, allowed, &error), &error);
+    ovoid_code code = allowed ? ovoid_robot_cell_add_body_allowed(self->cell, id, link, &error)
+                              : ovoid_robot_cell_remove_body_allowed(self->cell, id, link, &error);
+    return end_change(self, code, &error);
 }
 
 static PyObject *set_padding(PyObject *object, PyObject *arguments, PyObject *keywords) {
@@ -269,10 +275,10 @@ static PyObject *pair(PyObject *object, PyObject *given) {
     module_state *state = state_of(object);
     size_t number = PyLong_AsSize_t(given);
     if (PyErr_Occurred()) return NULL;
-    ovoid_robot_side a, b;
+    ovoid_robot_sides sides;
     ovoid_error error;
-    if (ovoid_robot_cell_get_pair(self->cell, number, &a, &b, &error) != OVOID_OK) return raise_error(state, &error);
-    PyObject *first = side_make(state, &a), *second = side_make(state, &b);
+    if (ovoid_robot_cell_get_pair(self->cell, number, &sides, &error) != OVOID_OK) return raise_error(state, &error);
+    PyObject *first = side_make(state, &sides.a), *second = side_make(state, &sides.b);
     if (first && second) return Py_BuildValue("NN", first, second);
     Py_XDECREF(first);
     Py_XDECREF(second);

@@ -61,7 +61,7 @@ static PyObject *collide(PyObject *object, PyObject *arguments, PyObject *keywor
     ovoid_error error;
     ovoid_code code;
     Py_BEGIN_ALLOW_THREADS;
-    code = ovoid_robot_collide(checker, q, &o, &answer, &error);
+    code = ovoid_robot_collide(checker, &(ovoid_robot_query){q, &o}, &answer, &error);
     Py_END_ALLOW_THREADS;
     checkers_return(self, &checker, 1);
     free(q);
@@ -88,8 +88,10 @@ static ovoid_code find_near(ovoid_robot_checker *checker, const near_query *quer
             error->code = OVOID_ERROR_MEMORY;
             return OVOID_ERROR_MEMORY;
         }
-        ovoid_code code = query->is_nearest ? ovoid_robot_find_nearest(checker, query->q, &query->options, nears, error)
-                                            : ovoid_robot_find_near(checker, query->q, &query->options, nears, error);
+        ovoid_code code =
+            query->is_nearest
+                ? ovoid_robot_find_nearest(checker, &(ovoid_robot_query){query->q, &query->options}, nears, error)
+                : ovoid_robot_find_near(checker, &(ovoid_robot_query){query->q, &query->options}, nears, error);
         if (code != OVOID_OK || nears->count <= nears->capacity) return code;
     }
 }
@@ -166,7 +168,7 @@ static ovoid_code find_nearest_of(const job *j, size_t first, size_t count, ovoi
         if (i % OVOID_ROBOT_BLOCK == 0) ovoid_robot_checker_reset(j->checkers[0]);
         ovoid_robot_nears one = {.items = &j->nears[i], .gradients = j->gradients + i * j->variables, .capacity = 1};
         const double *q = j->q + i * j->variables;
-        ovoid_code code = ovoid_robot_find_nearest(j->checkers[0], q, &j->options, &one, error);
+        ovoid_code code = ovoid_robot_find_nearest(j->checkers[0], &(ovoid_robot_query){q, &j->options}, &one, error);
         if (code != OVOID_OK) {
             if (code != OVOID_ERROR_MEMORY) error->place = (int64_t)i;
             return code;

@@ -41,7 +41,7 @@ static PyObject *compute_matrix(PyObject *object, PyObject *arguments, PyObject 
     interrupt signals;
     ovoid_robot_matrix_options o = {
         .samples = (size_t)samples, .budget = (size_t)budget, .seed = seed, .watch = interrupt_begin(&signals)};
-    ovoid_robot_matrix *matrix = ovoid_robot_matrix_create(self->robot, &o, NULL, &error);
+    ovoid_robot_matrix *matrix = ovoid_robot_matrix_create(self->robot, &o, &error);
     int is_raised = interrupt_end(&signals);
     if (!matrix && !is_raised) return raise_error(state_of(object), &error);
     pairs all = {self, matrix};

@@ -141,8 +141,11 @@ PyObject *path_claim(cell_object *cell, const ovoid_robot_proof *proof, double l
     memcpy(self->states, proof->states, size);
     self->of = proof->answer;
     self->of.refused = SIZE_MAX; // not told
-    if (proof->has_pair)
-        (void)ovoid_robot_cell_get_pair(cell->cell, proof->pair, &self->of.hit.a, &self->of.hit.b, NULL);
+    ovoid_robot_sides sides;
+    if (proof->has_pair && ovoid_robot_cell_get_pair(cell->cell, proof->pair, &sides, NULL) == OVOID_OK) {
+        self->of.hit.a = sides.a;
+        self->of.hit.b = sides.b;
+    }
     self->steps = malloc(steps + 1);
     if (!self->steps) {
         Py_DECREF((PyObject *)self);

@@ -56,9 +56,10 @@ static int validate_source(const cell_object *cell, const ovoid_robot_proof_sour
     const char *what = is_same ? NULL : "variables";
     if (!what && s->pair_count != ovoid_robot_cell_get_pair_count(cell->cell)) what = "pairs of bodies";
     for (size_t i = 0; !what && i < s->pair_count; i++) {
-        ovoid_robot_side a, b;
-        (void)ovoid_robot_cell_get_pair(cell->cell, i, &a, &b, NULL);
-        if (!is_side(cell, &a, &s->pairs[2 * i]) || !is_side(cell, &b, &s->pairs[2 * i + 1])) what = "pairs of bodies";
+        ovoid_robot_sides sides;
+        (void)ovoid_robot_cell_get_pair(cell->cell, i, &sides, NULL);
+        if (!is_side(cell, &sides.a, &s->pairs[2 * i]) || !is_side(cell, &sides.b, &s->pairs[2 * i + 1]))
+            what = "pairs of bodies";
     }
     if (!what) return 0;
     raise_code(state, OVOID_ERROR_PROOF, (Py_ssize_t)line,

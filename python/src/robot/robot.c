@@ -88,7 +88,7 @@ static ovoid_code compute_poses(const ovoid_robot *robot, const items *q, Py_ssi
                                 ovoid_error *error) {
     ovoid_code code;
     Py_BEGIN_ALLOW_THREADS;
-    code = ovoid_robot_compute_poses_batch(robot, q->data, (size_t)count, poses, error);
+    code = ovoid_robot_compute_poses_batch(robot, &(ovoid_robot_pose_batch){q->data, (size_t)count, poses}, error);
     Py_END_ALLOW_THREADS;
     return code;
 }
@@ -152,10 +152,11 @@ static PyObject *pose_errors(PyObject *object, PyObject *given) {
     ovoid_error error;
     void *errors = NULL;
     PyObject *array = found ? array_make(state, RECORD_DOUBLE, 2, (Py_ssize_t[]){links, 2}, &errors) : PyErr_NoMemory();
-    if (array && ovoid_robot_compute_poses(self->robot, q, found, errors, &error) != OVOID_OK) {
+    if (array && ovoid_robot_compute_poses(self->robot, q, found, &error) != OVOID_OK) {
         Py_CLEAR(array);
         raise_error(state, &error);
     }
+    if (array) ovoid_robot_compute_pose_errors(self->robot, q, found, errors);
     free(found);
     free(q);
     return array_wrap(state, array);

@@ -31,8 +31,8 @@ static PyObject *audit_spheres(PyObject *object, PyObject *arguments, PyObject *
     ovoid_error error;
     interrupt signals;
     o.watch = interrupt_begin(&signals);
-    ovoid_code code =
-        ovoid_robot_compute_sphere_audit(self->robot, link, spheres.data, (size_t)spheres.shape[0], &o, &audit, &error);
+    ovoid_code code = ovoid_robot_compute_sphere_audit(
+        &(ovoid_robot_sphere_model){self->robot, link, spheres.data, (size_t)spheres.shape[0]}, &o, &audit, &error);
     int is_raised = interrupt_end(&signals);
     free(spheres.data);
     if (is_raised) return NULL;
@@ -61,18 +61,18 @@ static PyObject *cover_spheres(PyObject *object, PyObject *arguments, PyObject *
     o.seed = seed;
     void *spheres = calloc((size_t)count, 4 * sizeof(double));
     if (!spheres) return PyErr_NoMemory();
-    size_t written = (size_t)count;
-    ovoid_robot_bracket depth;
+    ovoid_robot_sphere_cover cover = {.link = link, .spheres = spheres, .capacity = (size_t)count};
     ovoid_error error;
     interrupt signals;
     o.watch = interrupt_begin(&signals);
-    ovoid_code code = ovoid_robot_compute_sphere_cover(self->robot, link, &o, spheres, &written, &depth, &error);
+    ovoid_code code = ovoid_robot_compute_sphere_cover(self->robot, &o, &cover, &error);
     PyObject *array = NULL;
     if (!interrupt_end(&signals))
-        array = code == OVOID_OK ? array_copy(state, RECORD_DOUBLE, 2, (Py_ssize_t[]){(Py_ssize_t)written, 4}, spheres)
-                                 : raise_error(state, &error);
+        array = code == OVOID_OK
+                    ? array_copy(state, RECORD_DOUBLE, 2, (Py_ssize_t[]){(Py_ssize_t)cover.count, 4}, spheres)
+                    : raise_error(state, &error);
     free(spheres);
-    return array ? Py_BuildValue("N(dd)", array, depth.lower, depth.upper) : NULL;
+    return array ? Py_BuildValue("N(dd)", array, cover.depth.lower, cover.depth.upper) : NULL;
 }
 
 // ---- a robot of spheres
@@ -120,7 +120,8 @@ static PyObject *with_spheres(PyObject *object, PyObject *given) {
     while (spheres && read < count && !read_sphere(self, PyTuple_GetItem(list, read), &spheres[read])) read++;
     if (spheres && read == count) {
         ovoid_error error;
-        ovoid_robot *robot = ovoid_robot_create_from_spheres(self->robot, spheres, (size_t)count, NULL, &error);
+        ovoid_robot *robot = ovoid_robot_create_from_spheres(
+            self->robot, &(ovoid_robot_link_spheres){spheres, (size_t)count}, NULL, &error);
         made = wrap_owner(Py_TYPE(object), robot, &error);
     }
     free(spheres);

@@ -94,7 +94,8 @@ static PyObject *add(PyObject *object, PyObject *arguments, PyObject *keywords) 
     PyObject *body, *pose = NULL;
     ovoid_world_body made = {0};
     ovoid_error error;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|O$II:add", names, &body, &pose, &made.group, &made.mask) ||
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|O$II:add", names, &body, &pose, &made.groups.group,
+                                     &made.groups.mask) ||
         probe_read(state, body, pose, &made) || world_enter(self, 1))
         return NULL;
     ovoid_id id = ovoid_world_add(self->world, &made, &error);
@@ -117,8 +118,8 @@ static ovoid_world_body *read_many(module_state *state, PyObject *bodies, const 
             return NULL;
         }
         made[i].body.pose = poses[i];
-        made[i].group = group;
-        made[i].mask = mask;
+        made[i].groups.group = group;
+        made[i].groups.mask = mask;
     }
     return made;
 }
@@ -130,7 +131,7 @@ static PyObject *add_all(world_object *self, PyObject *bodies, ovoid_world_body 
     ovoid_error error;
     PyObject *array = array_make(state, RECORD_UINT64, 1, &count, &ids);
     if (!array) return NULL;
-    ovoid_code code = ovoid_world_add_many(self->world, made, (size_t)count, ids, &error);
+    ovoid_code code = ovoid_world_add_many(self->world, &(ovoid_world_additions){made, (size_t)count, ids}, &error);
     if (code != OVOID_OK) {
         Py_DECREF(array);
         return raise_error(state, &error);
@@ -234,7 +235,7 @@ static PyObject *move_many(PyObject *object, PyObject *arguments, PyObject *keyw
     int failed = items_read(state, given, "ids", 1, &count, 'q', &ids) || world_enter(self, 1);
     if (!failed) {
         Py_BEGIN_ALLOW_THREADS;
-        ovoid_world_move_many(self->world, ids.data, poses, (size_t)count, &error);
+        ovoid_world_move_many(self->world, &(ovoid_world_moves){ids.data, poses, (size_t)count}, &error);
         Py_END_ALLOW_THREADS;
         world_leave(self, 1);
     }
@@ -311,7 +312,7 @@ static PyObject *set_groups(PyObject *object, PyObject *arguments) {
     ovoid_error error;
     if (!PyArg_ParseTuple(arguments, "O&II:set_groups", id_read, &id, &group, &mask) || world_enter(self, 1))
         return NULL;
-    ovoid_code code = ovoid_world_set_groups(self->world, id, group, mask, &error);
+    ovoid_code code = ovoid_world_set_groups(self->world, id, (ovoid_groups){group, mask}, &error);
     world_leave(self, 1);
     return none_or_raise(state_of(object), code, &error);
 }
@@ -323,7 +324,8 @@ static PyObject *set_ignored(PyObject *object, PyObject *arguments) {
     ovoid_error error;
     if (!PyArg_ParseTuple(arguments, "O&O&|p:set_ignored", id_read, &a, id_read, &b, &ignored) || world_enter(self, 1))
         return NULL;
-    ovoid_code code = ovoid_world_set_ignored(self->world, a, b, ignored, &error);
+    ovoid_code code = ignored ? ovoid_world_add_ignored(self->world, a, b, &error)
+                              : ovoid_world_remove_ignored(self->world, a, b, &error);
     world_leave(self, 1);
     return none_or_raise(state_of(object), code, &error);
 }
@@ -414,12 +416,14 @@ static PyObject *fill_proof(world_object *self, const ovoid_contact *contact, an
         cover.point_count = 0;
         ovoid_exclusions exclusions = {grown, capacity, 0, &cover};
         ovoid_code code = OVOID_OK;
-        if (grown) code = ovoid_world_compute_proof(self->world, contact, &exclusions, &made->of, &error);
+        ovoid_contact_proof proof = {.exclusions = &exclusions};
+        if (grown) code = ovoid_world_compute_proof(self->world, contact, &proof, &error);
         if (code != OVOID_OK) raise_error(state_of((PyObject *)self), &error);
         if (!grown || code != OVOID_OK) {
             Py_CLEAR(made);
         } else if (exclusions.count <= capacity) {
             made->exclusion_count = exclusions.count;
+            made->of = proof.answer;
             made->options = self->asked;
             if (answer_keep_cover(made, &cover)) Py_CLEAR(made);
             break;

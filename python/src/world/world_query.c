@@ -60,7 +60,7 @@ static PyObject *nearest(PyObject *object, PyObject *arguments, PyObject *keywor
         query_keywords_validate(state, &k) || world_enter(self, 0))
         return NULL;
     Py_BEGIN_ALLOW_THREADS;
-    code = ovoid_world_find_nearest(self->world, id, &k.options, &hit, &error);
+    code = ovoid_world_find_nearest(self->world, &(ovoid_world_query){.id = id, .options = &k.options}, &hit, &error);
     Py_END_ALLOW_THREADS;
     PyObject *made =
         code == OVOID_OK ? hit_make(self, &hit, &(hits_query){NULL, NULL, &k.options}) : raise_error(state, &error);
@@ -79,11 +79,12 @@ static PyObject *nearest_to(PyObject *object, PyObject *arguments, PyObject *key
     ovoid_error error;
     ovoid_code code;
     if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|O$II" QUERY_FORMAT ":nearest_to", names, &body, &pose,
-                                     &probe.group, &probe.mask, QUERY_TARGETS(k)) ||
+                                     &probe.groups.group, &probe.groups.mask, QUERY_TARGETS(k)) ||
         probe_read(state, body, pose, &probe) || query_keywords_validate(state, &k) || world_enter(self, 0))
         return NULL;
     Py_BEGIN_ALLOW_THREADS;
-    code = ovoid_world_find_nearest_to(self->world, &probe, &k.options, &hit, &error);
+    code = ovoid_world_find_nearest(self->world, &(ovoid_world_query){.probe = &probe, .options = &k.options}, &hit,
+                                    &error);
     Py_END_ALLOW_THREADS;
     PyObject *probes = PyTuple_Pack(1, body), *made = NULL;
     if (code != OVOID_OK)
@@ -132,7 +133,7 @@ static PyObject *find_any(PyObject *object, PyObject *arguments) {
         return NULL;
     }
     Py_BEGIN_ALLOW_THREADS;
-    code = ovoid_world_find_any(self->world, ids.data, (size_t)ids.shape[0], NULL, &hit, &error);
+    code = ovoid_world_find_any(self->world, &(ovoid_world_ids){ids.data, (size_t)ids.shape[0]}, &hit, &error);
     Py_END_ALLOW_THREADS;
     PyObject *made =
         code == OVOID_OK ? hit_make(self, &hit, &(hits_query){NULL, NULL, NULL}) : raise_error(state, &error);
@@ -173,8 +174,7 @@ static PyObject *find_any_among(world_object *self, PyObject *bodies, const ovoi
         ovoid_error error;
         ovoid_code code;
         Py_BEGIN_ALLOW_THREADS;
-        code = of->couples ? ovoid_world_find_any_of(self->world, of, &hit, &error)
-                           : ovoid_world_find_any_to(self->world, probes, (size_t)count, &hit, &error);
+        code = ovoid_world_find_any_of(self->world, of, &hit, &error);
         Py_END_ALLOW_THREADS;
         made =
             code == OVOID_OK ? hit_make(self, &hit, &(hits_query){bodies, probes, NULL}) : raise_error(state, &error);
@@ -230,10 +230,10 @@ static PyObject *find_any_of(PyObject *object, PyObject *arguments, PyObject *ke
 // ---- all within a margin
 
 static PyObject *make_hits(world_object *self, const ovoid_world_hits *hits, PyObject *body,
-                           const ovoid_world_body *probe) {
+                           const ovoid_world_query *of) {
     PyObject *probes = PyTuple_Pack(1, body);
     PyObject *list = probes ? PyList_New(0) : NULL;
-    const hits_query query = {probes, probe, hits->options};
+    const hits_query query = {probes, of->probe, of->options};
     for (size_t i = 0; list && i < hits->count; i++) {
         PyObject *hit = hit_make(self, &hits->items[i], &query);
         if (!hit || PyList_Append(list, hit)) Py_CLEAR(list);
@@ -243,10 +243,9 @@ static PyObject *make_hits(world_object *self, const ovoid_world_hits *hits, PyO
     return list;
 }
 
-static PyObject *find_overlaps(world_object *self, PyObject *body, const ovoid_world_body *probe, double margin,
-                               const ovoid_options *options) {
+static PyObject *find_overlaps(world_object *self, PyObject *body, const ovoid_world_query *of) {
     module_state *state = state_of((PyObject *)self);
-    ovoid_world_hits hits = {.capacity = 16, .options = options};
+    ovoid_world_hits hits = {.capacity = 16};
     PyObject *made = NULL;
     for (;;) {
         ovoid_world_hit *grown = realloc(hits.items, hits.capacity * sizeof *grown);
@@ -258,14 +257,14 @@ static PyObject *find_overlaps(world_object *self, PyObject *body, const ovoid_w
         ovoid_error error;
         ovoid_code code;
         Py_BEGIN_ALLOW_THREADS;
-        code = ovoid_world_find_overlaps(self->world, probe, margin, &hits, &error);
+        code = ovoid_world_find_overlaps(self->world, of, &hits, &error);
         Py_END_ALLOW_THREADS;
         if (code != OVOID_OK) {
             raise_error(state, &error);
             break;
         }
         if (hits.count <= hits.capacity) {
-            made = make_hits(self, &hits, body, probe);
+            made = make_hits(self, &hits, body, of);
             break;
         }
         hits.capacity = hits.count;
@@ -283,10 +282,11 @@ static PyObject *overlaps(PyObject *object, PyObject *arguments, PyObject *keywo
     double margin = 0;
     ovoid_world_body probe = {0};
     if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|O$dII" QUERY_FORMAT ":overlaps", names, &body, &pose,
-                                     &margin, &probe.group, &probe.mask, QUERY_TARGETS(k)) ||
+                                     &margin, &probe.groups.group, &probe.groups.mask, QUERY_TARGETS(k)) ||
         probe_read(state, body, pose, &probe) || query_keywords_validate(state, &k) || world_enter(self, 0))
         return NULL;
-    PyObject *made = find_overlaps(self, body, &probe, margin, &k.options);
+    PyObject *made =
+        find_overlaps(self, body, &(ovoid_world_query){.probe = &probe, .margin = margin, .options = &k.options});
     world_leave(self, 0);
     return made;
 }
@@ -312,7 +312,7 @@ static PyObject *cast_ray(PyObject *object, PyObject *arguments, PyObject *keywo
     ovoid_world_cast cast;
     ovoid_error error;
     if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OO|d$dII:cast_ray", names, &origin, &direction,
-                                     &ray.ray.length, &ray.ray.radius, &ray.group, &ray.mask) ||
+                                     &ray.ray.length, &ray.ray.radius, &ray.groups.group, &ray.groups.mask) ||
         vec3_read(state, origin, "origin", &ray.ray.origin) ||
         vec3_read(state, direction, "direction", &ray.ray.direction) || world_enter(self, 0))
         return NULL;
@@ -331,13 +331,13 @@ static PyObject *cast_body(PyObject *object, PyObject *arguments, PyObject *keyw
     ovoid_world_cast cast;
     ovoid_error error;
     ovoid_code code;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OOO|$II:cast_body", names, &body, &pose, &way, &probe.group,
-                                     &probe.mask) ||
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OOO|$II:cast_body", names, &body, &pose, &way,
+                                     &probe.groups.group, &probe.groups.mask) ||
         probe_read(state, body, pose, &probe) || vec3_read(state, way, "displacement", &displacement) ||
         world_enter(self, 0))
         return NULL;
     Py_BEGIN_ALLOW_THREADS;
-    code = ovoid_world_cast_body(self->world, &probe, displacement, &cast, &error);
+    code = ovoid_world_cast_body(self->world, &(ovoid_world_sweep){probe, displacement}, &cast, &error);
     Py_END_ALLOW_THREADS;
     world_leave(self, 0);
     return code == OVOID_OK ? make_cast(state, &cast) : raise_error(state, &error);

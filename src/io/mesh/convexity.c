@@ -43,9 +43,8 @@ static ovoid_code compare(const ovoid_faces *faces, const ovoid_shape *hull, ovo
     return why.code;
 }
 
-ovoid_code ovoid_mesh_compute_convexity(const ovoid_mesh *mesh, size_t part, const ovoid_shape *hull,
-                                        ovoid_convexity *convexity, ovoid_error *error) {
-    ovoid_faces faces = ovoid_mesh_get_part(mesh, part).faces;
+ovoid_code ovoid_mesh_part_compute_convexity(const ovoid_mesh_part *part, const ovoid_shape *hull,
+                                             ovoid_convexity *convexity, ovoid_error *error) {
     *convexity = (ovoid_convexity){.mesh_volume = NAN, .hull_volume = ovoid_shape_get_measures(hull).volume};
-    return faces.face_count ? compare(&faces, hull, convexity, error) : OVOID_OK;
+    return part->faces.face_count ? compare(&part->faces, hull, convexity, error) : OVOID_OK;
 }

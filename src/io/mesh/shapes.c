@@ -22,7 +22,7 @@ static ovoid_shape *read_shape_bytes(const char *path, const ovoid_read_options 
     }
     bytes file;
     if (bytes_read(path, &file, error)) return NULL;
-    ovoid_shape *shape = ovoid_shape_read(file.data, file.size, options ? options->allocator : NULL, error);
+    ovoid_shape *shape = ovoid_shape_read(file.data, file.size, options, error);
     free(file.data);
     if (!shape) io_prefix_path(error, path);
     return shape;
@@ -52,10 +52,10 @@ static int allow(mesh_hull *hull, const hull_options *o, ovoid_error *error) {
         hull->convexity.allowance = 0;
         return 1;
     }
-    ovoid_allowance allowance = ovoid_shape_get_allowance(hull->shape);
-    allowance.inside = nextafter(allowance.inside + hull->convexity.allowance, INFINITY);
-    ovoid_shape *allowed =
-        ovoid_shape_create_allowed(hull->shape, allowance, o->shape ? o->shape->allocator : NULL, error);
+    ovoid_shape_options options = {.allowance = ovoid_shape_get_allowance(hull->shape),
+                                   .allocator = o->shape ? o->shape->allocator : NULL};
+    options.allowance.inside = nextafter(options.allowance.inside + hull->convexity.allowance, INFINITY);
+    ovoid_shape *allowed = ovoid_shape_create_allowed(hull->shape, &options, error);
     if (!allowed) return 0;
     ovoid_shape_destroy(hull->shape);
     hull->shape = allowed;
@@ -74,12 +74,13 @@ static void mesh_hull_clear(mesh_hull *hull) {
 
 static mesh_hull hull_of_part(const ovoid_mesh *mesh, size_t i, const hull_options *o, const char *path,
                               ovoid_error *error) {
-    ovoid_faces faces = ovoid_mesh_get_part(mesh, i).faces;
+    ovoid_mesh_part part = ovoid_mesh_get_part(mesh, i);
+    ovoid_faces faces = part.faces;
     mesh_hull hull = {ovoid_shape_create_from_points(faces.vertices, faces.vertex_count, o->shape, error), no_mesh,
                       NULL};
     int is_made = hull.shape != NULL;
     if (is_made && o->is_compared) {
-        is_made = ovoid_mesh_compute_convexity(mesh, i, hull.shape, &hull.convexity, error) == OVOID_OK;
+        is_made = ovoid_mesh_part_compute_convexity(&part, hull.shape, &hull.convexity, error) == OVOID_OK;
         if (is_made && wants_triangles(o, hull.convexity.kind))
             is_made = (hull.solid = ovoid_mesh_create_solid(mesh, i, error)) != NULL;
         is_made = is_made && allow(&hull, o, error);
@@ -235,7 +236,7 @@ ovoid_shapes *ovoid_shapes_read_file(const char *path, const ovoid_read_options 
     return NULL;
 }
 
-ovoid_compound *ovoid_shapes_create_compound(const ovoid_shapes *shapes, const ovoid_allocator *allocator,
+ovoid_compound *ovoid_shapes_create_compound(const ovoid_shapes *shapes, const ovoid_compound_options *options,
                                              ovoid_error *error) {
     ovoid_posed_shape *parts = malloc((shapes->count + 1) * sizeof *parts);
     if (!parts) {
@@ -244,7 +245,7 @@ ovoid_compound *ovoid_shapes_create_compound(const ovoid_shapes *shapes, const o
     }
     for (size_t i = 0; i < shapes->count; i++)
         parts[i] = (ovoid_posed_shape){shapes->entries[i].hull.shape, ovoid_pose_make_identity()};
-    ovoid_compound *compound = ovoid_compound_create(parts, shapes->count, allocator, error);
+    ovoid_compound *compound = ovoid_compound_create(parts, shapes->count, options, error);
     free(parts);
     return compound;
 }

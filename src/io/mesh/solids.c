@@ -80,8 +80,8 @@ ovoid_solid *ovoid_mesh_create_solid(const ovoid_mesh *mesh, size_t part, ovoid_
     size_t count;
     uint32_t *triangles = mesh_cut_polygons(&faces, &count, error);
     if (!triangles) return NULL;
-    ovoid_solid *solid =
-        ovoid_solid_create_from_triangles(faces.vertices, faces.vertex_count, triangles, count, NULL, error);
+    const ovoid_triangles given = {faces.vertices, faces.vertex_count, triangles, count};
+    ovoid_solid *solid = ovoid_solid_create_from_triangles(&given, NULL, error);
     free(triangles);
     return solid;
 }

@@ -97,9 +97,10 @@ static ovoid_shape *make_round(scene_reader *r, const geometry *g) {
         return NULL;
     }
     if (tolerance == 0) tolerance = compute_tolerance(radius, sides);
-    ovoid_shape *shape = strcmp(g->kind, "cone") == 0
-                             ? ovoid_shape_create_cone(radius, length / 2, tolerance, &g->options, &why)
-                             : ovoid_shape_create_cylinder(radius, length / 2, tolerance, &g->options, &why);
+    ovoid_shape_options options = g->options;
+    options.tolerance = tolerance;
+    ovoid_shape *shape = strcmp(g->kind, "cone") == 0 ? ovoid_shape_create_cone(radius, length / 2, &options, &why)
+                                                      : ovoid_shape_create_cylinder(radius, length / 2, &options, &why);
     return name_failure(r, g, shape, &why);
 }
 
@@ -168,7 +169,7 @@ static ovoid_code read_mesh(scene_reader *r, const geometry *g, scene_body *body
         body->shape = ovoid_shapes_get(body->parts, 0).shape;
         return take_solid(r, g, body);
     }
-    body->compound = ovoid_shapes_create_compound(body->parts, g->options.allocator, &why);
+    body->compound = ovoid_shapes_create_compound(body->parts, &(ovoid_compound_options){g->options.allocator}, &why);
     return body->compound ? OVOID_OK : fail_mesh(r, &why);
 }
 
@@ -218,7 +219,8 @@ static ovoid_code make_compound(scene_reader *r, const geometry *g, scene_body *
     }
     r->part = NO_PART;
     ovoid_error why = {OVOID_OK, -1, ""};
-    if (!code) body->compound = ovoid_compound_create(list.items, list.count, g->options.allocator, &why);
+    const ovoid_compound_options options = {g->options.allocator};
+    if (!code) body->compound = ovoid_compound_create(list.items, list.count, &options, &why);
     free(list.items);
     if (code || body->compound) return code;
     return scene_fail_member(r, why.code, "compound", why.message);

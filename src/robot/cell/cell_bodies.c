@@ -90,9 +90,9 @@ static ovoid_robot_cell *create(const ovoid_robot *robot, const ovoid_allocator 
     return NULL;
 }
 
-ovoid_robot_cell *ovoid_robot_cell_create(const ovoid_robot *robot, const ovoid_allocator *allocator,
+ovoid_robot_cell *ovoid_robot_cell_create(const ovoid_robot *robot, const ovoid_robot_cell_options *options,
                                           ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_robot_cell *, robot, create(robot, allocator, error));
+    ENVIRONMENT_RETURN(ovoid_robot_cell *, robot, create(robot, options ? options->allocator : NULL, error));
 }
 
 static void release_hull(cell_body *b) {
@@ -178,9 +178,11 @@ static void forget_allowed(ovoid_robot_cell *c, uint32_t slot) {
     c->allowed_bodies.count = kept;
 }
 
-static ovoid_id add(ovoid_robot_cell *c, uint32_t link, const ovoid_body *body, const uint32_t *touching, size_t count,
-                    ovoid_error *error) {
-    uint32_t slot = 0;
+static ovoid_id add(ovoid_robot_cell *c, const ovoid_robot_attachment *given, ovoid_error *error) {
+    const ovoid_body *body = &given->body;
+    const uint32_t *touching = given->touching;
+    size_t count = given->touching_count;
+    uint32_t slot = 0, link = given->link;
     ovoid_shape *hull;
     ovoid_code code = validate_body(body, error);
     if (code != OVOID_OK) return 0;
@@ -211,7 +213,8 @@ static ovoid_id add(ovoid_robot_cell *c, uint32_t link, const ovoid_body *body, 
 }
 
 ovoid_id ovoid_robot_cell_add(ovoid_robot_cell *cell, const ovoid_body *body, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_id, cell, add(cell, OVOID_ROBOT_NONE, body, NULL, 0, error));
+    const ovoid_robot_attachment obstacle = {.link = OVOID_ROBOT_NONE, .body = *body};
+    ENVIRONMENT_RETURN(ovoid_id, cell, add(cell, &obstacle, error));
 }
 
 static ovoid_code validate_link(const ovoid_robot_cell *c, uint32_t link, ovoid_error *error) {
@@ -219,10 +222,9 @@ static ovoid_code validate_link(const ovoid_robot_cell *c, uint32_t link, ovoid_
     return error_set(error, OVOID_ERROR_INDEX, -1, "there is no link %u, but %u", link, c->robot->link_count);
 }
 
-ovoid_id ovoid_robot_cell_attach(ovoid_robot_cell *cell, uint32_t link, const ovoid_body *body,
-                                 const uint32_t *touching, size_t count, ovoid_error *error) {
-    if (validate_link(cell, link, error) != OVOID_OK) return 0;
-    ENVIRONMENT_RETURN(ovoid_id, cell, add(cell, link, body, touching, count, error));
+ovoid_id ovoid_robot_cell_attach(ovoid_robot_cell *cell, const ovoid_robot_attachment *attachment, ovoid_error *error) {
+    if (validate_link(cell, attachment->link, error) != OVOID_OK) return 0;
+    ENVIRONMENT_RETURN(ovoid_id, cell, add(cell, attachment, error));
 }
 
 // 1 if the id is of a body that is there.
@@ -275,7 +277,8 @@ ovoid_code ovoid_robot_cell_move(ovoid_robot_cell *cell, ovoid_id id, const ovoi
 
 // ---- pairs and paddings
 
-static ovoid_code set_allowed(ovoid_robot_cell *c, uint32_t a, uint32_t b, int allowed, ovoid_error *error) {
+static ovoid_code set_allowed(ovoid_robot_cell *c, ovoid_couple links, int allowed, ovoid_error *error) {
+    uint32_t a = links.a, b = links.b;
     ovoid_code code = validate_link(c, a, error);
     if (code == OVOID_OK) code = validate_link(c, b, error);
     if (code == OVOID_OK && a == b)
@@ -286,17 +289,27 @@ static ovoid_code set_allowed(ovoid_robot_cell *c, uint32_t a, uint32_t b, int a
     return cell_compile(c, error);
 }
 
-ovoid_code ovoid_robot_cell_set_allowed(ovoid_robot_cell *cell, uint32_t a, uint32_t b, int allowed,
-                                        ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, cell, set_allowed(cell, a, b, allowed, error));
+ovoid_code ovoid_robot_cell_add_allowed(ovoid_robot_cell *cell, uint32_t a, uint32_t b, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, cell, set_allowed(cell, (ovoid_couple){a, b}, 1, error));
 }
 
-static ovoid_code set_body_allowed(ovoid_robot_cell *c, ovoid_id id, uint32_t link, int allowed, ovoid_error *error) {
-    ovoid_code code = validate_link(c, link, error);
+ovoid_code ovoid_robot_cell_remove_allowed(ovoid_robot_cell *cell, uint32_t a, uint32_t b, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, cell, set_allowed(cell, (ovoid_couple){a, b}, 0, error));
+}
+
+// A body of the cell and a link.
+typedef struct body_and_link {
+    ovoid_id id;
+    uint32_t link;
+} body_and_link;
+
+static ovoid_code set_body_allowed(ovoid_robot_cell *c, body_and_link pair, int allowed, ovoid_error *error) {
+    ovoid_code code = validate_link(c, pair.link, error);
     if (code != OVOID_OK) return code;
-    const cell_body *b = find_body(c, id, error);
+    const cell_body *b = find_body(c, pair.id, error);
     if (!b) return OVOID_ERROR_INDEX;
-    code = keys_set(&c->allocator, &c->allowed_bodies, cell_make_key((uint32_t)(id >> 32), link), allowed);
+    uint64_t key = cell_make_key((uint32_t)(pair.id >> 32), pair.link);
+    code = keys_set(&c->allocator, &c->allowed_bodies, key, allowed);
     if (code != OVOID_OK) return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for a pair");
     if (b->link != OVOID_ROBOT_NONE || !c->is_whole) return cell_compile(c, error);
     // The links that are allowed to touch an obstacle change nothing in the arrays.
@@ -304,9 +317,13 @@ static ovoid_code set_body_allowed(ovoid_robot_cell *c, ovoid_id id, uint32_t li
     return OVOID_OK;
 }
 
-ovoid_code ovoid_robot_cell_set_body_allowed(ovoid_robot_cell *cell, ovoid_id id, uint32_t link, int allowed,
-                                             ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, id, set_body_allowed(cell, id, link, allowed, error));
+ovoid_code ovoid_robot_cell_add_body_allowed(ovoid_robot_cell *cell, ovoid_id id, uint32_t link, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, id, set_body_allowed(cell, (body_and_link){id, link}, 1, error));
+}
+
+ovoid_code ovoid_robot_cell_remove_body_allowed(ovoid_robot_cell *cell, ovoid_id id, uint32_t link,
+                                                ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, id, set_body_allowed(cell, (body_and_link){id, link}, 0, error));
 }
 
 ovoid_code ovoid_robot_cell_set_padding(ovoid_robot_cell *cell, uint32_t link, double padding, ovoid_error *error) {

@@ -147,9 +147,9 @@ static ovoid_robot_checker *create(const ovoid_robot_cell *cell, const ovoid_all
     return NULL;
 }
 
-ovoid_robot_checker *ovoid_robot_checker_create(const ovoid_robot_cell *cell, const ovoid_allocator *allocator,
-                                                ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_robot_checker *, cell, create(cell, allocator, error));
+ovoid_robot_checker *ovoid_robot_checker_create(const ovoid_robot_cell *cell,
+                                                const ovoid_robot_checker_options *options, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_robot_checker *, cell, create(cell, options ? options->allocator : NULL, error));
 }
 
 static void destroy(ovoid_robot_checker *checker) {

@@ -136,19 +136,19 @@ int collide_state(ovoid_robot_checker *checker, const double *q, const ovoid_rob
     return code == OVOID_OK;
 }
 
-static ovoid_code collide(ovoid_robot_checker *checker, const double *q, const ovoid_robot_query_options *options,
-                          ovoid_robot_answer *answer, ovoid_error *error) {
-    if (!options) options = &no_options;
+static ovoid_code collide(ovoid_robot_checker *checker, const ovoid_robot_query *query, ovoid_robot_answer *answer,
+                          ovoid_error *error) {
+    const ovoid_robot_query_options *options = query->options ? query->options : &no_options;
     *answer = (ovoid_robot_answer){.lower = -INFINITY, .upper = INFINITY};
     ovoid_code code = query_options_validate(options, error);
     if (code == OVOID_OK) code = checker_renew(checker, error);
-    if (code == OVOID_OK) (void)collide_state(checker, q, options, answer);
+    if (code == OVOID_OK) (void)collide_state(checker, query->q, options, answer);
     return code;
 }
 
-ovoid_code ovoid_robot_collide(ovoid_robot_checker *checker, const double *q, const ovoid_robot_query_options *options,
-                               ovoid_robot_answer *answer, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, checker, collide(checker, q, options, answer, error));
+ovoid_code ovoid_robot_collide(ovoid_robot_checker *checker, const ovoid_robot_query *query, ovoid_robot_answer *answer,
+                               ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, checker, collide(checker, query, answer, error));
 }
 
 void collide_block(ovoid_robot_checker *checker, const ovoid_robot_batch *batch, size_t first, size_t end) {

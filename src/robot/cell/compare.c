@@ -26,8 +26,8 @@ static ovoid_code take_missed(const ovoid_robot_comparison_batch *batch, size_t 
     size_t variables = batch->robot->cell->robot->variable_count;
     ovoid_robot_near near;
     ovoid_robot_nears nears = {.items = &near, .capacity = 1};
-    ovoid_code code =
-        ovoid_robot_find_nearest(batch->robot, batch->q + state * variables, batch->options, &nears, error);
+    ovoid_code code = ovoid_robot_find_nearest(
+        batch->robot, &(ovoid_robot_query){batch->q + state * variables, batch->options}, &nears, error);
     if (code != OVOID_OK || nears.count == 0) return code;
     if (sum->counts[OVOID_ROBOT_COMPARED_MISSED] && near.upper >= sum->deepest.upper) return OVOID_OK;
     sum->deepest = near;

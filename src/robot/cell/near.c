@@ -86,17 +86,25 @@ static int ask_pair(void *context, const checker_pair *p, pair_name name) {
     return 1;
 }
 
-static ovoid_code find(ovoid_robot_checker *checker, const double *q, const ovoid_robot_query_options *options,
-                       ovoid_robot_nears *nears, int wants_one, ovoid_error *error) {
+static const ovoid_robot_query_options *get_options(const ovoid_robot_query *query) {
     static const ovoid_robot_query_options none = {0, 0, 0, 0};
-    if (!options) options = &none;
+    return query->options ? query->options : &none;
+}
+
+// Places the state of a query, where there is room for what it finds.
+static ovoid_code place(ovoid_robot_checker *checker, const ovoid_robot_query *query, ovoid_robot_nears *nears,
+                        ovoid_error *error) {
     nears->count = 0;
-    if ((wants_one || nears->capacity) && (!nears->items || nears->capacity == 0))
+    if (nears->capacity && !nears->items)
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "there is no room for near pairs");
-    ovoid_code code = query_options_validate(options, error);
+    ovoid_code code = query_options_validate(get_options(query), error);
     if (code == OVOID_OK) code = checker_renew(checker, error);
-    if (code == OVOID_OK) code = checker_place(checker, q, options->limit_slack, error);
-    if (code != OVOID_OK) return code;
+    return code == OVOID_OK ? checker_place(checker, query->q, get_options(query)->limit_slack, error) : code;
+}
+
+static void find(ovoid_robot_checker *checker, const ovoid_robot_query *query, ovoid_robot_nears *nears,
+                 int wants_one) {
+    const ovoid_robot_query_options *options = get_options(query);
     near_list list = {.items = nears->items,
                       .gradients = nears->gradients,
                       .variables = checker->cell->robot->variable_count,
@@ -104,22 +112,34 @@ static ovoid_code find(ovoid_robot_checker *checker, const double *q, const ovoi
                       .capacity = wants_one ? 1 : nears->capacity,
                       .keys = checker->near_keys,
                       .scratch = checker->near_keys + checker_count_pairs(checker)};
-    near_search s = {checker, q, list, options->margin, wants_one, nears->without_depths && !wants_one};
+    near_search s = {checker, query->q, list, options->margin, wants_one, nears->without_depths && !wants_one};
     checker_search search = {checker, options, &s.margin, ask_pair, &s, !wants_one};
     checker_find_pairs(&search);
     near_list_sort(&s.list);
     nears->count = wants_one ? s.list.kept : s.list.found;
-    return OVOID_OK;
 }
 
-ovoid_code ovoid_robot_find_near(ovoid_robot_checker *checker, const double *q,
-                                 const ovoid_robot_query_options *options, ovoid_robot_nears *nears,
+static ovoid_code find_near(ovoid_robot_checker *checker, const ovoid_robot_query *query, ovoid_robot_nears *nears,
+                            ovoid_error *error) {
+    ovoid_code code = place(checker, query, nears, error);
+    if (code == OVOID_OK) find(checker, query, nears, 0);
+    return code;
+}
+
+static ovoid_code find_nearest(ovoid_robot_checker *checker, const ovoid_robot_query *query, ovoid_robot_nears *nears,
+                               ovoid_error *error) {
+    if (nears->capacity == 0) return error_set(error, OVOID_ERROR_ARGUMENT, -1, "there is no room for a near pair");
+    ovoid_code code = place(checker, query, nears, error);
+    if (code == OVOID_OK) find(checker, query, nears, 1);
+    return code;
+}
+
+ovoid_code ovoid_robot_find_near(ovoid_robot_checker *checker, const ovoid_robot_query *query, ovoid_robot_nears *nears,
                                  ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, checker, find(checker, q, options, nears, 0, error));
+    ENVIRONMENT_RETURN(ovoid_code, checker, find_near(checker, query, nears, error));
 }
 
-ovoid_code ovoid_robot_find_nearest(ovoid_robot_checker *checker, const double *q,
-                                    const ovoid_robot_query_options *options, ovoid_robot_nears *nears,
-                                    ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, checker, find(checker, q, options, nears, 1, error));
+ovoid_code ovoid_robot_find_nearest(ovoid_robot_checker *checker, const ovoid_robot_query *query,
+                                    ovoid_robot_nears *nears, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, checker, find_nearest(checker, query, nears, error));
 }

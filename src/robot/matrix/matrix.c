@@ -166,7 +166,8 @@ static ovoid_code fill_with_cell(matrix_work *w, const ovoid_robot *robot, ovoid
     all.disabled = NULL, all.disabled_count = 0;
     ovoid_error why = {.code = OVOID_OK};
     ovoid_robot *copy = ovoid_robot_create(&all, &(ovoid_robot_options){.allocator = &w->allocator}, &why);
-    ovoid_robot_cell *cell = copy ? ovoid_robot_cell_create(copy, &w->allocator, &why) : NULL;
+    ovoid_robot_cell *cell =
+        copy ? ovoid_robot_cell_create(copy, &(ovoid_robot_cell_options){&w->allocator}, &why) : NULL;
     ovoid_code code = why.code;
     if (cell) {
         w->cell = cell;
@@ -180,12 +181,12 @@ static ovoid_code fill_with_cell(matrix_work *w, const ovoid_robot *robot, ovoid
 }
 
 static ovoid_robot_matrix *create(const ovoid_robot *robot, const ovoid_robot_matrix_options *options,
-                                  const ovoid_allocator *allocator, ovoid_error *error) {
+                                  ovoid_error *error) {
     if (!robot) {
         error_write(error, OVOID_ERROR_ARGUMENT, -1, "a matrix needs a robot");
         return NULL;
     }
-    matrix_work w = {.allocator = allocator_make(allocator)};
+    matrix_work w = {.allocator = allocator_make(options ? options->allocator : NULL)};
     if (options) w.options = *options;
     if (!w.options.samples) w.options.samples = SAMPLES;
     if (!w.options.budget) w.options.budget = BUDGET;
@@ -201,8 +202,8 @@ static ovoid_robot_matrix *create(const ovoid_robot *robot, const ovoid_robot_ma
 }
 
 ovoid_robot_matrix *ovoid_robot_matrix_create(const ovoid_robot *robot, const ovoid_robot_matrix_options *options,
-                                              const ovoid_allocator *allocator, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_robot_matrix *, robot, create(robot, options, allocator, error));
+                                              ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_robot_matrix *, robot, create(robot, options, error));
 }
 
 void ovoid_robot_matrix_destroy(ovoid_robot_matrix *matrix) {

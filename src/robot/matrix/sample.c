@@ -144,7 +144,7 @@ ovoid_code matrix_sample(matrix_work *w, ovoid_error *error) {
     s.unseen = allocator_allocate(memory, c->group_pairs.count, sizeof *s.unseen);
     s.owner = allocator_allocate(memory, c->pairs.count, sizeof *s.owner);
     s.q = allocator_allocate(memory, ROBOT8 * (size_t)c->robot->variable_count, sizeof *s.q);
-    s.checker = ovoid_robot_checker_create(c, memory, NULL);
+    s.checker = ovoid_robot_checker_create(c, &(ovoid_robot_checker_options){memory}, NULL);
     if (s.marks && s.unseen && s.owner && s.q && s.checker) {
         s.code = OVOID_OK;
         begin(&s);

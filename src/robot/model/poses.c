@@ -82,8 +82,7 @@ static void set_error(const ovoid_robot *r, uint32_t joint, double magnitude, co
     errors[s->child] = (ovoid_robot_pose_error){e.position, 2 * e.quaternion};
 }
 
-static ovoid_code compute_poses(const ovoid_robot *r, const double *q, ovoid_pose *poses,
-                                ovoid_robot_pose_error *errors, ovoid_error *error) {
+static ovoid_code compute_poses(const ovoid_robot *r, const double *q, ovoid_pose *poses, ovoid_error *error) {
     double magnitude = 0;
     poses[r->root] = (ovoid_pose){{0, 0, 0}, {1, 0, 0, 0}};
     for (uint32_t i = 0; i < r->joint_count; i++) {
@@ -101,15 +100,28 @@ static ovoid_code compute_poses(const ovoid_robot *r, const double *q, ovoid_pos
         step_apply(s, &parent, values, half, &child);
         poses[s->child] = (ovoid_pose){child.position, child.rotation};
     }
-    if (!errors) return OVOID_OK;
-    errors[r->root] = (ovoid_robot_pose_error){0, 0};
-    for (uint32_t i = 0; i < r->joint_count; i++) set_error(r, i, magnitude, poses, errors);
     return OVOID_OK;
 }
 
-ovoid_code ovoid_robot_compute_poses(const ovoid_robot *robot, const double *q, ovoid_pose *poses,
-                                     ovoid_robot_pose_error *errors, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, robot, compute_poses(robot, q, poses, errors, error));
+ovoid_code ovoid_robot_compute_poses(const ovoid_robot *robot, const double *q, ovoid_pose *poses, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, robot, compute_poses(robot, q, poses, error));
+}
+
+static void compute_pose_errors(const ovoid_robot *r, const double *q, const ovoid_pose *poses,
+                                ovoid_robot_pose_error *errors) {
+    double magnitude = 0;
+    for (uint32_t i = 0; i < r->joint_count; i++) {
+        double values[7];
+        uint32_t component;
+        (void)joint_compute_values(r, r->order[i], q, values, &magnitude, &component);
+    }
+    errors[r->root] = (ovoid_robot_pose_error){0, 0};
+    for (uint32_t i = 0; i < r->joint_count; i++) set_error(r, i, magnitude, poses, errors);
+}
+
+void ovoid_robot_compute_pose_errors(const ovoid_robot *robot, const double *q, const ovoid_pose *poses,
+                                     ovoid_robot_pose_error *errors) {
+    ENVIRONMENT_RUN(compute_pose_errors(robot, q, poses, errors));
 }
 
 // ---- many states
@@ -128,37 +140,38 @@ static void write_poses(const ovoid_robot *r, const frame8 *frames, uint32_t lan
     poses[r->root] = (ovoid_pose){{0, 0, 0}, {1, 0, 0, 0}};
 }
 
-static ovoid_code compute_group(const ovoid_robot *r, const double *q, size_t count, lane_group *g, ovoid_pose *poses,
+static ovoid_code compute_group(const ovoid_robot *r, const ovoid_robot_pose_batch *part, lane_group *g,
                                 ovoid_error *error) {
     for (size_t k = 0; k < ROBOT8; k++) {
         double magnitude;
-        const double *state = q + (k < count ? k : 0) * r->variable_count;
+        const double *state = part->q + (k < part->count ? k : 0) * r->variable_count;
         ovoid_code code = robot_compute_values(r, state, g->values[0] + k, ROBOT8, &magnitude, error);
         if (code != OVOID_OK) return code;
     }
     robot8_get_kernels()->chain(r->steps, r->joint_count, (const double(*)[ROBOT8])g->values, g->frames);
-    for (size_t k = 0; k < count; k++) write_poses(r, g->frames, (uint32_t)k, poses + k * r->link_count);
+    for (size_t k = 0; k < part->count; k++) write_poses(r, g->frames, (uint32_t)k, part->poses + k * r->link_count);
     return OVOID_OK;
 }
 
-static ovoid_code compute_poses_batch(const ovoid_robot *r, const double *q, size_t count, ovoid_pose *poses,
-                                      ovoid_error *error) {
+static ovoid_code compute_poses_batch(const ovoid_robot *r, const ovoid_robot_pose_batch *batch, ovoid_error *error) {
     lane_group g = {allocator_allocate(&r->allocator, (size_t)r->value_count + 1, sizeof *g.values),
                     allocator_allocate(&r->allocator, r->link_count, sizeof *g.frames)};
     ovoid_code code = OVOID_OK;
     if (!g.values || !g.frames) code = error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for eight states");
-    for (size_t i = 0; code == OVOID_OK && i < count; i += ROBOT8) {
-        size_t here = count - i < ROBOT8 ? count - i : ROBOT8;
-        code = compute_group(r, q + i * r->variable_count, here, &g, poses + i * r->link_count, error);
+    for (size_t i = 0; code == OVOID_OK && i < batch->count; i += ROBOT8) {
+        size_t rest = batch->count - i;
+        const ovoid_robot_pose_batch part = {batch->q + i * r->variable_count, rest < ROBOT8 ? rest : ROBOT8,
+                                             batch->poses + i * r->link_count};
+        code = compute_group(r, &part, &g, error);
     }
     allocator_release(&r->allocator, g.values);
     allocator_release(&r->allocator, g.frames);
     return code;
 }
 
-ovoid_code ovoid_robot_compute_poses_batch(const ovoid_robot *robot, const double *q, size_t count, ovoid_pose *poses,
+ovoid_code ovoid_robot_compute_poses_batch(const ovoid_robot *robot, const ovoid_robot_pose_batch *batch,
                                            ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, robot, compute_poses_batch(robot, q, count, poses, error));
+    ENVIRONMENT_RETURN(ovoid_code, robot, compute_poses_batch(robot, batch, error));
 }
 
 // ---- limits

@@ -389,9 +389,10 @@ static int is_side(const ovoid_robot_side *a, const ovoid_robot_side *b) {
 
 uint32_t path_find_number(const ovoid_robot_cell *cell, const ovoid_robot_side *a, const ovoid_robot_side *b) {
     size_t count = ovoid_robot_cell_get_pair_count(cell);
-    ovoid_robot_side p, q;
+    ovoid_robot_sides sides;
     for (size_t i = 0; i < count; i++)
-        if (ovoid_robot_cell_get_pair(cell, i, &p, &q, NULL) == OVOID_OK && is_side(&p, a) && is_side(&q, b))
+        if (ovoid_robot_cell_get_pair(cell, i, &sides, NULL) == OVOID_OK && is_side(&sides.a, a) &&
+            is_side(&sides.b, b))
             return (uint32_t)i;
     return OVOID_ROBOT_NONE;
 }

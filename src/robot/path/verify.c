@@ -244,13 +244,13 @@ size_t ovoid_robot_cell_get_pair_count(const ovoid_robot_cell *cell) {
     return cell->items.count * cell->parts.count + cell->pairs.count;
 }
 
-ovoid_code ovoid_robot_cell_get_pair(const ovoid_robot_cell *cell, size_t pair, ovoid_robot_side *a,
-                                     ovoid_robot_side *b, ovoid_error *error) {
+ovoid_code ovoid_robot_cell_get_pair(const ovoid_robot_cell *cell, size_t pair, ovoid_robot_sides *sides,
+                                     ovoid_error *error) {
     size_t count = ovoid_robot_cell_get_pair_count(cell);
     if (pair >= count)
         return error_set(error, OVOID_ERROR_INDEX, (int64_t)pair, "there is no pair %zu of %zu", pair, count);
     pair_parts of = pair_take_apart(cell, (uint32_t)pair);
-    *a = cell_items(cell)[of.item].side;
-    *b = of.part != OVOID_ROBOT_NONE ? cell_parts(cell)[of.part].side : cell_items(cell)[of.other].side;
+    sides->a = cell_items(cell)[of.item].side;
+    sides->b = of.part != OVOID_ROBOT_NONE ? cell_parts(cell)[of.part].side : cell_items(cell)[of.other].side;
     return OVOID_OK;
 }

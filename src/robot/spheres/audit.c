@@ -76,22 +76,21 @@ static ovoid_code validate_options(const ovoid_robot_audit_options *o, ovoid_err
     return OVOID_OK;
 }
 
-static ovoid_code compute_audit(const ovoid_robot *robot, uint32_t index, const ovoid_robot_sphere *spheres,
-                                size_t count, const ovoid_robot_audit_options *options, ovoid_robot_sphere_audit *audit,
-                                ovoid_error *error) {
+static ovoid_code compute_audit(const ovoid_robot_sphere_model *model, const ovoid_robot_audit_options *options,
+                                ovoid_robot_sphere_audit *audit, ovoid_error *error) {
     static const ovoid_robot_audit_options none;
     if (!options) options = &none;
-    if (!robot || !audit)
+    if (!model || !model->robot || !audit)
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "no robot, or no room for the audit (NULL)");
     ovoid_code code = validate_options(options, error);
-    if (code == OVOID_OK) code = spheres_validate(spheres, count, error);
+    if (code == OVOID_OK) code = spheres_validate(model->spheres, model->count, error);
     if (code != OVOID_OK) return code;
     ovoid_allocator memory = allocator_make(options->allocator);
     spheres_link link;
-    code = spheres_link_open(&link, robot, index, &memory, error);
+    code = spheres_link_open(&link, model->robot, model->link, &memory, error);
     if (code != OVOID_OK) return code;
     spheres_tree tree;
-    code = spheres_tree_open(&tree, spheres, count, &link, error);
+    code = spheres_tree_open(&tree, model->spheres, model->count, &link, error);
     if (code == OVOID_OK) {
         code = audit_link(&link, &tree, options, audit, error);
         spheres_tree_close(&tree);
@@ -100,8 +99,8 @@ static ovoid_code compute_audit(const ovoid_robot *robot, uint32_t index, const 
     return code;
 }
 
-ovoid_code ovoid_robot_compute_sphere_audit(const ovoid_robot *robot, uint32_t link, const ovoid_robot_sphere *spheres,
-                                            size_t count, const ovoid_robot_audit_options *options,
-                                            ovoid_robot_sphere_audit *audit, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, spheres, compute_audit(robot, link, spheres, count, options, audit, error));
+ovoid_code ovoid_robot_compute_sphere_audit(const ovoid_robot_sphere_model *model,
+                                            const ovoid_robot_audit_options *options, ovoid_robot_sphere_audit *audit,
+                                            ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, model, compute_audit(model, options, audit, error));
 }

@@ -247,53 +247,50 @@ static ovoid_code make_fewest(cover_work *m, size_t room, double excess, spheres
                      room, excess, best);
 }
 
-static ovoid_code cover_link(const spheres_link *link, const ovoid_robot_cover_options *o, ovoid_robot_sphere *spheres,
-                             size_t *count, ovoid_robot_bracket *bracket, ovoid_error *error) {
+static ovoid_code cover_link(const spheres_link *link, const ovoid_robot_cover_options *o,
+                             ovoid_robot_sphere_cover *cover, ovoid_error *error) {
     cover_work m = {.moves = o->rounds ? o->rounds : MOVES, .seed = o->seed};
-    ovoid_code code = open_work(&m, link, *count, error);
+    ovoid_code code = open_work(&m, link, cover->capacity, error);
     if (code != OVOID_OK) return code;
     m.now.watch = m.heap.watch = &o->watch;
     spheres_depth depth;
-    code = o->excess > 0 ? make_fewest(&m, *count, o->excess, &depth, error)
-                         : make_cover(&m, (uint32_t)*count, &depth, error);
+    code = o->excess > 0 ? make_fewest(&m, cover->capacity, o->excess, &depth, error)
+                         : make_cover(&m, (uint32_t)cover->capacity, &depth, error);
     if (code == OVOID_OK) {
-        *count = m.now.ball_count;
-        for (size_t i = 0; i < *count; i++) spheres[i] = m.written[i];
-        if (bracket) *bracket = (ovoid_robot_bracket){depth.lower * link->unit, depth.upper * link->unit};
+        cover->count = m.now.ball_count;
+        for (size_t i = 0; i < cover->count; i++) cover->spheres[i] = m.written[i];
+        cover->depth = (ovoid_robot_bracket){depth.lower * link->unit, depth.upper * link->unit};
     }
     close_work(&m);
     return code;
 }
 
-static ovoid_code validate(const ovoid_robot_cover_options *o, const size_t *count, ovoid_error *error) {
-    if (!count || *count < 1 || *count > SPHERES_MOST)
-        return error_set(error, OVOID_ERROR_ARGUMENT, -1, "room for %zu spheres: give 1 to %d", count ? *count : 0,
-                         SPHERES_MOST);
+static ovoid_code validate(const ovoid_robot_cover_options *o, size_t capacity, ovoid_error *error) {
+    if (capacity < 1 || capacity > SPHERES_MOST)
+        return error_set(error, OVOID_ERROR_ARGUMENT, -1, "room for %zu spheres: give 1 to %d", capacity, SPHERES_MOST);
     if (!(o->excess >= 0) || isinf(o->excess))
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "the excess %g is no length: give one >= 0", o->excess);
     return OVOID_OK;
 }
 
-static ovoid_code compute_cover(const ovoid_robot *robot, uint32_t index, const ovoid_robot_cover_options *options,
-                                ovoid_robot_sphere *spheres, size_t *count, ovoid_robot_bracket *bracket,
-                                ovoid_error *error) {
+static ovoid_code compute_cover(const ovoid_robot *robot, const ovoid_robot_cover_options *options,
+                                ovoid_robot_sphere_cover *cover, ovoid_error *error) {
     static const ovoid_robot_cover_options none;
     if (!options) options = &none;
-    if (!robot || !spheres)
+    if (!robot || !cover || !cover->spheres)
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "no robot, or no room for spheres (NULL)");
-    ovoid_code code = validate(options, count, error);
+    ovoid_code code = validate(options, cover->capacity, error);
     if (code != OVOID_OK) return code;
     ovoid_allocator memory = allocator_make(options->allocator);
     spheres_link link;
-    code = spheres_link_open(&link, robot, index, &memory, error);
+    code = spheres_link_open(&link, robot, cover->link, &memory, error);
     if (code != OVOID_OK) return code;
-    code = cover_link(&link, options, spheres, count, bracket, error);
+    code = cover_link(&link, options, cover, error);
     spheres_link_close(&link);
     return code;
 }
 
-ovoid_code ovoid_robot_compute_sphere_cover(const ovoid_robot *robot, uint32_t link,
-                                            const ovoid_robot_cover_options *options, ovoid_robot_sphere *spheres,
-                                            size_t *count, ovoid_robot_bracket *depth, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, spheres, compute_cover(robot, link, options, spheres, count, depth, error));
+ovoid_code ovoid_robot_compute_sphere_cover(const ovoid_robot *robot, const ovoid_robot_cover_options *options,
+                                            ovoid_robot_sphere_cover *cover, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, robot, compute_cover(robot, options, cover, error));
 }

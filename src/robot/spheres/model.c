@@ -38,15 +38,17 @@ static ovoid_code validate_spheres(const ovoid_robot_link_sphere *spheres, size_
     return OVOID_OK;
 }
 
-ovoid_robot *ovoid_robot_create_from_spheres(const ovoid_robot *robot, const ovoid_robot_link_sphere *spheres,
-                                             size_t count, const ovoid_allocator *allocator, ovoid_error *error) {
+ovoid_robot *ovoid_robot_create_from_spheres(const ovoid_robot *robot, const ovoid_robot_link_spheres *given,
+                                             const ovoid_robot_options *options, ovoid_error *error) {
+    const ovoid_robot_link_sphere *spheres = given ? given->items : NULL;
+    size_t count = given ? given->count : 0;
     if (!robot || (!spheres && count)) {
         error_write(error, OVOID_ERROR_ARGUMENT, -1, "no robot, or no spheres (NULL)");
         return NULL;
     }
     ovoid_robot_description d = ovoid_robot_get_description(robot);
     if (validate_spheres(spheres, count, d.link_count, error) != OVOID_OK) return NULL;
-    ovoid_allocator memory = allocator_make(allocator);
+    ovoid_allocator memory = allocator_make(options ? options->allocator : NULL);
     ovoid_robot_element *elements = allocator_allocate(&memory, count + 1, sizeof *elements);
     if (!elements) {
         error_write(error, OVOID_ERROR_MEMORY, -1, "no memory for a robot of %zu spheres", count);

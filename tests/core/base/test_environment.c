@@ -92,10 +92,11 @@ static void ask_prepared(void) {
         ovoid_prepared_shape_make(&(ovoid_posed_shape){pairs[i].shape_b, pairs[i].pose_b}, &b);
         ovoid_proof proof = known[i];
         ovoid_evidence wanted = {.proof = &proof};
-        ovoid_verdict v[5] = {ovoid_prepared_collide(&a, &b, NULL, NULL),
-                              ovoid_prepared_within(&a, &b, third, NULL, NULL),
-                              ovoid_prepared_distance(&a, &b, NULL, NULL), ovoid_prepared_depth(&a, &b, NULL, NULL),
-                              ovoid_prepared_distance(&a, &b, NULL, &wanted)};
+        ovoid_verdict v[5] = {ovoid_prepared_collide((ovoid_prepared_pair){&a, &b}, NULL, NULL),
+                              ovoid_prepared_within((ovoid_prepared_pair){&a, &b}, third, NULL, NULL),
+                              ovoid_prepared_distance((ovoid_prepared_pair){&a, &b}, NULL, NULL),
+                              ovoid_prepared_depth((ovoid_prepared_pair){&a, &b}, NULL, NULL),
+                              ovoid_prepared_distance((ovoid_prepared_pair){&a, &b}, NULL, &wanted)};
         ADD(v);
         ADD(proof.normal);
         int is = ovoid_verdict_is_within(&v[1], third);
@@ -281,28 +282,28 @@ static void ask_world_between(ovoid_world *w, ovoid_id id) {
     ovoid_world_body probe = ovoid_world_make_point(w, point);
     ovoid_world_cast cast;
     ovoid_world_ray ray = {.ray = {point, turn, 1e3, 0.1}};
-    int code = (int)ovoid_world_find_any(w, NULL, 0, NULL, &hit, NULL);
+    int code = (int)ovoid_world_find_any(w, NULL, &hit, NULL);
     add_hit(&hit);
-    code += (int)ovoid_world_find_any_to(w, &probe, 1, &hit, NULL);
+    code += (int)ovoid_world_find_any_of(w, &(ovoid_world_probes){.items = &probe, .count = 1}, &hit, NULL);
     add_hit(&hit);
     const ovoid_world_body couple[2] = {probe, probe};
     const ovoid_couple both = {0, 1};
     const ovoid_world_probes state = {couple, 2, &both, 1};
     code += (int)ovoid_world_find_any_of(w, &state, &hit, NULL);
     add_hit(&hit);
-    code += (int)ovoid_world_find_nearest(w, id, NULL, &hit, NULL);
+    code += (int)ovoid_world_find_nearest(w, &(ovoid_world_query){.id = id}, &hit, NULL);
     add_hit(&hit);
     code += (int)ovoid_world_find_nearest_pair(w, NULL, &hit, NULL);
     add_hit(&hit);
-    code += (int)ovoid_world_find_nearest_to(w, &probe, NULL, &hit, NULL);
+    code += (int)ovoid_world_find_nearest(w, &(ovoid_world_query){.probe = &probe}, &hit, NULL);
     add_hit(&hit);
-    code += (int)ovoid_world_find_overlaps(w, &probe, third, &hits, NULL);
+    code += (int)ovoid_world_find_overlaps(w, &(ovoid_world_query){.probe = &probe, .margin = third}, &hits, NULL);
     ADD(hits.count);
     for (size_t i = 0; i < hits.count && i < 4; i++) add_hit(&items[i]);
     code += (int)ovoid_world_cast_ray(w, &ray, &cast, NULL);
     ADD(cast);
     probe.body.shape = hull_shape;
-    code += (int)ovoid_world_cast_body(w, &probe, turn, &cast, NULL);
+    code += (int)ovoid_world_cast_body(w, &(ovoid_world_sweep){probe, turn}, &cast, NULL);
     ADD(cast);
     ADD(code);
 }
@@ -314,16 +315,16 @@ static void ask_world(void) {
     ovoid_id ids[PAIRS];
     for (int i = 0; i < PAIRS; i++)
         bodies[i] = (ovoid_world_body){.body = {.shape = pairs[i].shape_b, .pose = pairs[i].pose_b}};
-    int code = (int)ovoid_world_add_many(w, bodies, PAIRS, ids, NULL);
+    int code = (int)ovoid_world_add_many(w, &(ovoid_world_additions){bodies, PAIRS, ids}, NULL);
     for (int k = 0; k < 8; k++) {
         ovoid_contact_query q = {.kind = (ovoid_query_kind)(k / 2), .margin = k / 2 ? third : 0};
         ovoid_contacts f;
         code += (int)ovoid_world_compute_contacts(w, &q, &f, NULL);
         add(f.items, f.count * sizeof *f.items);
-        ovoid_body_answer x;
+        ovoid_contact_proof x = {.exclusions = NULL};
         for (size_t i = 0; i < f.count; i++) {
-            code += (int)ovoid_world_compute_proof(w, &f.items[i], NULL, &x, NULL);
-            add_answer(&x.deciding);
+            code += (int)ovoid_world_compute_proof(w, &f.items[i], &x, NULL);
+            add_answer(&x.answer.deciding);
         }
         for (int i = 0; i < PAIRS; i++) {
             bodies[i].body.pose.position.z = steps[k];
@@ -377,13 +378,14 @@ static void ask_points(void) {
 }
 
 static void ask_changes(void) {
-    ovoid_shape *shape = ovoid_shape_create_from_points(cloud, 24, NULL, NULL), *parts[2];
+    ovoid_shape *shape = ovoid_shape_create_from_points(cloud, 24, NULL, NULL);
     const ovoid_plane plane = {{third, 0.1, 0.7}, 0.01};
     add_shape(ovoid_shape_create_deformed(shape, cloud, NULL, NULL));
-    int code = (int)ovoid_shape_create_divided(shape, &plane, NULL, parts, NULL);
+    ovoid_shape_halves halves = ovoid_shape_create_divided(shape, &plane, NULL, NULL);
+    int code = (int)halves.code;
     ADD(code);
-    add_shape(parts[0]);
-    add_shape(parts[1]);
+    add_shape(halves.below);
+    add_shape(halves.above);
     ovoid_shape_destroy(shape);
 }
 
@@ -403,8 +405,8 @@ static void ask_primitives(void) {
     add_shape(ovoid_shape_create_box((ovoid_vec3){third, 0.1, 2}, &o, NULL));
     add_shape(ovoid_shape_create_sphere(third, &o, NULL));
     add_shape(ovoid_shape_create_capsule(third, 0.7, &o, NULL));
-    add_shape(ovoid_shape_create_prism(third, 0.7, 7, &o, NULL));
-    add_shape(ovoid_shape_create_pyramid(third, 0.7, 7, &o, NULL));
+    add_shape(ovoid_shape_create_prism(&(ovoid_prism){third, 0.7, 7}, &o, NULL));
+    add_shape(ovoid_shape_create_pyramid(&(ovoid_prism){third, 0.7, 7}, &o, NULL));
     // Subnormal lengths are lengths.
     ovoid_error error = {0};
     add_shape(ovoid_shape_create_box((ovoid_vec3){-1e-310, 1, 1}, NULL, &error));
@@ -415,10 +417,10 @@ static void ask_primitives(void) {
 static void ask_fits(void) {
     ovoid_polytope p = ovoid_shape_get_polytope(hull_shape);
     ovoid_fit f;
-    ovoid_code code = ovoid_ellipsoid_compute_outer(&p, third, &f, NULL);
+    ovoid_code code = ovoid_ellipsoid_compute_outer(&p, &(ovoid_ellipsoid_options){.gap = third}, &f, NULL);
     ADD(code);
     add_fit(f);
-    code = ovoid_ellipsoid_compute_inner(&p, 1e-4, &f, NULL);
+    code = ovoid_ellipsoid_compute_inner(&p, &(ovoid_ellipsoid_options){.gap = 1e-4}, &f, NULL);
     ADD(code);
     add_fit(f);
     add_fit(ovoid_ellipsoid_compute_shrunk(&p, &outer.ellipsoid));
@@ -446,7 +448,8 @@ static void ask_ellipsoids(void) {
 
 static void ask_areas(void) {
     ovoid_polytope p = ovoid_shape_get_polytope(hull_shape);
-    ovoid_areas *areas = ovoid_areas_create(&p, &inner.ellipsoid, OVOID_SPLIT_CUBE, 4, NULL, NULL);
+    ovoid_areas *areas =
+        ovoid_areas_create(&p, &inner.ellipsoid, &(ovoid_areas_options){.split = OVOID_SPLIT_CUBE, .k = 4}, NULL);
     ovoid_area_counts counts = ovoid_areas_get_counts(areas);
     ADD(counts.cells);
     ADD(counts.facet_entries);
@@ -600,8 +603,9 @@ int main(void) {
     shrunk = ovoid_ellipsoid_compute_shrunk(&p, &outer.ellipsoid);
     stretched = ovoid_ellipsoid_compute_stretched(&p, &shrunk.ellipsoid);
     other = ovoid_ellipsoid_compute_posed(&outer.ellipsoid, &pairs[0].pose_b);
-    hull_areas = ovoid_areas_create(&p, &inner.ellipsoid, OVOID_SPLIT_OCTANTS, 0, NULL, NULL);
-    cube_areas = ovoid_areas_create(&p, &inner.ellipsoid, OVOID_SPLIT_CUBE, 2, NULL, NULL);
+    hull_areas = ovoid_areas_create(&p, &inner.ellipsoid, NULL, NULL);
+    cube_areas =
+        ovoid_areas_create(&p, &inner.ellipsoid, &(ovoid_areas_options){.split = OVOID_SPLIT_CUBE, .k = 2}, NULL);
     CHECK(hull_areas && cube_areas);
     for (int f = 0; f < FUNCTIONS && hull_areas && cube_areas; f++) check_function(f);
     ovoid_areas_destroy(hull_areas);

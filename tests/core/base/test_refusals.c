@@ -178,26 +178,28 @@ static void ask_world(fault is, int both) {
     ovoid_world_cast cast;
     CHECK(id != 0);
     EXPECT_ERROR(ovoid_world_add(w, &bad, &error) == 0, code);
-    EXPECT_ERROR(ovoid_world_add_many(w, &bad, 1, NULL, &error) == code, code);
+    EXPECT_ERROR(ovoid_world_add_many(w, &(ovoid_world_additions){&bad, 1, NULL}, &error) == code, code);
     if (is == ZERO_POSE) {
         EXPECT_ERROR(ovoid_world_move(w, id, &zero, &error) == code, code);
-        EXPECT_ERROR(ovoid_world_move_many(w, &id, &zero, 1, &error) == code, code);
+        EXPECT_ERROR(ovoid_world_move_many(w, &(ovoid_world_moves){&id, &zero, 1}, &error) == code, code);
     }
-    EXPECT_ERROR(ovoid_world_find_any_to(w, &bad, 1, &hit, &error) == code, code);
+    EXPECT_ERROR(ovoid_world_find_any_of(w, &(ovoid_world_probes){.items = &bad, .count = 1}, &hit, &error) == code,
+                 code);
     ovoid_couple past = {0, 1};
     ovoid_world_probes state = {&bad, 1, NULL, 0}, few = {&sound, 1, &past, 1};
     EXPECT_ERROR(ovoid_world_find_any_of(w, &state, &hit, &error) == code, code);
     EXPECT_ERROR(ovoid_world_find_any_of(w, &few, &hit, &error) == OVOID_ERROR_INDEX, OVOID_ERROR_INDEX);
-    EXPECT_ERROR(ovoid_world_find_nearest_to(w, &bad, NULL, &hit, &error) == code, code);
-    EXPECT_ERROR(ovoid_world_find_overlaps(w, &bad, 1, &hits, &error) == code, code);
-    EXPECT_ERROR(ovoid_world_cast_body(w, &bad, (ovoid_vec3){1, 0, 0}, &cast, &error) == code, code);
+    EXPECT_ERROR(ovoid_world_find_nearest(w, &(ovoid_world_query){.probe = &bad}, &hit, &error) == code, code);
+    EXPECT_ERROR(ovoid_world_find_overlaps(w, &(ovoid_world_query){.probe = &bad, .margin = 1}, &hits, &error) == code,
+                 code);
+    EXPECT_ERROR(ovoid_world_cast_body(w, &(ovoid_world_sweep){bad, (ovoid_vec3){1, 0, 0}}, &cast, &error) == code,
+                 code);
     CHECK_EQ(ovoid_world_get_count(w), 1);
     ovoid_world_destroy(w);
 }
 
 static void ask_creations(void) {
     ovoid_posed_shape parts[2] = {{shape, identity}, {NULL, identity}};
-    ovoid_shape *halves[2];
     const double points[3] = {0, 0, 0};
     const ovoid_plane plane = {{1, 0, 0}, 0};
     EXPECT_ERROR(ovoid_compound_create(parts, 2, NULL, &error) == NULL, OVOID_ERROR_ARGUMENT);
@@ -205,7 +207,7 @@ static void ask_creations(void) {
     EXPECT_ERROR(ovoid_compound_create(parts, 2, NULL, &error) == NULL, OVOID_ERROR_ROTATION);
     EXPECT_ERROR(ovoid_shape_create_copy(NULL, NULL, &error) == NULL, OVOID_ERROR_ARGUMENT);
     EXPECT_ERROR(ovoid_shape_create_deformed(NULL, points, NULL, &error) == NULL, OVOID_ERROR_ARGUMENT);
-    EXPECT_ERROR(ovoid_shape_create_divided(NULL, &plane, NULL, halves, &error) == OVOID_ERROR_ARGUMENT,
+    EXPECT_ERROR(ovoid_shape_create_divided(NULL, &plane, NULL, &error).code == OVOID_ERROR_ARGUMENT,
                  OVOID_ERROR_ARGUMENT);
     ovoid_motion still = ovoid_motion_make_still(zero);
     EXPECT_ERROR(ovoid_motion_validate(&still, &error) == OVOID_ERROR_ROTATION, OVOID_ERROR_ROTATION);

@@ -50,7 +50,7 @@ static void check_memory(ovoid_shape *const shapes[SHAPES]) {
         countdown memory = {k, 0};
         ovoid_allocator allocator = countdown_make_allocator(&memory);
         ovoid_error error = {0};
-        ovoid_compound *c = ovoid_compound_create(parts, SHAPES, &allocator, &error);
+        ovoid_compound *c = ovoid_compound_create(parts, SHAPES, &(ovoid_compound_options){&allocator}, &error);
         if (c) {
             CHECK(k > 3);
             // All working memory has gone back.

@@ -13,8 +13,7 @@ static ovoid_decomposition_proof prove(const ovoid_solid *s, const ovoid_shape *
     ovoid_decomposition d = {s, parts, count};
     ovoid_decomposition_proof proof;
     ovoid_error error = {.message = ""};
-    if (!CHECK_EQ(ovoid_decomposition_compute_proof(&d, o, &proof, NULL, &error), OVOID_OK))
-        printf("  %s\n", error.message);
+    if (!CHECK_EQ(ovoid_decomposition_compute_proof(&d, o, &proof, &error), OVOID_OK)) printf("  %s\n", error.message);
     return proof;
 }
 
@@ -235,7 +234,8 @@ static void check_random(int rounds, double scale) {
         ovoid_decomposition_options o = {.tolerance = 0.05 * scale, .work = 4000};
         ovoid_decomposition_proof p;
         double excess[4];
-        CHECK_EQ(ovoid_decomposition_compute_proof(&d, &o, &p, excess, NULL), OVOID_OK);
+        o.excesses = excess;
+        CHECK_EQ(ovoid_decomposition_compute_proof(&d, &o, &p, NULL), OVOID_OK);
         check_points(&d, &p, excess, 60, &s);
         for (int k = 0; k < 4; k++) ovoid_shape_destroy(parts[k]);
         ovoid_solid_destroy(solid);
@@ -340,7 +340,8 @@ static void check_made(int rounds) {
             ovoid_decomposition_options o = {.tolerance = 0.05, .work = 4000};
             ovoid_decomposition_proof p;
             double excess[9];
-            CHECK_EQ(ovoid_decomposition_compute_proof(&d, &o, &p, excess, NULL), OVOID_OK);
+            o.excesses = excess;
+            CHECK_EQ(ovoid_decomposition_compute_proof(&d, &o, &p, NULL), OVOID_OK);
             CHECK_LE(p.uncovered.lower, 1e-9);
             CHECK_LE(p.excess.lower, 1.2 * before + 0.05);
             check_points(&d, &p, excess, 12, &s);
@@ -385,7 +386,7 @@ static void check_refused(const ovoid_decomposition *d, const ovoid_decompositio
                           const char *words) {
     ovoid_error error = {OVOID_OK, -1, ""};
     ovoid_decomposition_proof proof;
-    CHECK_EQ(ovoid_decomposition_compute_proof(d, o, &proof, NULL, &error), code);
+    CHECK_EQ(ovoid_decomposition_compute_proof(d, o, &proof, &error), code);
     CHECK_EQ(error.code, code);
     if (!CHECK(strstr(error.message, words) != NULL)) printf("  \"%s\" lacks \"%s\"\n", error.message, words);
 }
@@ -416,7 +417,7 @@ static void check_refusals(void) {
     check_refused(&d, &(ovoid_decomposition_options){.tolerance = NAN}, OVOID_ERROR_ARGUMENT, "tolerance");
     check_refused(&d, &(ovoid_decomposition_options){.error = INFINITY}, OVOID_ERROR_ARGUMENT, "error");
     check_refused(&d, &(ovoid_decomposition_options){.cells = 10}, OVOID_ERROR_ARGUMENT, "10 cells");
-    CHECK_EQ(ovoid_decomposition_compute_proof(&d, NULL, NULL, NULL, NULL), OVOID_ERROR_ARGUMENT);
+    CHECK_EQ(ovoid_decomposition_compute_proof(&d, NULL, NULL, NULL), OVOID_ERROR_ARGUMENT);
 
     ovoid_error error;
     CHECK(!ovoid_parts_create_from_solid(open, NULL, &error) && error.code == OVOID_ERROR_ARGUMENT);
@@ -458,7 +459,7 @@ static void check_memory(void) {
     for (k = 0; code != OVOID_OK && k < 100; k++) {
         ovoid_decomposition_proof proof;
         memory = (countdown){k, 0};
-        code = ovoid_decomposition_compute_proof(&d, &o, &proof, NULL, NULL);
+        code = ovoid_decomposition_compute_proof(&d, &o, &proof, NULL);
         if (code != OVOID_OK) CHECK_EQ(code, OVOID_ERROR_MEMORY);
         CHECK_EQ(memory.held, 0);
     }

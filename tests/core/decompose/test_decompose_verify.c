@@ -132,7 +132,7 @@ static void check_random(int rounds) {
         ovoid_decomposition_options tight = {.tolerance = 0.02 * scale, .work = 20000};
         t.options = (ovoid_decomposition_options){.work = 60000};
         ovoid_error error = {.message = ""};
-        CHECK_EQ(ovoid_decomposition_compute_proof(&t.d, &tight, &t.proof, NULL, &error), OVOID_OK);
+        CHECK_EQ(ovoid_decomposition_compute_proof(&t.d, &tight, &t.proof, &error), OVOID_OK);
         t.solid = long_mesh_of_solid(solid);
         for (size_t k = 0; k < t.d.part_count; k++) t.parts[k] = long_mesh_of_shape(t.d.parts[k]);
         ovoid_code code = ovoid_decomposition_verify(&t.d, &t.proof, &t.options, &error);

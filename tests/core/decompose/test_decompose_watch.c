@@ -27,11 +27,11 @@ static void check_proof(const ovoid_solid *solid) {
     patience p;
     ovoid_decomposition_options o = {.tolerance = 1e-2};
     ovoid_decomposition_proof all, is;
-    CHECK_EQ(ovoid_decomposition_compute_proof(&d, &o, &all, NULL, &error), OVOID_OK);
+    CHECK_EQ(ovoid_decomposition_compute_proof(&d, &o, &all, &error), OVOID_OK);
     size_t whole = SIZE_MAX;
     for (size_t most = 0; most < whole && most < 100000; most += 1 + most / 8) {
         o.watch = make_watch(&p, most);
-        if (!CHECK_EQ(ovoid_decomposition_compute_proof(&d, &o, &is, NULL, &error), OVOID_OK)) break;
+        if (!CHECK_EQ(ovoid_decomposition_compute_proof(&d, &o, &is, &error), OVOID_OK)) break;
         CHECK(do_agree(&is.uncovered, &all.uncovered) && do_agree(&is.excess, &all.excess));
         CHECK(is.excess.lower <= 1.5 && is.excess.upper >= 1.5);
         CHECK(is.cells <= 12 + 6 * most);
@@ -54,7 +54,7 @@ static void check_parts(const ovoid_solid *solid, double wanted, size_t count) {
         ovoid_decomposition d = {solid, ovoid_parts_get_shapes(parts), ovoid_parts_get_count(parts)};
         ovoid_decomposition_options narrow = {.tolerance = 0.05, .work = 4000};
         ovoid_decomposition_proof is;
-        CHECK_EQ(ovoid_decomposition_compute_proof(&d, &narrow, &is, NULL, &error), OVOID_OK);
+        CHECK_EQ(ovoid_decomposition_compute_proof(&d, &narrow, &is, &error), OVOID_OK);
         CHECK_LE(is.uncovered.lower, 1e-9);
         CHECK(d.part_count <= most + 1 || p.asked <= most);
         if (p.asked <= most) whole = most;

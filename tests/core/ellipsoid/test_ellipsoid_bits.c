@@ -47,13 +47,13 @@ int main(void) {
         uint64_t s = trial;
         made m = make_body(trial, &s);
         ovoid_fit fit;
-        (void)ovoid_ellipsoid_compute_outer(&m.p, 0, &fit, NULL);
+        (void)ovoid_ellipsoid_compute_outer(&m.p, NULL, &fit, NULL);
         add_fit(&fit);
         fit = ovoid_ellipsoid_compute_shrunk(&m.p, &fit.ellipsoid);
         fit = ovoid_ellipsoid_compute_stretched(&m.p, &fit.ellipsoid);
         fit = ovoid_ellipsoid_compute_enlarged(&m.p, &fit.ellipsoid);
         add_fit(&fit);
-        (void)ovoid_ellipsoid_compute_inner(&m.p, 0, &fit, NULL);
+        (void)ovoid_ellipsoid_compute_inner(&m.p, NULL, &fit, NULL);
         add_fit(&fit);
         ovoid_vec3 radii = ovoid_ellipsoid_compute_radii(&fit.ellipsoid);
         add(&radii, sizeof radii);

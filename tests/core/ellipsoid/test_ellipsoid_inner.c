@@ -9,7 +9,7 @@ static const double PI = 3.14159265358979323846;
 
 static ovoid_fit fit_inner(const made *m, double gap) {
     ovoid_fit fit;
-    CHECK_EQ(ovoid_ellipsoid_compute_inner(&m->p, gap, &fit, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_ellipsoid_compute_inner(&m->p, &(ovoid_ellipsoid_options){.gap = gap}, &fit, NULL), OVOID_OK);
     CHECK_EQ(ellipsoid_is_enclosed(&m->p, &fit.ellipsoid), m->p.rank == 3);
     return fit;
 }
@@ -152,7 +152,7 @@ static void check_john(void) {
         check_seed = s;
         made m = made_random(4 + (uint32_t)i, 1, &s);
         ovoid_fit inner = fit_inner(&m, 0), outer;
-        (void)ovoid_ellipsoid_compute_outer(&m.p, 0, &outer, NULL);
+        (void)ovoid_ellipsoid_compute_outer(&m.p, NULL, &outer, NULL);
         CHECK_LE(outer.volume / 27, inner.volume * (1 + 2e-6));
         ovoid_ellipsoid large = inner.ellipsoid;
         large.q = sym3_scale(large.q, 9 * pow(1 + 3e-3, 2)); // a gap of 1e-6 moves the form by its root
@@ -241,18 +241,20 @@ static void check_contract(void) {
     for (; allowed < 9; allowed++) {
         countdown c = {allowed, 0};
         ovoid_allocator allocator = countdown_make_allocator(&c);
-        ovoid_code code = ovoid_ellipsoid_compute_inner(&m.p, 0, &fit, &allocator);
+        ovoid_code code = ovoid_ellipsoid_compute_inner(&m.p, &(ovoid_ellipsoid_options){0, &allocator}, &fit, NULL);
         CHECK_EQ(c.held, 0);
         if (code == OVOID_OK) break;
         CHECK_EQ(code, OVOID_ERROR_MEMORY);
     }
     CHECK(allowed >= 1 && allowed < 9);
-    CHECK_EQ(ovoid_ellipsoid_compute_inner(NULL, 0, &fit, NULL), OVOID_ERROR_ARGUMENT);
-    CHECK_EQ(ovoid_ellipsoid_compute_inner(&m.p, 0, NULL, NULL), OVOID_ERROR_ARGUMENT);
-    CHECK_EQ(ovoid_ellipsoid_compute_inner(&m.p, -1, &fit, NULL), OVOID_ERROR_ARGUMENT);
-    CHECK_EQ(ovoid_ellipsoid_compute_inner(&m.p, NAN, &fit, NULL), OVOID_ERROR_ARGUMENT);
+    CHECK_EQ(ovoid_ellipsoid_compute_inner(NULL, NULL, &fit, NULL), OVOID_ERROR_ARGUMENT);
+    CHECK_EQ(ovoid_ellipsoid_compute_inner(&m.p, NULL, NULL, NULL), OVOID_ERROR_ARGUMENT);
+    CHECK_EQ(ovoid_ellipsoid_compute_inner(&m.p, &(ovoid_ellipsoid_options){.gap = -1}, &fit, NULL),
+             OVOID_ERROR_ARGUMENT);
+    CHECK_EQ(ovoid_ellipsoid_compute_inner(&m.p, &(ovoid_ellipsoid_options){.gap = NAN}, &fit, NULL),
+             OVOID_ERROR_ARGUMENT);
     m.p.vertex_count = 0;
-    CHECK_EQ(ovoid_ellipsoid_compute_inner(&m.p, 0, &fit, NULL), OVOID_ERROR_ARGUMENT);
+    CHECK_EQ(ovoid_ellipsoid_compute_inner(&m.p, NULL, &fit, NULL), OVOID_ERROR_ARGUMENT);
     made_destroy(&m);
 }
 

@@ -9,7 +9,7 @@ static const double PI = 3.14159265358979323846;
 
 static ovoid_fit fit_outer(const made *m, double gap) {
     ovoid_fit fit;
-    CHECK_EQ(ovoid_ellipsoid_compute_outer(&m->p, gap, &fit, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_ellipsoid_compute_outer(&m->p, &(ovoid_ellipsoid_options){.gap = gap}, &fit, NULL), OVOID_OK);
     CHECK(ellipsoid_is_enclosing(&m->p, &fit.ellipsoid));
     return fit;
 }
@@ -215,7 +215,7 @@ static void check_nearly_round(void) {
         }
         made m = made_hull(xyz, count);
         ovoid_fit fit;
-        CHECK_EQ(ovoid_ellipsoid_compute_outer(&m.p, 0, &fit, NULL), OVOID_OK);
+        CHECK_EQ(ovoid_ellipsoid_compute_outer(&m.p, NULL, &fit, NULL), OVOID_OK);
         CHECK(fit.converged);
         CHECK_LE(fit.iterations, 20000);
         made_destroy(&m);
@@ -231,18 +231,20 @@ static void check_contract(void) {
     for (; allowed < 9; allowed++) {
         countdown c = {allowed, 0};
         ovoid_allocator allocator = countdown_make_allocator(&c);
-        ovoid_code code = ovoid_ellipsoid_compute_outer(&m.p, 0, &fit, &allocator);
+        ovoid_code code = ovoid_ellipsoid_compute_outer(&m.p, &(ovoid_ellipsoid_options){0, &allocator}, &fit, NULL);
         CHECK_EQ(c.held, 0);
         if (code == OVOID_OK) break;
         CHECK_EQ(code, OVOID_ERROR_MEMORY);
     }
     CHECK(allowed >= 1 && allowed < 9);
-    CHECK_EQ(ovoid_ellipsoid_compute_outer(NULL, 0, &fit, NULL), OVOID_ERROR_ARGUMENT);
-    CHECK_EQ(ovoid_ellipsoid_compute_outer(&m.p, 0, NULL, NULL), OVOID_ERROR_ARGUMENT);
-    CHECK_EQ(ovoid_ellipsoid_compute_outer(&m.p, -1, &fit, NULL), OVOID_ERROR_ARGUMENT);
-    CHECK_EQ(ovoid_ellipsoid_compute_outer(&m.p, NAN, &fit, NULL), OVOID_ERROR_ARGUMENT);
+    CHECK_EQ(ovoid_ellipsoid_compute_outer(NULL, NULL, &fit, NULL), OVOID_ERROR_ARGUMENT);
+    CHECK_EQ(ovoid_ellipsoid_compute_outer(&m.p, NULL, NULL, NULL), OVOID_ERROR_ARGUMENT);
+    CHECK_EQ(ovoid_ellipsoid_compute_outer(&m.p, &(ovoid_ellipsoid_options){.gap = -1}, &fit, NULL),
+             OVOID_ERROR_ARGUMENT);
+    CHECK_EQ(ovoid_ellipsoid_compute_outer(&m.p, &(ovoid_ellipsoid_options){.gap = NAN}, &fit, NULL),
+             OVOID_ERROR_ARGUMENT);
     m.p.vertex_count = 0;
-    CHECK_EQ(ovoid_ellipsoid_compute_outer(&m.p, 0, &fit, NULL), OVOID_ERROR_ARGUMENT);
+    CHECK_EQ(ovoid_ellipsoid_compute_outer(&m.p, NULL, &fit, NULL), OVOID_ERROR_ARGUMENT);
     made_destroy(&m);
 }
 

@@ -11,7 +11,7 @@ typedef struct steps {
 
 static steps run(const made *m) {
     steps s;
-    CHECK_EQ(ovoid_ellipsoid_compute_outer(&m->p, 1e-9, &s.outer, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_ellipsoid_compute_outer(&m->p, &(ovoid_ellipsoid_options){.gap = 1e-9}, &s.outer, NULL), OVOID_OK);
     s.shrunk = ovoid_ellipsoid_compute_shrunk(&m->p, &s.outer.ellipsoid);
     s.stretched = ovoid_ellipsoid_compute_stretched(&m->p, &s.shrunk.ellipsoid);
     s.enlarged = ovoid_ellipsoid_compute_enlarged(&m->p, &s.stretched.ellipsoid);

@@ -36,8 +36,8 @@ static made make_body(uint32_t trial, uint64_t *s) {
 // All steps of one body; the share of the largest volume that the three phases reach.
 static double check_steps(const ovoid_polytope *p) {
     ovoid_fit outer, inner, phase;
-    CHECK_EQ(ovoid_ellipsoid_compute_outer(p, 0, &outer, NULL), OVOID_OK);
-    CHECK_EQ(ovoid_ellipsoid_compute_inner(p, 0, &inner, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_ellipsoid_compute_outer(p, NULL, &outer, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_ellipsoid_compute_inner(p, NULL, &inner, NULL), OVOID_OK);
     CHECK(ellipsoid_is_enclosing(p, &outer.ellipsoid));
     // Below an aspect of 1e7, doubles hold ellipsoids of any direction to 1e-6.
     vec3 radii = ovoid_ellipsoid_compute_radii(&outer.ellipsoid);

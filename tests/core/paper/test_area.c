@@ -80,7 +80,8 @@ static vec3 toward_of(const ovoid_areas *areas, vec3 u, uint64_t *s) {
 
 static void check_areas(const subject *b, ovoid_split split, uint32_t k, uint64_t *s) {
     ovoid_error error;
-    ovoid_areas *areas = ovoid_areas_create(&b->body.p, &b->ellipsoid, split, k, NULL, &error);
+    ovoid_areas *areas =
+        ovoid_areas_create(&b->body.p, &b->ellipsoid, &(ovoid_areas_options){.split = split, .k = k}, &error);
     if (!CHECK(areas != NULL)) return;
     ovoid_area_counts counts = ovoid_areas_get_counts(areas);
     CHECK_EQ(counts.cells, split == OVOID_SPLIT_CUBE ? 6 * k * k : 8);
@@ -134,7 +135,8 @@ static void test_soundness(subject *subjects) {
 static void test_exit_is_on_surface(subject *subjects) {
     for (int i = 0; i < SUBJECT_COUNT; i++) {
         const subject *b = &subjects[i];
-        ovoid_areas *areas = ovoid_areas_create(&b->body.p, &b->ellipsoid, OVOID_SPLIT_CUBE, 4, NULL, NULL);
+        ovoid_areas *areas = ovoid_areas_create(&b->body.p, &b->ellipsoid,
+                                                &(ovoid_areas_options){.split = OVOID_SPLIT_CUBE, .k = 4}, NULL);
         if (!CHECK(areas != NULL)) return;
         uint64_t s = check_seed = (uint64_t)i + 1;
         // Coordinates hold the exit to their own rounding; the thin bodies' planes are tilted by 1e-16 over 1e6 : 1.
@@ -157,7 +159,8 @@ static void test_exit_is_on_surface(subject *subjects) {
 static void test_closed_form(void) {
     made box = made_box(1, 1, 1);
     ovoid_ellipsoid ball = {{0, 0, 0}, {1, 0, 0, 1, 0, 1}};
-    ovoid_areas *areas = ovoid_areas_create(&box.p, &ball, OVOID_SPLIT_CUBE, 1, NULL, NULL);
+    ovoid_areas *areas =
+        ovoid_areas_create(&box.p, &ball, &(ovoid_areas_options){.split = OVOID_SPLIT_CUBE, .k = 1}, NULL);
     if (!CHECK(areas != NULL)) return;
     // Each face of the cube map sees its own face of the cube, whose borders it shares with four.
     CHECK_EQ(ovoid_areas_get_counts(areas).cells, 6);
@@ -183,7 +186,7 @@ static void test_closed_form(void) {
 /// of the sphere as seen from there, leaves by it.
 static void test_paper_rule_is_unsound(void) {
     subject sphere = subject_make("sphere", made_sphere(24), 0.9, mat3_diagonal(1, 1, 1), (vec3){0, 0, 0});
-    ovoid_areas *areas = ovoid_areas_create(&sphere.body.p, &sphere.ellipsoid, OVOID_SPLIT_OCTANTS, 0, NULL, NULL);
+    ovoid_areas *areas = ovoid_areas_create(&sphere.body.p, &sphere.ellipsoid, NULL, NULL);
     if (!CHECK(areas != NULL)) return;
     vec3 toward = {1, 1, 0.23}, u = {-0.1, -0.1, 1};
     CHECK(vec3_dot(toward, u) > 0);
@@ -350,28 +353,32 @@ static void test_errors(subject *b) {
     ovoid_error e;
     const double corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     made flat = made_polygon(corners, 3);
-    CHECK(!ovoid_areas_create(&flat.p, &b->ellipsoid, OVOID_SPLIT_OCTANTS, 0, NULL, &e));
+    CHECK(!ovoid_areas_create(&flat.p, &b->ellipsoid, NULL, &e));
     CHECK(e.code == OVOID_ERROR_ARGUMENT && strstr(e.message, "rank 2"));
     made_destroy(&flat);
     const uint32_t bad[] = {0, 3, 65, 128};
     for (int i = 0; i < 4; i++)
-        CHECK(!ovoid_areas_create(&b->body.p, &b->ellipsoid, OVOID_SPLIT_CUBE, bad[i], NULL, &e) &&
+        CHECK(!ovoid_areas_create(&b->body.p, &b->ellipsoid,
+                                  &(ovoid_areas_options){.split = OVOID_SPLIT_CUBE, .k = bad[i]}, &e) &&
               e.code == OVOID_ERROR_ARGUMENT);
-    CHECK(!ovoid_areas_create(&b->body.p, &b->ellipsoid, (ovoid_split)7, 1, NULL, &e));
-    CHECK(!ovoid_areas_create(NULL, &b->ellipsoid, OVOID_SPLIT_CUBE, 1, NULL, &e) && e.code == OVOID_ERROR_ARGUMENT);
-    CHECK(!ovoid_areas_create(&b->body.p, NULL, OVOID_SPLIT_CUBE, 1, NULL, NULL));
+    CHECK(!ovoid_areas_create(&b->body.p, &b->ellipsoid, &(ovoid_areas_options){.split = (ovoid_split)7, .k = 1}, &e));
+    CHECK(!ovoid_areas_create(NULL, &b->ellipsoid, &(ovoid_areas_options){.split = OVOID_SPLIT_CUBE, .k = 1}, &e) &&
+          e.code == OVOID_ERROR_ARGUMENT);
+    CHECK(!ovoid_areas_create(&b->body.p, NULL, &(ovoid_areas_options){.split = OVOID_SPLIT_CUBE, .k = 1}, NULL));
     ovoid_ellipsoid outside = b->ellipsoid, thin = b->ellipsoid;
     outside.center.x += 100;
-    CHECK(!ovoid_areas_create(&b->body.p, &outside, OVOID_SPLIT_CUBE, 1, NULL, &e));
+    CHECK(!ovoid_areas_create(&b->body.p, &outside, &(ovoid_areas_options){.split = OVOID_SPLIT_CUBE, .k = 1}, &e));
     CHECK(e.code == OVOID_ERROR_ARGUMENT && e.place >= 0 && e.place < b->body.p.facet_count);
     thin.q = (sym3){1, 0, 0, 1, 0, 0};
-    CHECK(!ovoid_areas_create(&b->body.p, &thin, OVOID_SPLIT_CUBE, 1, NULL, &e) && strstr(e.message, "flat"));
+    CHECK(!ovoid_areas_create(&b->body.p, &thin, &(ovoid_areas_options){.split = OVOID_SPLIT_CUBE, .k = 1}, &e) &&
+          strstr(e.message, "flat"));
 
     long calls = 1;
     for (long k = 1; k <= calls; k++) {
         failing f = {0, k, 0};
         ovoid_allocator allocator = {failing_allocate, failing_release, &f};
-        ovoid_areas *areas = ovoid_areas_create(&b->body.p, &b->ellipsoid, OVOID_SPLIT_CUBE, 8, &allocator, &e);
+        ovoid_areas *areas =
+            ovoid_areas_create(&b->body.p, &b->ellipsoid, &(ovoid_areas_options){OVOID_SPLIT_CUBE, 8, &allocator}, &e);
         if (!areas) {
             CHECK(e.code == OVOID_ERROR_MEMORY);
             calls = k + 1;
@@ -390,7 +397,8 @@ static void test_large(void) {
     for (uint32_t k = 1; k <= 64; k *= 4) {
         struct timespec start, end;
         timespec_get(&start, TIME_UTC);
-        ovoid_areas *areas = ovoid_areas_create(&b.body.p, &b.ellipsoid, OVOID_SPLIT_CUBE, k, NULL, NULL);
+        ovoid_areas *areas = ovoid_areas_create(&b.body.p, &b.ellipsoid,
+                                                &(ovoid_areas_options){.split = OVOID_SPLIT_CUBE, .k = k}, NULL);
         timespec_get(&end, TIME_UTC);
         if (!CHECK(areas != NULL)) return;
         double seconds = (double)(end.tv_sec - start.tv_sec) + 1e-9 * (double)(end.tv_nsec - start.tv_nsec);

@@ -16,7 +16,7 @@ static body body_make(ovoid_shape *shape, ovoid_split split, uint32_t k) {
     if (!CHECK(shape != NULL)) exit(check_end());
     ovoid_polytope p = ovoid_shape_get_polytope(shape);
     ovoid_ellipsoid inner = ovoid_shape_get_inner(shape).ellipsoid;
-    if (p.rank == 3) b.areas = ovoid_areas_create(&p, &inner, split, k, NULL, NULL);
+    if (p.rank == 3) b.areas = ovoid_areas_create(&p, &inner, &(ovoid_areas_options){.split = split, .k = k}, NULL);
     return b;
 }
 static void body_destroy(body *b) {

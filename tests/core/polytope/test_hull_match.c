@@ -193,7 +193,8 @@ static double get_support(const soup *s, const double n[3]) {
 // Points of K = c + (1 - l) (H - c) with l max |v - c| = w lie in the body: each is wound around.
 static void check_core(const soup *s, double allowance) {
     ovoid_shape *hull = ovoid_shape_create_from_points(s->xyz, s->points, NULL, NULL);
-    ovoid_solid *solid = ovoid_solid_create_from_triangles(s->xyz, s->points, s->indices, s->count, NULL, NULL);
+    ovoid_solid *solid =
+        ovoid_solid_create_from_triangles(&(ovoid_triangles){s->xyz, s->points, s->indices, s->count}, NULL, NULL);
     ovoid_polytope p = ovoid_shape_get_polytope(hull);
     ovoid_vec3 c = ovoid_shape_get_measures(hull).centroid;
     double reach = 0;
@@ -347,12 +348,14 @@ static void check_refusals(void) {
     more[24] = 3;
     CHECK(!match(more, 9, cube, 12).is_hull && match(more, 9, cube, 12).is_closed);
     // The same hull with another allowance.
-    ovoid_shape *allowed =
-        ovoid_shape_create_allowed(hull, (ovoid_allowance){.outside = 0, .inside = 0.125}, NULL, &error);
+    ovoid_shape *allowed = ovoid_shape_create_allowed(
+        hull, &(ovoid_shape_options){.allowance = (ovoid_allowance){.outside = 0, .inside = 0.125}}, &error);
     CHECK_EQ(ovoid_shape_get_allowance(allowed).inside, 0.125);
     CHECK_EQ(ovoid_shape_get_allowance(hull).inside, 0);
-    CHECK(!ovoid_shape_create_allowed(hull, (ovoid_allowance){.outside = 0, .inside = -1}, NULL, &error));
-    CHECK(!ovoid_shape_create_allowed(NULL, (ovoid_allowance){.outside = 0, .inside = 1}, NULL, &error));
+    CHECK(!ovoid_shape_create_allowed(
+        hull, &(ovoid_shape_options){.allowance = (ovoid_allowance){.outside = 0, .inside = -1}}, &error));
+    CHECK(!ovoid_shape_create_allowed(
+        NULL, &(ovoid_shape_options){.allowance = (ovoid_allowance){.outside = 0, .inside = 1}}, &error));
     ovoid_shape_destroy(allowed);
     ovoid_shape_destroy(hull);
 }
@@ -371,7 +374,8 @@ static void make_dented(soup *s, double depth) {
 }
 
 static ovoid_solid *create_solid(const soup *s, const ovoid_allocator *allocator) {
-    return ovoid_solid_create_from_triangles(s->xyz, s->points, s->indices, s->count, allocator, NULL);
+    return ovoid_solid_create_from_triangles(&(ovoid_triangles){s->xyz, s->points, s->indices, s->count},
+                                             &(ovoid_solid_options){allocator}, NULL);
 }
 
 static double measure_gap(const ovoid_solid *solid, const ovoid_shape *hull) {

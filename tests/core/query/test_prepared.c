@@ -54,10 +54,10 @@ static ovoid_answer ask(int question, const ovoid_pair *p, double margin, const 
 static ovoid_verdict ask_prepared(int question, const ovoid_prepared_shape *x, double margin, const ovoid_options *o,
                                   const ovoid_evidence *e) {
     switch (question) {
-    case 0: return ovoid_prepared_collide(x, x + 1, o, e);
-    case 1: return ovoid_prepared_within(x, x + 1, margin, o, e);
-    case 2: return ovoid_prepared_distance(x, x + 1, o, e);
-    default: return ovoid_prepared_depth(x, x + 1, o, e);
+    case 0: return ovoid_prepared_collide((ovoid_prepared_pair){x, x + 1}, o, e);
+    case 1: return ovoid_prepared_within((ovoid_prepared_pair){x, x + 1}, margin, o, e);
+    case 2: return ovoid_prepared_distance((ovoid_prepared_pair){x, x + 1}, o, e);
+    default: return ovoid_prepared_depth((ovoid_prepared_pair){x, x + 1}, o, e);
     }
 }
 

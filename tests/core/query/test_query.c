@@ -261,7 +261,7 @@ static void check_refused(void) {
 
 // Proofs of another pair, with indices out of range, with numbers that are none: the answer is as good as without.
 static void check_foreign_proofs(void) {
-    ovoid_shape *a = box(1, 1, 1, 0), *c = ovoid_shape_create_prism(1, 1, 20, NULL, NULL);
+    ovoid_shape *a = box(1, 1, 1, 0), *c = ovoid_shape_create_prism(&(ovoid_prism){1, 1, 20}, NULL, NULL);
     ovoid_pair p = {a, a, at(0, 0, 0), at(3, 0, 0)}, other = {c, c, at(0, 0, 0), at(0.5, 0.3, 0.1)};
     ovoid_proof proofs[4] = {
         ovoid_depth(&other, NULL, NULL, NULL).proof, {.count = 77}, {.normal = {NAN, 0, 0}}, {.count = 1}};

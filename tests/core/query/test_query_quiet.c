@@ -44,7 +44,7 @@ int main(void) {
         check_skip("allocations are counted with glibc only, and not under a sanitizer");
         return check_end();
     }
-    ovoid_shape *a = ovoid_shape_create_prism(1, 1, 40, NULL, NULL);
+    ovoid_shape *a = ovoid_shape_create_prism(&(ovoid_prism){1, 1, 40}, NULL, NULL);
     ovoid_shape *b = ovoid_shape_create_box((ovoid_vec3){0.5, 1, 2}, NULL, NULL);
     CHECK(a && b && allocations > 0);
     static ovoid_cover cover;

@@ -148,29 +148,34 @@ static void ask_solid_impact_check(void) {
                                    NULL);
 }
 
-static void ask_find_any(void) { CHECK(ovoid_world_find_any(world, NULL, 0, NULL, &hit, NULL) == OVOID_OK); }
-static void ask_find_any_to(void) { CHECK(ovoid_world_find_any_to(world, &probe, 1, &hit, NULL) == OVOID_OK); }
+static void ask_find_any(void) { CHECK(ovoid_world_find_any(world, NULL, &hit, NULL) == OVOID_OK); }
+static void ask_find_any_to(void) {
+    CHECK(ovoid_world_find_any_of(world, &(ovoid_world_probes){.items = &probe, .count = 1}, &hit, NULL) == OVOID_OK);
+}
 static void ask_find_any_of(void) {
     const ovoid_world_body both[2] = {probe, probe};
     const ovoid_couple couple = {0, 1};
     const ovoid_world_probes all = {both, 2, &couple, 1};
     CHECK(ovoid_world_find_any_of(world, &all, &hit, NULL) == OVOID_OK);
 }
-static void ask_find_nearest(void) { CHECK(ovoid_world_find_nearest(world, ids[0], NULL, &hit, NULL) == OVOID_OK); }
+static void ask_find_nearest(void) {
+    CHECK(ovoid_world_find_nearest(world, &(ovoid_world_query){.id = ids[0]}, &hit, NULL) == OVOID_OK);
+}
 static void ask_find_nearest_to(void) {
-    CHECK(ovoid_world_find_nearest_to(world, &probe, NULL, &hit, NULL) == OVOID_OK);
+    CHECK(ovoid_world_find_nearest(world, &(ovoid_world_query){.probe = &probe}, &hit, NULL) == OVOID_OK);
 }
 static void ask_find_nearest_pair(void) { CHECK(ovoid_world_find_nearest_pair(world, NULL, &hit, NULL) == OVOID_OK); }
 static void ask_find_overlaps(void) {
-    ovoid_world_hits all = {hits, 4, 0, NULL};
-    CHECK(ovoid_world_find_overlaps(world, &probe, 0.01, &all, NULL) == OVOID_OK);
+    ovoid_world_hits all = {hits, 4, 0};
+    CHECK(ovoid_world_find_overlaps(world, &(ovoid_world_query){.probe = &probe, .margin = 0.01}, &all, NULL) ==
+          OVOID_OK);
 }
 static void ask_cast_ray(void) {
-    ovoid_world_ray r = {ray, 0, 0};
+    ovoid_world_ray r = {.ray = ray};
     CHECK(ovoid_world_cast_ray(world, &r, &cast, NULL) == OVOID_OK);
 }
 static void ask_cast_body(void) {
-    CHECK(ovoid_world_cast_body(world, &probe, (ovoid_vec3){-2, 0.1, 0}, &cast, NULL) == OVOID_OK);
+    CHECK(ovoid_world_cast_body(world, &(ovoid_world_sweep){probe, (ovoid_vec3){-2, 0.1, 0}}, &cast, NULL) == OVOID_OK);
 }
 /// Not a query, but what threads of a world do.
 static void ask_frame(void) {
@@ -179,8 +184,9 @@ static void ask_frame(void) {
 }
 /// Of the frame's first contact: the call before it.
 static void ask_proof(void) {
-    if (frame.count)
-        CHECK(ovoid_world_compute_proof(world, frame.items, &exclusions, &compound_answer, NULL) == OVOID_OK);
+    static ovoid_contact_proof proof;
+    proof.exclusions = &exclusions;
+    if (frame.count) CHECK(ovoid_world_compute_proof(world, frame.items, &proof, NULL) == OVOID_OK);
 }
 
 static const struct {
@@ -263,8 +269,8 @@ static ovoid_solid *make_solid(const ovoid_shape *shape) {
     static const uint32_t one[3] = {0, 0, 0};
     ovoid_polytope p = ovoid_shape_get_polytope(shape);
     uint32_t count = p.triangle_count ? p.triangle_count : 1;
-    return ovoid_solid_create_from_triangles(p.vertices, p.vertex_count, p.triangle_count ? p.triangles : one, count,
-                                             NULL, NULL);
+    return ovoid_solid_create_from_triangles(
+        &(ovoid_triangles){p.vertices, p.vertex_count, p.triangle_count ? p.triangles : one, count}, NULL, NULL);
 }
 
 /// The pair at hand in all that is asked about: bodies that change places, compounds of three of its shapes, a world.
@@ -273,7 +279,7 @@ static int set_up(void) {
     ovoid_measures size = ovoid_shape_get_measures(pair.shape_b);
     double far = 3 * (size.sphere_radius + ovoid_shape_get_radius(pair.shape_b));
     if (!(far > 0)) far = 1;
-    cylinder = ovoid_shape_create_cylinder(0.2 * far, 0.3 * far, 0, NULL, NULL);
+    cylinder = ovoid_shape_create_cylinder(0.2 * far, 0.3 * far, NULL, NULL);
     if (!CHECK(cylinder != NULL)) return 0;
     round_pair = (ovoid_pair){cylinder, pair.shape_b, none, pair.pose_b};
     ovoid_vec3 center = ovoid_pose_compute_point(&pair.pose_b, size.sphere_center);

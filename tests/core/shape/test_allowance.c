@@ -460,8 +460,9 @@ static double find_support(vec3 n, double radius, double half, int is_cone) {
 /// Against a plate so large that the distance is the support along its normal.
 static void check_round(uint64_t *s, int is_cone, double tolerance) {
     double radius = random_uniform(s, 0.1, 2), half = random_uniform(s, 0.1, 2);
-    ovoid_shape *round = is_cone ? ovoid_shape_create_cone(radius, half, tolerance, NULL, NULL)
-                                 : ovoid_shape_create_cylinder(radius, half, tolerance, NULL, NULL);
+    ovoid_shape *round =
+        is_cone ? ovoid_shape_create_cone(radius, half, &(ovoid_shape_options){.tolerance = tolerance}, NULL)
+                : ovoid_shape_create_cylinder(radius, half, &(ovoid_shape_options){.tolerance = tolerance}, NULL);
     ovoid_shape *plate = ovoid_shape_create_box((ovoid_vec3){50, 50, 50}, NULL, NULL);
     if (!CHECK(round && plate)) return;
     ovoid_allowance w = ovoid_shape_get_allowance(round);
@@ -486,8 +487,8 @@ static void test_rounds(void) {
     static const double tolerances[] = {0, 1e-5, 1e-3, 0.1, 3};
     for (int i = 0; i < 2000; i++) check_round(&s, i & 1, tolerances[i / 2 % 5]);
     // Two cylinders side by side.
-    ovoid_shape *a = ovoid_shape_create_cylinder(1, 2, 0, NULL, NULL),
-                *b = ovoid_shape_create_cylinder(0.5, 2, 1e-4, NULL, NULL);
+    ovoid_shape *a = ovoid_shape_create_cylinder(1, 2, NULL, NULL),
+                *b = ovoid_shape_create_cylinder(0.5, 2, &(ovoid_shape_options){.tolerance = 1e-4}, NULL);
     for (int i = 0; i < 500; i++) {
         double turn = random_uniform(&s, 0, 3), angle = random_uniform(&s, 0, 6), d = random_uniform(&s, 1.4, 1.8);
         ovoid_pair p = {a,
@@ -513,11 +514,14 @@ static void test_edges(void) {
         CHECK(ovoid_shape_create_from_points(xyz, 4, &o, &e) == NULL);
         CHECK(strstr(e.message, i & 1 ? "outside" : "inside") != NULL);
     }
-    CHECK(ovoid_shape_create_cylinder(1, 1, -1, NULL, &e) == NULL && strstr(e.message, "tolerance") != NULL);
-    CHECK(ovoid_shape_create_cylinder(1, 1, NAN, NULL, &e) == NULL && strstr(e.message, "tolerance") != NULL);
-    CHECK(ovoid_shape_create_cone(1, 1, 1e-12, NULL, &e) == NULL && e.code == OVOID_ERROR_LIMIT);
-    CHECK(ovoid_shape_create_cone(-1, 1, 0, NULL, &e) == NULL);
-    ovoid_shape *line = ovoid_shape_create_cylinder(0, 1, 0, NULL, &e);
+    CHECK(ovoid_shape_create_cylinder(1, 1, &(ovoid_shape_options){.tolerance = -1}, &e) == NULL &&
+          strstr(e.message, "tolerance") != NULL);
+    CHECK(ovoid_shape_create_cylinder(1, 1, &(ovoid_shape_options){.tolerance = NAN}, &e) == NULL &&
+          strstr(e.message, "tolerance") != NULL);
+    CHECK(ovoid_shape_create_cone(1, 1, &(ovoid_shape_options){.tolerance = 1e-12}, &e) == NULL &&
+          e.code == OVOID_ERROR_LIMIT);
+    CHECK(ovoid_shape_create_cone(-1, 1, NULL, &e) == NULL);
+    ovoid_shape *line = ovoid_shape_create_cylinder(0, 1, NULL, &e);
     CHECK(line && !(ovoid_shape_get_allowance(line).outside > 0));
     ovoid_shape_destroy(line);
 

@@ -32,7 +32,7 @@ static rest make_rest(int is_cone, double scale, double gap, ovoid_quat turned, 
     rest r = {.scale = scale, .truth = gap * scale};
     r.plate = ovoid_shape_create_box((ovoid_vec3){4 * scale, 4 * scale, 0.5 * scale}, NULL, NULL);
     r.body =
-        (is_cone ? ovoid_shape_create_cone : ovoid_shape_create_cylinder)(radius * scale, half * scale, 0, NULL, NULL);
+        (is_cone ? ovoid_shape_create_cone : ovoid_shape_create_cylinder)(radius * scale, half * scale, NULL, NULL);
     vec3 down = mat3_mul_transposed_vec3(quat_to_mat3(turned), (vec3){0, 0, -1});
     double height = find_support(down, radius, half, is_cone) + 0.5 + gap;
     ovoid_pose on = {{random_uniform(s, -2, 2) * scale, random_uniform(s, -2, 2) * scale, height * scale}, turned};
@@ -69,7 +69,7 @@ static void check_other_axis(const rest *r, const ovoid_answer *x, const ovoid_c
     for (size_t i = 0; i < sizeof axes / sizeof *axes; i++) {
         ovoid_allowance other = ovoid_shape_get_allowance(r->body);
         other.axis = axes[i];
-        ovoid_shape *liar = ovoid_shape_create_allowed(r->body, other, NULL, NULL);
+        ovoid_shape *liar = ovoid_shape_create_allowed(r->body, &(ovoid_shape_options){.allowance = other}, NULL);
         ovoid_pair p = r->pair;
         if (p.shape_a == r->body) p.shape_a = liar;
         if (p.shape_b == r->body) p.shape_b = liar;
@@ -194,7 +194,7 @@ static ovoid_solid *make_table(void) {
     static const double xyz[] = {-4, -4, -1, 4, -4, -1, 4, 4, -1, -4, 4, -1, -4, -4, 0, 4, -4, 0, 4, 4, 0, -4, 4, 0};
     static const uint32_t t[] = {0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0, 5, 4,
                                  1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7};
-    return ovoid_solid_create_from_triangles(xyz, 8, t, 12, NULL, NULL);
+    return ovoid_solid_create_from_triangles(&(ovoid_triangles){xyz, 8, t, 12}, NULL, NULL);
 }
 
 // Both ways to the answer of two bodies, with exclusions, and its check.
@@ -218,7 +218,7 @@ static void test_bodies(void) {
     uint64_t s = 13;
     ovoid_solid *table = make_table();
     ovoid_shape *plate = ovoid_shape_create_box((ovoid_vec3){4, 4, 0.5}, NULL, NULL),
-                *post = ovoid_shape_create_cylinder(0.5, 1, 0, NULL, NULL);
+                *post = ovoid_shape_create_cylinder(0.5, 1, NULL, NULL);
     const ovoid_posed_shape parts[] = {{post, {{0, 0, 1}, {1, 0, 0, 0}}}, {post, {{1.5, 0, 2}, {1, 0.3, 0, 0}}}};
     ovoid_compound *both = ovoid_compound_create(parts, 2, NULL, NULL);
     if (!CHECK(table && plate && post && both)) return;
@@ -252,7 +252,7 @@ static void test_world(void) {
     uint64_t s = 17;
     ovoid_world *w = ovoid_world_create(NULL, NULL);
     ovoid_shape *plate = ovoid_shape_create_box((ovoid_vec3){4, 4, 0.5}, NULL, NULL),
-                *post = ovoid_shape_create_cylinder(0.5, 0.05, 0.1, NULL, NULL);
+                *post = ovoid_shape_create_cylinder(0.5, 0.05, &(ovoid_shape_options){.tolerance = 0.1}, NULL);
     ovoid_world_body bodies[2] = {{.body = {.shape = plate, .pose = {{0, 0, -0.5}, {1, 0, 0, 0}}}},
                                   {.body = {.shape = post, .pose = {{0, 0, 1}, {1, 0, 0, 0}}}}};
     ovoid_id ids[2];
@@ -314,7 +314,7 @@ static void test_turning_disc(void) {
 // when its rim does.
 static void test_motions(void) {
     ovoid_shape *plate = ovoid_shape_create_box((ovoid_vec3){4, 4, 0.5}, NULL, NULL),
-                *post = ovoid_shape_create_cylinder(0.5, 0.25, 0, NULL, NULL);
+                *post = ovoid_shape_create_cylinder(0.5, 0.25, NULL, NULL);
     const ovoid_pose none = {{0, 0, 0}, {0, 0, 0, 0}};
     const double gap = 1e-4;
     static ovoid_step steps[4096];
@@ -370,8 +370,8 @@ static void test_shapes(void) {
                  {{0.1, 0, {0, 1e-9, 1}}, none}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         ovoid_shape_options o = {.allowance = cases[i].given};
-        ovoid_shape *c = ovoid_shape_create_cylinder(1, 1, 0, &o, NULL),
-                    *k = ovoid_shape_create_cone(1, 1, 0, &o, NULL), *p = ovoid_shape_create_prism(1, 1, 8, &o, NULL),
+        ovoid_shape *c = ovoid_shape_create_cylinder(1, 1, &o, NULL), *k = ovoid_shape_create_cone(1, 1, &o, NULL),
+                    *p = ovoid_shape_create_prism(&(ovoid_prism){1, 1, 8}, &o, NULL),
                     *to = ovoid_shape_create_copy(c, NULL, NULL);
         check_axis(c, cases[i].kept);
         check_axis(k, cases[i].kept);
@@ -379,7 +379,8 @@ static void test_shapes(void) {
         // Of nothing that stands out there is no axis; else it has the length 1.
         ovoid_vec3 own = ovoid_shape_get_allowance(p).axis, given = cases[i].given.axis;
         CHECK_NEAR(vec3_norm(own), cases[i].given.outside > 0 && vec3_norm(given) > 0 ? 1 : 0, 1e-15);
-        ovoid_shape *again = ovoid_shape_create_allowed(c, ovoid_shape_get_allowance(p), NULL, NULL);
+        ovoid_shape *again =
+            ovoid_shape_create_allowed(c, &(ovoid_shape_options){.allowance = ovoid_shape_get_allowance(p)}, NULL);
         check_axis(again, own);
         ovoid_shape_destroy(again);
         ovoid_shape_destroy(to);
@@ -393,7 +394,7 @@ static void test_shapes(void) {
         ovoid_shape_options o = {.allowance = {.outside = 1, .axis = {0, bad[i], 1}}};
         CHECK(!ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, &o, &e));
         CHECK_EQ(e.code, OVOID_ERROR_NOT_FINITE);
-        CHECK(!ovoid_shape_create_cone(1, 1, 0, &o, NULL));
+        CHECK(!ovoid_shape_create_cone(1, 1, &o, NULL));
     }
 }
 

@@ -101,13 +101,13 @@ static void check_round(void) {
 static void check_turned(void) {
     for (uint32_t n = 3; n < 70; n = n * 3 / 2 + 1) {
         double area = n * sin(6.283185307179586 / n) / 2 * 4;
-        ovoid_shape *s = ovoid_shape_create_prism(2, 5, n, NULL, NULL);
+        ovoid_shape *s = ovoid_shape_create_prism(&(ovoid_prism){2, 5, n}, NULL, NULL);
         check_shape(s);
         CHECK_EQ(s->vertex_count, 2 * n);
         CHECK_EQ(ovoid_shape_get_polytope(s).facet_count, n + 2);
         CHECK_NEAR(s->measures.volume, area * 10, 1e-13 * area);
         ovoid_shape_destroy(s);
-        s = ovoid_shape_create_pyramid(2, 5, n, NULL, NULL);
+        s = ovoid_shape_create_pyramid(&(ovoid_prism){2, 5, n}, NULL, NULL);
         check_shape(s);
         CHECK_EQ(s->vertex_count, n + 1);
         CHECK_NEAR(s->measures.volume, area * 10 / 3, 1e-13 * area);
@@ -138,8 +138,8 @@ static void check_options(void) {
     check_refused(ovoid_shape_create_sphere(-1, NULL, &e), &e, OVOID_ERROR_RADIUS, "negative");
     check_refused(ovoid_shape_create_sphere(NAN, NULL, &e), &e, OVOID_ERROR_NOT_FINITE, "radius");
     check_refused(ovoid_shape_create_capsule(1, NAN, NULL, &e), &e, OVOID_ERROR_NOT_FINITE, "half length");
-    check_refused(ovoid_shape_create_pyramid(1, 1, 2, NULL, &e), &e, OVOID_ERROR_ARGUMENT, "sides");
-    check_refused(ovoid_shape_create_prism(1, 1, UINT32_MAX, NULL, &e), &e, OVOID_ERROR_LIMIT, "sides");
+    check_refused(ovoid_shape_create_pyramid(&(ovoid_prism){1, 1, 2}, NULL, &e), &e, OVOID_ERROR_ARGUMENT, "sides");
+    check_refused(ovoid_shape_create_prism(&(ovoid_prism){1, 1, UINT32_MAX}, NULL, &e), &e, OVOID_ERROR_LIMIT, "sides");
     o = (ovoid_shape_options){.radius = -1};
     check_refused(ovoid_shape_create_sphere(2, &o, &e), &e, OVOID_ERROR_RADIUS, "negative");
     check_refused(ovoid_shape_create_from_points(NULL, 0, NULL, &e), &e, OVOID_ERROR_EMPTY, "points");
@@ -311,8 +311,8 @@ static ovoid_shape *make(int kind, const ovoid_shape_options *o, ovoid_error *e)
     case 1: return ovoid_shape_create_box((vec3){1, 2, 0}, o, e);
     case 2: return ovoid_shape_create_sphere(1, o, e);
     case 3: return ovoid_shape_create_capsule(1, 1, o, e);
-    case 4: return ovoid_shape_create_prism(1, 1, 40, o, e);
-    case 5: return ovoid_shape_create_pyramid(1, 1, 5, o, e);
+    case 4: return ovoid_shape_create_prism(&(ovoid_prism){1, 1, 40}, o, e);
+    case 5: return ovoid_shape_create_pyramid(&(ovoid_prism){1, 1, 5}, o, e);
     case 6: return ovoid_shape_create_from_points(cloud, 300, o, e);
     default: return ovoid_shape_create_from_faces(&f, o, e);
     }
@@ -348,7 +348,8 @@ static void check_memory(void) {
     ovoid_allocator counted = countdown_make_allocator(&none);
     ovoid_shape *shape = make(0, NULL, NULL);
     ovoid_error e;
-    check_refused(ovoid_shape_create_copy(shape, &counted, &e), &e, OVOID_ERROR_MEMORY, "memory");
+    check_refused(ovoid_shape_create_copy(shape, &(ovoid_shape_options){.allocator = &counted}, &e), &e,
+                  OVOID_ERROR_MEMORY, "memory");
     ovoid_shape_destroy(shape);
     ovoid_shape_destroy(NULL);
 }

@@ -83,8 +83,10 @@ static void test_deformed(void) {
 
 // Divides, which must succeed.
 static void divide(const ovoid_shape *shape, ovoid_plane plane, ovoid_shape *parts[2]) {
-    ovoid_code code = ovoid_shape_create_divided(shape, &plane, NULL, parts, NULL);
-    CHECK_EQ(code, OVOID_OK);
+    ovoid_shape_halves halves = ovoid_shape_create_divided(shape, &plane, NULL, NULL);
+    CHECK_EQ(halves.code, OVOID_OK);
+    parts[0] = halves.below;
+    parts[1] = halves.above;
 }
 
 // Each vertex of the body on its side is in that part (by the distance of a point shape to it), and the part is on its
@@ -179,15 +181,15 @@ static void test_known_cuts(void) {
 }
 
 static void test_trouble(void) {
-    ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){1, 2, 3}, NULL, NULL), *parts[2];
+    ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){1, 2, 3}, NULL, NULL);
     const ovoid_plane bad[] = {{{0, 0, 0}, 1}, {{NAN, 0, 1}, 1}, {{1, 0, 0}, INFINITY}, {{1e-200, 0, 0}, 0}};
     const ovoid_code codes[] = {OVOID_ERROR_ARGUMENT, OVOID_ERROR_NOT_FINITE, OVOID_ERROR_NOT_FINITE,
                                 OVOID_ERROR_ARGUMENT};
     for (int i = 0; i < 4; i++) {
         ovoid_error error = {0};
-        ovoid_code code = ovoid_shape_create_divided(box, &bad[i], NULL, parts, &error);
-        CHECK_EQ(code, codes[i]);
-        CHECK(error.code == codes[i] && error.message[0] && !parts[0] && !parts[1]);
+        ovoid_shape_halves halves = ovoid_shape_create_divided(box, &bad[i], NULL, &error);
+        CHECK_EQ(halves.code, codes[i]);
+        CHECK(error.code == codes[i] && error.message[0] && !halves.below && !halves.above);
     }
     const ovoid_plane plane = {{1, 2, 3}, 0.3};
     ovoid_code code = OVOID_ERROR_MEMORY;
@@ -195,11 +197,12 @@ static void test_trouble(void) {
         countdown c = {k, 0};
         ovoid_allocator counted = countdown_make_allocator(&c);
         const ovoid_shape_options o = {.allocator = &counted};
-        code = ovoid_shape_create_divided(box, &plane, &o, parts, NULL);
+        ovoid_shape_halves halves = ovoid_shape_create_divided(box, &plane, &o, NULL);
+        code = halves.code;
         CHECK_EQ(code, code ? OVOID_ERROR_MEMORY : OVOID_OK);
         CHECK_EQ(c.held, code ? 0 : 2);
-        ovoid_shape_destroy(parts[0]);
-        ovoid_shape_destroy(parts[1]);
+        ovoid_shape_destroy(halves.below);
+        ovoid_shape_destroy(halves.above);
     }
     ovoid_shape_destroy(box);
 }

@@ -170,7 +170,7 @@ static void check_memory(size_t size) {
         countdown c = {k, 0};
         ovoid_allocator counted = countdown_make_allocator(&c);
         ovoid_error e = {0};
-        s = ovoid_shape_read(file, size, &counted, &e);
+        s = ovoid_shape_read(file, size, &(ovoid_shape_options){.allocator = &counted}, &e);
         CHECK_EQ(e.code, s ? OVOID_OK : OVOID_ERROR_MEMORY);
         CHECK_EQ(c.held, s ? 1 : 0);
         if (!s) continue;
@@ -191,7 +191,7 @@ static void check_kinds(void) {
         ovoid_shape_create_box((vec3){1, 2, 0}, &phases, NULL),
         ovoid_shape_create_box((vec3){1, 2, 3}, &phases, NULL),
         ovoid_shape_create_from_points(cloud, 10, NULL, NULL),
-        ovoid_shape_create_pyramid(1, 1, 7, NULL, NULL),
+        ovoid_shape_create_pyramid(&(ovoid_prism){1, 1, 7}, NULL, NULL),
     };
     for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++) {
         size_t size = check_round_trip(shapes[i]);

@@ -49,11 +49,11 @@ static void check_primitives(void) {
         check_body(ovoid_shape_create_box((vec3){r, 2 * r, 3 * r}, &known, NULL));
         check_body(ovoid_shape_create_sphere(r, NULL, NULL));
         check_body(ovoid_shape_create_capsule(r, r, NULL, NULL));
-        check_body(ovoid_shape_create_cylinder(r, 2 * r, 1e-3 * r, NULL, NULL));
-        check_body(ovoid_shape_create_cylinder(r, 2 * r, 1e-5 * r, NULL, NULL));
-        check_body(ovoid_shape_create_cone(r, 2 * r, 1e-5 * r, NULL, NULL));
-        check_body(ovoid_shape_create_prism(r, r, 300, &known, NULL));
-        check_body(ovoid_shape_create_pyramid(r, r, 700, NULL, NULL));
+        check_body(ovoid_shape_create_cylinder(r, 2 * r, &(ovoid_shape_options){.tolerance = 1e-3 * r}, NULL));
+        check_body(ovoid_shape_create_cylinder(r, 2 * r, &(ovoid_shape_options){.tolerance = 1e-5 * r}, NULL));
+        check_body(ovoid_shape_create_cone(r, 2 * r, &(ovoid_shape_options){.tolerance = 1e-5 * r}, NULL));
+        check_body(ovoid_shape_create_prism(&(ovoid_prism){r, r, 300}, &known, NULL));
+        check_body(ovoid_shape_create_pyramid(&(ovoid_prism){r, r, 700}, NULL, NULL));
     }
 }
 
@@ -427,7 +427,7 @@ static void check_allowances(void) {
 // Axes that no allowance has: zero, not of length 1, not a number, or of nothing that stands out.
 static void check_axes(void) {
     static const vec3 wrong[] = {{0, 0, 0}, {0, 0, 2}, {0, 0, 1 - 1e-9}, {NAN, 0, 1}, {0, INFINITY, 0}};
-    ovoid_shape *s = ovoid_shape_create_cylinder(1, 1, 0.05, NULL, NULL);
+    ovoid_shape *s = ovoid_shape_create_cylinder(1, 1, &(ovoid_shape_options){.tolerance = 0.05}, NULL);
     for (size_t i = 0; i < 2 * (sizeof wrong / sizeof *wrong + 1); i++) {
         uint32_t version = 4 + i % 2;
         forgery f = {NULL, shape_write_version(s, version, NULL, 0), s->vertex_count, s->counts.triangles};

@@ -166,8 +166,8 @@ static void make_round(model *m, ovoid_shape **shape, uint64_t *s) {
     m->half = random_uniform(s, 0.1, 1);
     m->rounding = random_next(s) % 4 == 0 ? 0.05 : 0;
     const ovoid_shape_options o = {.radius = m->rounding};
-    *shape = m->is_cone ? ovoid_shape_create_cone(m->radius, m->half, 0, &o, NULL)
-                        : ovoid_shape_create_cylinder(m->radius, m->half, 0, &o, NULL);
+    *shape = m->is_cone ? ovoid_shape_create_cone(m->radius, m->half, &o, NULL)
+                        : ovoid_shape_create_cylinder(m->radius, m->half, &o, NULL);
 }
 
 static long compared, uneven, shown, asked;
@@ -263,15 +263,15 @@ static void test_axis(void) {
 // Places whose points are not unique, and shapes whose true form is not known: no derivative by rotations.
 static void test_kinks(void) {
     const ovoid_quat none = {1, 0, 0, 0};
-    ovoid_shape *cylinder = ovoid_shape_create_cylinder(0.5, 1, 0, NULL, NULL);
+    ovoid_shape *cylinder = ovoid_shape_create_cylinder(0.5, 1, NULL, NULL);
     ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, NULL, NULL);
     // The box's face across the normal of the cone's side, (2 H, 0, R).
-    ovoid_shape *cone = ovoid_shape_create_cone(0.5, 1, 0, NULL, NULL);
+    ovoid_shape *cone = ovoid_shape_create_cone(0.5, 1, NULL, NULL);
     const double half = 0.5 * atan2(0.5, 2);
     const ovoid_vec3 aside = {3 * cos(2 * half), 0, 3 * sin(2 * half)};
     const ovoid_quat along = {cos(half), 0, -sin(half), 0};
-    ovoid_shape *known = ovoid_shape_create_cylinder(
-        0.5, 1, 0, &(ovoid_shape_options){.allowance = {.outside = 1e-3, .inside = 0}}, NULL);
+    ovoid_shape *known =
+        ovoid_shape_create_cylinder(0.5, 1, &(ovoid_shape_options){.allowance = {.outside = 1e-3, .inside = 0}}, NULL);
     const struct {
         const ovoid_shape *a, *b;
         ovoid_vec3 at;

@@ -134,7 +134,7 @@ static void check_peg(void) {
     uint64_t s = 1;
     mesh_add_ring(&m, 15, 5, 360, 60, 0, &s);
     ovoid_solid *ring = mesh_make_solid(&m);
-    ovoid_shape *peg = ovoid_shape_create_prism(5, 20, 72, NULL, NULL);
+    ovoid_shape *peg = ovoid_shape_create_prism(&(ovoid_prism){5, 20, 72}, NULL, NULL);
     if (CHECK(ring && peg)) {
         ovoid_solid_report r = ovoid_solid_get_report(ring);
         CHECK_EQ(r.edges_unmatched, 0);

@@ -10,7 +10,7 @@ static const uint32_t cube[36] = {0, 2, 1, 0, 3, 2, 4, 5, 6, 4, 6, 7, 0, 1, 5, 0
                                   1, 2, 6, 1, 6, 5, 2, 3, 7, 2, 7, 6, 3, 0, 4, 3, 4, 7};
 
 static ovoid_solid *make_cube(size_t count) {
-    return ovoid_solid_create_from_triangles(corners, 8, cube, count, NULL, NULL);
+    return ovoid_solid_create_from_triangles(&(ovoid_triangles){corners, 8, cube, count}, NULL, NULL);
 }
 
 static void check_reports(void) {
@@ -42,7 +42,7 @@ static void check_reports(void) {
     uint32_t one_turned[36];
     memcpy(one_turned, cube, sizeof cube);
     one_turned[0] = cube[1], one_turned[1] = cube[0];
-    s = ovoid_solid_create_from_triangles(corners, 8, one_turned, 12, NULL, NULL);
+    s = ovoid_solid_create_from_triangles(&(ovoid_triangles){corners, 8, one_turned, 12}, NULL, NULL);
     CHECK_EQ(ovoid_solid_get_report(s).is_closed, 0);
     CHECK_EQ(ovoid_solid_get_report(s).edges_unmatched, 3);
     CHECK_EQ(ovoid_solid_get_report(s).edges_crowded, 0);
@@ -59,7 +59,7 @@ static void check_reports(void) {
                 if (soup[3 * i + (uint32_t)k] <= 0) soup[3 * i + (uint32_t)k] = -0.0;
         indices[i] = i;
     }
-    s = ovoid_solid_create_from_triangles(soup, 72, indices, 24, NULL, NULL);
+    s = ovoid_solid_create_from_triangles(&(ovoid_triangles){soup, 72, indices, 24}, NULL, NULL);
     r = ovoid_solid_get_report(s);
     CHECK_EQ(r.points, 8);
     CHECK_EQ(r.duplicates, 12);
@@ -76,7 +76,7 @@ static void check_reports(void) {
     double more[27];
     memcpy(more, corners, sizeof corners);
     more[24] = more[25] = more[26] = 0.25;
-    s = ovoid_solid_create_from_triangles(more, 9, turned, 12, NULL, NULL);
+    s = ovoid_solid_create_from_triangles(&(ovoid_triangles){more, 9, turned, 12}, NULL, NULL);
     CHECK_NEAR(ovoid_solid_get_report(s).volume, -1, 1e-15);
     CHECK(ovoid_solid_compute_winding(s, (ovoid_vec3){0.5, 0.5, 0.5}, &winding) && winding == -1);
     // On a diagonal of a side, straight under an edge, on the surface itself.
@@ -85,7 +85,7 @@ static void check_reports(void) {
     CHECK_EQ(ovoid_solid_compute_winding(s, (ovoid_vec3){NAN, 0, 0}, &winding), 0);
     CHECK(ovoid_solid_compute_winding(s, (ovoid_vec3){1e300, 0, 0}, &winding) && winding == 0);
     ovoid_solid_destroy(s);
-    s = ovoid_solid_create_from_triangles(more, 9, turned, 14, NULL, NULL);
+    s = ovoid_solid_create_from_triangles(&(ovoid_triangles){more, 9, turned, 14}, NULL, NULL);
     CHECK_EQ(ovoid_solid_get_report(s).degenerate, 2);
     ovoid_solid_destroy(s);
 }
@@ -114,7 +114,7 @@ static void check_strip(void) {
 static void check_refused(const double *xyz, size_t points, const uint32_t *indices, size_t count, ovoid_code code,
                           int64_t place) {
     ovoid_error error = {OVOID_OK, -1, ""};
-    CHECK(ovoid_solid_create_from_triangles(xyz, points, indices, count, NULL, &error) == NULL);
+    CHECK(ovoid_solid_create_from_triangles(&(ovoid_triangles){xyz, points, indices, count}, NULL, &error) == NULL);
     CHECK_EQ(error.code, code);
     CHECK_EQ(error.place, place);
     CHECK(error.message[0] != 0);
@@ -141,7 +141,8 @@ static void check_bad_input(void) {
     for (ovoid_solid *s = NULL; !s && k < 100; k++) {
         ovoid_error error = {OVOID_OK, -1, ""};
         memory = (countdown){k, 0};
-        s = ovoid_solid_create_from_triangles(corners, 8, cube, 12, &allocator, &error);
+        s = ovoid_solid_create_from_triangles(&(ovoid_triangles){corners, 8, cube, 12},
+                                              &(ovoid_solid_options){&allocator}, &error);
         CHECK_EQ(memory.held, s ? 1 : 0);
         if (!s) CHECK_EQ(error.code, OVOID_ERROR_MEMORY);
         if (s) CHECK_EQ(ovoid_solid_get_size(s) % 64, 0);
@@ -229,8 +230,8 @@ static void check_kernels(void) {
 static void check_slivers(void) {
     const double xyz[18] = {0, 0, 0, 1, 0, 0, 0, 1e-300, 0, 0, 0, 0, 1e-300, 0, 0, 0, 0, 1e-300};
     const uint32_t t[6] = {0, 1, 2, 3, 4, 5};
-    ovoid_solid *s = ovoid_solid_create_from_triangles(xyz, 6, t, 2, NULL, NULL);
-    ovoid_solid *tiny = ovoid_solid_create_from_triangles(xyz, 6, t + 3, 1, NULL, NULL);
+    ovoid_solid *s = ovoid_solid_create_from_triangles(&(ovoid_triangles){xyz, 6, t, 2}, NULL, NULL);
+    ovoid_solid *tiny = ovoid_solid_create_from_triangles(&(ovoid_triangles){xyz, 6, t + 3, 1}, NULL, NULL);
     ovoid_exclusion items[16];
     ovoid_exclusions all = {items, 16, 0, NULL};
     ovoid_error error;
@@ -324,8 +325,8 @@ static void check_flat(void) {
         for (int k = 0; k < 5; k++) {
             double s = scales[i], h = heights[k] * s;
             const double points[] = {0, 0, 0, s, 0, 0, 0, s, 0, 0, 0, h, s, 0, h, 0, s, h};
-            ovoid_solid *solid = ovoid_solid_create_from_triangles(points, 6, faces, 8, NULL, NULL);
-            ovoid_solid *open = ovoid_solid_create_from_triangles(points, 6, faces, 7, NULL, NULL);
+            ovoid_solid *solid = ovoid_solid_create_from_triangles(&(ovoid_triangles){points, 6, faces, 8}, NULL, NULL);
+            ovoid_solid *open = ovoid_solid_create_from_triangles(&(ovoid_triangles){points, 6, faces, 7}, NULL, NULL);
             if (!CHECK(solid && open)) return;
             CHECK_EQ(ovoid_solid_get_report(solid).is_flat, k < 3);
             CHECK(ovoid_solid_get_report(solid).is_closed);

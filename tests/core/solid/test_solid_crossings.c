@@ -4,7 +4,7 @@
 #include "solids.h"
 
 static ovoid_solid_crossings find(const double *xyz, size_t points, const uint32_t *indices, size_t count) {
-    ovoid_solid *s = ovoid_solid_create_from_triangles(xyz, points, indices, count, NULL, NULL);
+    ovoid_solid *s = ovoid_solid_create_from_triangles(&(ovoid_triangles){xyz, points, indices, count}, NULL, NULL);
     ovoid_solid_crossings x = {.pairs = UINT64_MAX};
     if (CHECK(s != NULL)) x = ovoid_solid_compute_crossings(s, UINT64_MAX);
     ovoid_solid_destroy(s);

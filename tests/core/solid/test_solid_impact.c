@@ -158,9 +158,9 @@ static void check_begin(int rounds) {
         double v[36 * 3], far = pow(10, 1 + i % 6);
         uint32_t t[36];
         fill_triangles(v, t, far, &s);
-        ovoid_solid *a = ovoid_solid_create_from_triangles(v, 36, t, 12, NULL, NULL);
+        ovoid_solid *a = ovoid_solid_create_from_triangles(&(ovoid_triangles){v, 36, t, 12}, NULL, NULL);
         fill_triangles(v, t, 0, &s);
-        ovoid_solid *b = ovoid_solid_create_from_triangles(v, 36, t, 12, NULL, NULL);
+        ovoid_solid *b = ovoid_solid_create_from_triangles(&(ovoid_triangles){v, 36, t, 12}, NULL, NULL);
         ovoid_pose here = ovoid_pose_make_identity(), there = {{0, 4, 0}, random_quat(&s)};
         ovoid_body_pair pair = {{.solid = a, .pose = here}, {.solid = b, .pose = there}};
         double d = ovoid_body_distance(&pair, &exact, NULL, NULL).upper;

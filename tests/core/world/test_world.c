@@ -56,7 +56,7 @@ static void test_one_place(void) {
     ovoid_world *w = ovoid_world_create(NULL, NULL);
     static ovoid_world_body bodies[300];
     for (int i = 0; i < 300; i++) bodies[i] = (ovoid_world_body){.body = {.shape = shapes[i % 3], .pose = here}};
-    CHECK(ovoid_world_add_many(w, bodies, 300, NULL, NULL) == OVOID_OK);
+    CHECK(ovoid_world_add_many(w, &(ovoid_world_additions){bodies, 300, NULL}, NULL) == OVOID_OK);
     ovoid_contacts frame;
     ovoid_contact_query q = {.kind = OVOID_QUERY_COLLIDE};
     CHECK(ovoid_world_compute_contacts(w, &q, &frame, NULL) == OVOID_OK);
@@ -80,7 +80,7 @@ static void test_many(void) {
         poses[i] = (ovoid_pose){{(double)((uint64_t)i * 7919 % MANY), 0, 0}, {1, 0, 0, 0}};
         bodies[i].body = (ovoid_body){.shape = ball, .pose = poses[i]};
     }
-    CHECK(ovoid_world_add_many(w, bodies, MANY, ids, NULL) == OVOID_OK);
+    CHECK(ovoid_world_add_many(w, &(ovoid_world_additions){bodies, MANY, ids}, NULL) == OVOID_OK);
     ovoid_contacts f;
     ovoid_contact_query q = {.kind = OVOID_QUERY_COLLIDE};
     CHECK(ovoid_world_compute_contacts(w, &q, &f, NULL) == OVOID_OK);
@@ -89,7 +89,7 @@ static void test_many(void) {
         if (f.items[i - 1].a > f.items[i].a || (f.items[i - 1].a == f.items[i].a && f.items[i - 1].b >= f.items[i].b))
             CHECK(!"sorted");
     for (int i = 0; i < MANY; i++) poses[i].position.x *= 1.25;
-    CHECK(ovoid_world_move_many(w, ids, poses, MANY, NULL) == OVOID_OK);
+    CHECK(ovoid_world_move_many(w, &(ovoid_world_moves){ids, poses, MANY}, NULL) == OVOID_OK);
     CHECK(ovoid_world_compute_contacts(w, &q, &f, NULL) == OVOID_OK);
     CHECK_EQ(f.count, 0);
     CHECK_EQ(f.bodies, MANY);

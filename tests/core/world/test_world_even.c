@@ -32,7 +32,7 @@ static size_t move(swarm *x) {
         ovoid_vec3 *p = &x->poses[i].position;
         *p = (ovoid_vec3){p->x + x->ways[i].x, p->y + x->ways[i].y, p->z + x->ways[i].z};
     }
-    CHECK(ovoid_world_move_many(x->world, x->ids, x->poses, BODIES, NULL) == OVOID_OK);
+    CHECK(ovoid_world_move_many(x->world, &(ovoid_world_moves){x->ids, x->poses, BODIES}, NULL) == OVOID_OK);
     CHECK(ovoid_world_compute_contacts(x->world, &q, &f, NULL) == OVOID_OK);
     return f.moved;
 }

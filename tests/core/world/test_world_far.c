@@ -75,7 +75,7 @@ static void test_far(uint64_t seed) {
         world_validate_frame(w, &q, &f);
         // Between frames: the same truth from the boxes alone.
         ovoid_world_hit hit;
-        CHECK(ovoid_world_find_any(w, NULL, 0, NULL, &hit, NULL) == OVOID_OK);
+        CHECK(ovoid_world_find_any(w, NULL, &hit, NULL) == OVOID_OK);
         CHECK_EQ(hit.b != 0, f.count);
     }
     ovoid_world_destroy(w);
@@ -189,7 +189,7 @@ static void test_rays(void) {
         ovoid_shape *small = ovoid_shape_create_box((ovoid_vec3){0.5, 0.5, 0.5}, NULL, NULL);
         ovoid_vec3 from = {ray.origin.x + 0.5, ray.origin.y - 0.5, ray.origin.z};
         ovoid_world_body probe = {.body = {.shape = small, .pose = {from, {1, 0, 0, 0}}}};
-        CHECK(ovoid_world_cast_body(w, &probe, way, &x_hit, NULL) == OVOID_OK);
+        CHECK(ovoid_world_cast_body(w, &(ovoid_world_sweep){probe, way}, &x_hit, NULL) == OVOID_OK);
         CHECK(x_hit.body == id || x_hit.undecided > 0);
         CHECK_LE(x_hit.lower, 1);
         ovoid_shape_destroy(small);

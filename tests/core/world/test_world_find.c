@@ -16,7 +16,7 @@ static ovoid_world_body make_body(scene *x) {
     ovoid_world_body b = {.body = {.shape = x->shapes[random_next(&x->s) % WORLD_SHAPES]}};
     if (random_next(&x->s) % 8 == 0) b.body = (ovoid_body){.compound = x->compound};
     b.body.pose = (ovoid_pose){random_place(&x->s, x->side), random_quat(&x->s)};
-    if (random_next(&x->s) % 5 == 0) b.group = 1, b.mask = 2;
+    if (random_next(&x->s) % 5 == 0) b.groups.group = 1, b.groups.mask = 2;
     return b;
 }
 
@@ -30,7 +30,7 @@ static void scene_make(scene *x, uint64_t seed, double side) {
         ovoid_world_body b = make_body(x);
         x->ids[i] = ovoid_world_add(x->world, &b, NULL);
     }
-    for (int i = 0; i < 20; i++) (void)ovoid_world_set_ignored(x->world, x->ids[i], x->ids[BODIES - 1 - i], 1, NULL);
+    for (int i = 0; i < 20; i++) (void)ovoid_world_add_ignored(x->world, x->ids[i], x->ids[BODIES - 1 - i], NULL);
 }
 
 static void scene_destroy(scene *x) {
@@ -46,9 +46,9 @@ static ovoid_world_body get_body(const scene *x, int i) {
 }
 
 static int is_in_groups(const ovoid_world_body *a, const ovoid_world_body *b) {
-    uint32_t ga = a->group, ma = a->mask;
+    uint32_t ga = a->groups.group, ma = a->groups.mask;
     if (!ga && !ma) ga = ma = ~0u;
-    return ga & b->mask && b->group & ma;
+    return ga & b->groups.mask && b->groups.group & ma;
 }
 
 static int rays_met, solids_met;
@@ -72,7 +72,7 @@ static void test_nearest(scene *x) {
             least = fmin(least, ovoid_body_distance(&pair, NULL, NULL, NULL).upper);
         }
         ovoid_world_hit hit;
-        CHECK(ovoid_world_find_nearest(x->world, x->ids[i], NULL, &hit, NULL) == OVOID_OK);
+        CHECK(ovoid_world_find_nearest(x->world, &(ovoid_world_query){.id = x->ids[i]}, &hit, NULL) == OVOID_OK);
         CHECK(hit.a == x->ids[i]);
         CHECK_NEAR(fmax(hit.answer.upper, 0), fmax(least, 0), 1e-7);
         if (least > 0) CHECK_LE(hit.lower, least);
@@ -100,7 +100,8 @@ static void test_nearest_loosely(scene *x) {
         ovoid_world_body self = get_body(x, i);
         const ovoid_options loose = {.absolute_tolerance = i % 2 ? 0.1 * (1 + i % 40) : 0, .iterations = 1 + i % 3 / 2};
         ovoid_world_hit hit;
-        CHECK(ovoid_world_find_nearest(x->world, x->ids[i], &loose, &hit, NULL) == OVOID_OK);
+        CHECK(ovoid_world_find_nearest(x->world, &(ovoid_world_query){.id = x->ids[i], .options = &loose}, &hit,
+                                       NULL) == OVOID_OK);
         double nearest = INFINITY;
         for (int j = 0; j < BODIES; j++) {
             if (!ovoid_world_is_pair(x->world, x->ids[i], x->ids[j])) continue;
@@ -122,15 +123,15 @@ static void test_any(scene *x) {
             touches |= ovoid_body_collide(&pair, NULL, NULL, NULL).status != OVOID_SEPARATED;
         }
         ovoid_world_hit hit;
-        CHECK(ovoid_world_find_any(x->world, &x->ids[i], 1, NULL, &hit, NULL) == OVOID_OK);
+        CHECK(ovoid_world_find_any(x->world, &(ovoid_world_ids){&x->ids[i], 1}, &hit, NULL) == OVOID_OK);
         CHECK_EQ(hit.b != 0, touches);
         if (hit.b) CHECK(hit.a == x->ids[i] && hit.answer.status != OVOID_SEPARATED);
         all |= touches;
     }
     ovoid_world_hit hit;
-    CHECK(ovoid_world_find_any(x->world, NULL, 0, NULL, &hit, NULL) == OVOID_OK);
+    CHECK(ovoid_world_find_any(x->world, NULL, &hit, NULL) == OVOID_OK);
     CHECK_EQ(hit.b != 0, all);
-    CHECK(ovoid_world_find_any(x->world, x->ids, BODIES, NULL, &hit, NULL) == OVOID_OK);
+    CHECK(ovoid_world_find_any(x->world, &(ovoid_world_ids){x->ids, BODIES}, &hit, NULL) == OVOID_OK);
     CHECK_EQ(hit.b != 0, all);
 }
 
@@ -139,11 +140,13 @@ static void check_any_to(scene *x, const ovoid_world_body *probes, size_t count)
     ovoid_world_hits hits = {.capacity = 0};
     size_t first = 0;
     for (; first < count; first++) {
-        CHECK(ovoid_world_find_overlaps(x->world, &probes[first], 0, &hits, NULL) == OVOID_OK);
+        CHECK(ovoid_world_find_overlaps(x->world, &(ovoid_world_query){.probe = &probes[first]}, &hits, NULL) ==
+              OVOID_OK);
         if (hits.count) break;
     }
     ovoid_world_hit hit;
-    CHECK(ovoid_world_find_any_to(x->world, probes, count, &hit, NULL) == OVOID_OK);
+    CHECK(ovoid_world_find_any_of(x->world, &(ovoid_world_probes){.items = probes, .count = count}, &hit, NULL) ==
+          OVOID_OK);
     CHECK_EQ(hit.b != 0, first < count);
     if (!hit.b) return;
     CHECK_EQ(hit.a, first);
@@ -156,7 +159,8 @@ static void check_any_to(scene *x, const ovoid_world_body *probes, size_t count)
 static void check_overlaps(scene *x, const ovoid_world_body *probe, double margin) {
     static ovoid_world_hit items[BODIES];
     ovoid_world_hits hits = {.items = items, .capacity = BODIES};
-    CHECK(ovoid_world_find_overlaps(x->world, probe, margin, &hits, NULL) == OVOID_OK);
+    CHECK(ovoid_world_find_overlaps(x->world, &(ovoid_world_query){.probe = probe, .margin = margin}, &hits, NULL) ==
+          OVOID_OK);
     size_t at = 0;
     double nearest = INFINITY;
     for (int j = 0; j < BODIES; j++) {
@@ -172,10 +176,11 @@ static void check_overlaps(scene *x, const ovoid_world_body *probe, double margi
     }
     CHECK_EQ(at, hits.count);
     ovoid_world_hits none = {.capacity = 0};
-    CHECK(ovoid_world_find_overlaps(x->world, probe, margin, &none, NULL) == OVOID_OK);
+    CHECK(ovoid_world_find_overlaps(x->world, &(ovoid_world_query){.probe = probe, .margin = margin}, &none, NULL) ==
+          OVOID_OK);
     CHECK_EQ(none.count, hits.count);
     ovoid_world_hit hit;
-    CHECK(ovoid_world_find_nearest_to(x->world, probe, NULL, &hit, NULL) == OVOID_OK);
+    CHECK(ovoid_world_find_nearest(x->world, &(ovoid_world_query){.probe = probe}, &hit, NULL) == OVOID_OK);
     CHECK_NEAR(fmax(hit.answer.upper, 0), fmax(nearest, 0), 1e-7);
 }
 
@@ -191,10 +196,12 @@ static void test_probes(scene *x) {
     ovoid_world_hit hit;
     ovoid_error error;
     for (size_t k = 0; k + 1 < 40; k++) {
-        CHECK(ovoid_world_find_any_to(x->world, probes + k, 1, &hit, NULL) == OVOID_OK);
+        CHECK(ovoid_world_find_any_of(x->world, &(ovoid_world_probes){.items = probes + k, .count = 1}, &hit, NULL) ==
+              OVOID_OK);
         if (hit.b) continue;
         probes[k + 1].body.pose.rotation = (ovoid_quat){0, 0, 0, 0};
-        CHECK(ovoid_world_find_any_to(x->world, probes + k, 2, &hit, &error) == OVOID_ERROR_ROTATION);
+        CHECK(ovoid_world_find_any_of(x->world, &(ovoid_world_probes){.items = probes + k, .count = 2}, &hit, &error) ==
+              OVOID_ERROR_ROTATION);
         CHECK_EQ(error.place, 1);
         break;
     }
@@ -243,7 +250,7 @@ static void test_solid_casts(scene *x) {
         probe.body.pose = (ovoid_pose){random_place(&x->s, 1.5 * x->side), random_quat(&x->s)};
         ovoid_vec3 way = random_place(&x->s, x->side);
         ovoid_world_cast cast;
-        CHECK(ovoid_world_cast_body(x->world, &probe, way, &cast, NULL) == OVOID_OK);
+        CHECK(ovoid_world_cast_body(x->world, &(ovoid_world_sweep){probe, way}, &cast, NULL) == OVOID_OK);
         double upper = INFINITY, lower = INFINITY;
         for (int j = 0; j < BODIES; j++) {
             ovoid_world_body b = get_body(x, j);
@@ -286,7 +293,7 @@ static void test_deep(void) {
     CHECK(ovoid_world_find_nearest_pair(w, NULL, &hit, NULL) == OVOID_OK);
     CHECK(hit.a == ids[count - 2] && hit.b == ids[count - 1]);
     for (int k = 1; k + 1 < count; k++) {
-        CHECK(ovoid_world_find_nearest(w, ids[k], NULL, &hit, NULL) == OVOID_OK);
+        CHECK(ovoid_world_find_nearest(w, &(ovoid_world_query){.id = ids[k]}, &hit, NULL) == OVOID_OK);
         CHECK(hit.b == ids[k + 1]);
     }
     ovoid_world_ray r = {.ray = {{-1, 0, 0}, {1, 0, 0}, INFINITY, 0}};
@@ -306,13 +313,13 @@ static void test_refusals(void) {
     ovoid_world_hit hit;
     ovoid_error error = {0};
     CHECK(ovoid_world_find_nearest_pair(w, NULL, &hit, NULL) == OVOID_OK && hit.b == 0);
-    CHECK(ovoid_world_find_any(w, NULL, 0, NULL, &hit, NULL) == OVOID_OK && hit.b == 0);
-    CHECK(ovoid_world_find_nearest(w, 77, NULL, &hit, &error) == OVOID_ERROR_INDEX);
+    CHECK(ovoid_world_find_any(w, NULL, &hit, NULL) == OVOID_OK && hit.b == 0);
+    CHECK(ovoid_world_find_nearest(w, &(ovoid_world_query){.id = 77}, &hit, &error) == OVOID_ERROR_INDEX);
     CHECK(strstr(error.message, "names no body") != NULL);
     ovoid_world_body point = ovoid_world_make_point(w, (ovoid_vec3){1, 2, 3});
-    CHECK(ovoid_world_find_nearest_to(w, &point, NULL, &hit, NULL) == OVOID_OK && hit.b == 0);
+    CHECK(ovoid_world_find_nearest(w, &(ovoid_world_query){.probe = &point}, &hit, NULL) == OVOID_OK && hit.b == 0);
     point.body.pose.position.x = NAN;
-    CHECK(ovoid_world_find_nearest_to(w, &point, NULL, &hit, NULL) == OVOID_ERROR_NOT_FINITE);
+    CHECK(ovoid_world_find_nearest(w, &(ovoid_world_query){.probe = &point}, &hit, NULL) == OVOID_ERROR_NOT_FINITE);
     ovoid_world_ray r = {.ray = {{0, 0, 0}, {0, 0, 0}, 1, 0}};
     ovoid_world_cast cast;
     CHECK(ovoid_world_cast_ray(w, &r, &cast, NULL) == OVOID_ERROR_ARGUMENT);

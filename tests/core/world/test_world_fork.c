@@ -26,7 +26,7 @@ static ovoid_world *make(uint32_t threads) {
     for (int i = 0; i < BODIES; i++)
         bodies[i].body = (ovoid_body){.shape = shapes[random_next(&s) % WORLD_SHAPES],
                                       .pose = {random_place(&s, 12), random_quat(&s)}};
-    CHECK(world && ovoid_world_add_many(world, bodies, BODIES, ids, NULL) == OVOID_OK);
+    CHECK(world && ovoid_world_add_many(world, &(ovoid_world_additions){bodies, BODIES, ids}, NULL) == OVOID_OK);
     return world;
 }
 

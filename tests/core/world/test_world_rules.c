@@ -33,13 +33,13 @@ static void test_rules(const ovoid_shape *box) {
     ovoid_world *w = make_heap(NULL, box, 10, ids);
     CHECK_EQ(count_contacts(w), 45);
     // Ignored, taken back, ignored twice.
-    for (int k = 0; k < 2; k++) CHECK(ovoid_world_set_ignored(w, ids[3], ids[7], 1, NULL) == OVOID_OK);
+    for (int k = 0; k < 2; k++) CHECK(ovoid_world_add_ignored(w, ids[3], ids[7], NULL) == OVOID_OK);
     CHECK(!ovoid_world_is_pair(w, ids[7], ids[3]));
     CHECK_EQ(count_contacts(w), 44);
-    CHECK(ovoid_world_set_ignored(w, ids[7], ids[3], 0, NULL) == OVOID_OK);
+    CHECK(ovoid_world_remove_ignored(w, ids[7], ids[3], NULL) == OVOID_OK);
     CHECK_EQ(count_contacts(w), 45);
     // An ignored pair ends with its bodies: the index that is used again is another body.
-    CHECK(ovoid_world_set_ignored(w, ids[0], ids[1], 1, NULL) == OVOID_OK);
+    CHECK(ovoid_world_add_ignored(w, ids[0], ids[1], NULL) == OVOID_OK);
     CHECK(ovoid_world_remove(w, ids[1], NULL) == OVOID_OK);
     ovoid_world_body b;
     CHECK(ovoid_world_get(w, ids[0], &b, NULL) == OVOID_OK);
@@ -49,7 +49,7 @@ static void test_rules(const ovoid_shape *box) {
     // Groups: 5 with 5, others not.
     for (int i = 0; i < 10; i++) {
         ovoid_id id = i == 1 ? again : ids[i];
-        CHECK(ovoid_world_set_groups(w, id, i < 5 ? 1 : 2, i < 5 ? 2 : 1, NULL) == OVOID_OK);
+        CHECK(ovoid_world_set_groups(w, id, (ovoid_groups){i < 5 ? 1 : 2, i < 5 ? 2 : 1}, NULL) == OVOID_OK);
     }
     CHECK_EQ(count_contacts(w), 25);
     ovoid_world_destroy(w);
@@ -87,7 +87,8 @@ static void test_bodies_refused(const ovoid_shape *box) {
     expect(ovoid_world_move(w, ids[2], &far, &e), OVOID_ERROR_RANGE, &e, "OVOID_LENGTH_MAX");
     // All or none: the third of four is bad.
     ovoid_pose poses[4] = {{{5, 0, 0}, {1, 0, 0, 0}}, {{5, 0, 0}, {1, 0, 0, 0}}, bad, {{5, 0, 0}, {1, 0, 0, 0}}};
-    expect(ovoid_world_move_many(w, ids, poses, 4, &e), OVOID_ERROR_NOT_FINITE, &e, "stays where it was");
+    expect(ovoid_world_move_many(w, &(ovoid_world_moves){ids, poses, 4}, &e), OVOID_ERROR_NOT_FINITE, &e,
+           "stays where it was");
     CHECK_EQ(e.place, 2);
     CHECK(ovoid_world_get(w, ids[2], &after, NULL) == OVOID_OK && memcmp(&before, &after, sizeof before) == 0);
     CHECK(ovoid_world_get(w, ids[0], &after, NULL) == OVOID_OK && after.body.pose.position.x < 1);
@@ -101,16 +102,16 @@ static void test_bodies_refused(const ovoid_shape *box) {
     expect(ovoid_world_remove(w, ids[1], &e), OVOID_ERROR_INDEX, &e, "was removed");
     expect(ovoid_world_move(w, ids[1], &before.body.pose, &e), OVOID_ERROR_INDEX, &e, "was removed");
     expect(ovoid_world_get(w, ids[1], &after, &e), OVOID_ERROR_INDEX, &e, "was removed");
-    expect(ovoid_world_set_ignored(w, ids[0], ids[1], 1, &e), OVOID_ERROR_INDEX, &e, "was removed");
-    expect(ovoid_world_set_ignored(w, ids[0], ids[0], 1, &e), OVOID_ERROR_ARGUMENT, &e, "no pair");
+    expect(ovoid_world_add_ignored(w, ids[0], ids[1], &e), OVOID_ERROR_INDEX, &e, "was removed");
+    expect(ovoid_world_add_ignored(w, ids[0], ids[0], &e), OVOID_ERROR_ARGUMENT, &e, "no pair");
     expect(ovoid_world_renew(w, ids[1], &e), OVOID_ERROR_INDEX, &e, "was removed");
-    expect(ovoid_world_set_groups(w, ids[1], 1, 1, &e), OVOID_ERROR_INDEX, &e, "was removed");
+    expect(ovoid_world_set_groups(w, ids[1], (ovoid_groups){1, 1}, &e), OVOID_ERROR_INDEX, &e, "was removed");
     // Bodies: neither shape nor compound; a bad pose among good ones.
     ovoid_world_body none = {.body = {.pose = {{0, 0, 0}, {1, 0, 0, 0}}}}, two[2] = {before, before};
     CHECK(ovoid_world_add(w, &none, &e) == 0);
     expect(e.code, OVOID_ERROR_ARGUMENT, &e, "a shape, a compound and a solid");
     two[1].body.pose = bad;
-    expect(ovoid_world_add_many(w, two, 2, NULL, &e), OVOID_ERROR_NOT_FINITE, &e, "NaN");
+    expect(ovoid_world_add_many(w, &(ovoid_world_additions){two, 2, NULL}, &e), OVOID_ERROR_NOT_FINITE, &e, "NaN");
     CHECK_EQ(e.place, 1);
     CHECK_EQ(ovoid_world_get_count(w), 3);
     // Going through while removing: the next one after a removed id is found.
@@ -139,12 +140,12 @@ static void test_queries_refused(const ovoid_shape *box) {
     ovoid_options bad = {.relative_tolerance = NAN};
     q = (ovoid_contact_query){.options = &bad};
     expect(ovoid_world_compute_contacts(w, &q, &f, &e), OVOID_ERROR_ARGUMENT, &e, "tolerance");
-    ovoid_body_answer x;
+    ovoid_contact_proof x = {.exclusions = NULL};
     ovoid_contact c = {.a = ids[0], .b = ids[1]};
-    expect(ovoid_world_compute_proof(w, &c, NULL, &x, &e), OVOID_ERROR_ARGUMENT, &e, "no contact");
+    expect(ovoid_world_compute_proof(w, &c, &x, &e), OVOID_ERROR_ARGUMENT, &e, "no contact");
     CHECK_EQ(count_contacts(w), 1);
     c.b = ids[1] + 1;
-    expect(ovoid_world_compute_proof(w, &c, NULL, &x, &e), OVOID_ERROR_INDEX, &e, "names no body");
+    expect(ovoid_world_compute_proof(w, &c, &x, &e), OVOID_ERROR_INDEX, &e, "names no body");
     ovoid_world_destroy(w);
     ovoid_world_options o = {.threads = 257};
     CHECK(!ovoid_world_create(&o, &e));
@@ -191,12 +192,12 @@ static void test_failing_allocation(ovoid_shape **shapes, long k, uint32_t threa
     ovoid_contacts f;
     for (int round = 0; round < 4; round++) {
         ovoid_contact_query q = {.kind = (ovoid_query_kind)round, .margin = round ? 0.2 : 0};
-        if (round == 1 && !retry(&t, ovoid_world_add_many(w, bodies + 20, 70, ids + 20, &e)))
-            CHECK(ovoid_world_add_many(w, bodies + 20, 70, ids + 20, NULL) == OVOID_OK);
+        if (round == 1 && !retry(&t, ovoid_world_add_many(w, &(ovoid_world_additions){bodies + 20, 70, ids + 20}, &e)))
+            CHECK(ovoid_world_add_many(w, &(ovoid_world_additions){bodies + 20, 70, ids + 20}, NULL) == OVOID_OK);
         if (round == 2)
             for (int i = 0; i < 20; i++)
-                if (!retry(&t, ovoid_world_set_ignored(w, ids[i], ids[i + 30], 1, &e)))
-                    CHECK(ovoid_world_set_ignored(w, ids[i], ids[i + 30], 1, NULL) == OVOID_OK);
+                if (!retry(&t, ovoid_world_add_ignored(w, ids[i], ids[i + 30], &e)))
+                    CHECK(ovoid_world_add_ignored(w, ids[i], ids[i + 30], NULL) == OVOID_OK);
         CHECK_EQ(ovoid_world_get_count(w), round ? 90 : 20);
         if (!retry(&t, ovoid_world_compute_contacts(w, &q, &f, &e)))
             CHECK(ovoid_world_compute_contacts(w, &q, &f, NULL) == OVOID_OK);

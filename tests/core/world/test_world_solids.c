@@ -83,12 +83,12 @@ static void check_contact(stage *x, const ovoid_contact *c, const ovoid_body *a,
     CHECK(c->verdict.status != OVOID_OVERLAPPING || c->verdict.upper < 0);
     if (q->kind >= OVOID_QUERY_DISTANCE && alone.status == OVOID_SEPARATED)
         CHECK_NEAR(c->verdict.lower, truth.lower, 1e-7);
-    ovoid_body_answer proof;
     ovoid_error error = {.message = ""};
     static ovoid_exclusion items[4096];
     ovoid_exclusions exclusions = {items, 4096, 0, NULL};
-    CHECK_EQ(ovoid_world_compute_proof(x->w, c, &exclusions, &proof, &error), OVOID_OK);
-    CHECK_EQ(ovoid_body_verify(&pair, &proof, q->options, &exclusions, &error), OVOID_OK);
+    ovoid_contact_proof proof = {.exclusions = &exclusions};
+    CHECK_EQ(ovoid_world_compute_proof(x->w, c, &proof, &error), OVOID_OK);
+    CHECK_EQ(ovoid_body_verify(&pair, &proof.answer, q->options, &exclusions, &error), OVOID_OK);
 }
 
 static void check_frame(stage *x, const ovoid_contact_query *q) {
@@ -119,7 +119,7 @@ static void move_all(stage *x, double step) {
         p->position.x += d.x, p->position.y += d.y, p->position.z += d.z;
         p->rotation.w += random_uniform(&x->s, -way, way), p->rotation.z += random_uniform(&x->s, -way, way);
     }
-    CHECK_EQ(ovoid_world_move_many(x->w, x->ids, x->poses, BODIES, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_world_move_many(x->w, &(ovoid_world_moves){x->ids, x->poses, BODIES}, NULL), OVOID_OK);
 }
 
 // Between frames: each question against a loop over all.
@@ -140,15 +140,15 @@ static void check_between(stage *x) {
         touching |= is;
         overlaps += (size_t)is;
     }
-    CHECK_EQ(ovoid_world_find_nearest_to(x->w, &probe, NULL, &hit, &error), OVOID_OK);
+    CHECK_EQ(ovoid_world_find_nearest(x->w, &(ovoid_world_query){.probe = &probe}, &hit, &error), OVOID_OK);
     CHECK(hit.b != 0 && hit.lower <= nearest);
     if (nearest > 0) CHECK_NEAR(hit.answer.upper, nearest, 1e-7);
     if (nearest <= 0) CHECK(hit.answer.upper <= 0);
-    CHECK_EQ(ovoid_world_find_any_to(x->w, &probe, 1, &hit, &error), OVOID_OK);
+    CHECK_EQ(ovoid_world_find_any_of(x->w, &(ovoid_world_probes){.items = &probe, .count = 1}, &hit, &error), OVOID_OK);
     CHECK_EQ(hit.b != 0, touching);
     ovoid_world_hit found[BODIES];
     ovoid_world_hits hits = {.items = found, .capacity = BODIES};
-    CHECK_EQ(ovoid_world_find_overlaps(x->w, &probe, 0, &hits, &error), OVOID_OK);
+    CHECK_EQ(ovoid_world_find_overlaps(x->w, &(ovoid_world_query){.probe = &probe}, &hits, &error), OVOID_OK);
     CHECK_EQ(hits.count, overlaps);
     int any = 0;
     for (int i = 0; i < BODIES; i++)
@@ -156,7 +156,7 @@ static void check_between(stage *x) {
             ovoid_body a = make_body(x, i, x->poses[i]), b = make_body(x, j, x->poses[j]);
             any |= !(ask(&a, &b, &collide).lower > 0);
         }
-    CHECK_EQ(ovoid_world_find_any(x->w, NULL, 0, NULL, &hit, &error), OVOID_OK);
+    CHECK_EQ(ovoid_world_find_any(x->w, NULL, &hit, &error), OVOID_OK);
     CHECK_EQ(hit.b != 0, any);
 }
 
@@ -200,7 +200,7 @@ static void check_cast(stage *x) {
         ovoid_vec3 to = random_vec3(&x->s, 2), from = probe.body.pose.position;
         ovoid_vec3 way = {to.x - from.x, to.y - from.y, to.z - from.z};
         ovoid_world_cast cast;
-        CHECK_EQ(ovoid_world_cast_body(x->w, &probe, way, &cast, NULL), OVOID_OK);
+        CHECK_EQ(ovoid_world_cast_body(x->w, &(ovoid_world_sweep){probe, way}, &cast, NULL), OVOID_OK);
         double until = fmin(cast.upper, 1);
         int is_in = 0;
         for (int k = 0; k < 12; k++) {
@@ -226,7 +226,8 @@ static void check_refused(stage *x) {
     CHECK(ovoid_world_add(x->w, &both, &error) == 0);
     CHECK_EQ(error.code, OVOID_ERROR_ARGUMENT);
     ovoid_world_hit hit;
-    CHECK_EQ(ovoid_world_find_any_to(x->w, &both, 1, &hit, &error), OVOID_ERROR_ARGUMENT);
+    CHECK_EQ(ovoid_world_find_any_of(x->w, &(ovoid_world_probes){.items = &both, .count = 1}, &hit, &error),
+             OVOID_ERROR_ARGUMENT);
     both.body.shape = NULL;
     both.body.pose.position.x = 2 * OVOID_LENGTH_MAX;
     CHECK(ovoid_world_add(x->w, &both, &error) == 0);

@@ -48,7 +48,7 @@ static void test_outlines(uint64_t seed) {
     double xyz[24];
     for (int i = 0; i < 24; i++) xyz[i] = 7e5 + random_uniform(&s, -1, 1);
     ovoid_shape *away = ovoid_shape_create_from_points(xyz, 8, NULL, NULL);
-    ovoid_shape *rod = ovoid_shape_create_cylinder(0.2, 3, 0.01, NULL, NULL);
+    ovoid_shape *rod = ovoid_shape_create_cylinder(0.2, 3, &(ovoid_shape_options){.tolerance = 0.01}, NULL);
     for (int k = 0; k < 600; k++) {
         const ovoid_shape *which = k % 14 == 12 ? away : k % 14 == 13 ? rod : shapes[k % 14];
         ovoid_body body = {.shape = which, .pose = make_pose(&s, k)};
@@ -77,7 +77,8 @@ static ovoid_world_body draw(scene *x, double side) {
     ovoid_world_body b = {.body = {.shape = x->shapes[random_next(&x->s) % WORLD_SHAPES]}};
     if (random_next(&x->s) % 8 == 0) b.body = (ovoid_body){.compound = x->compound};
     b.body.pose = (ovoid_pose){random_place(&x->s, side), random_quat(&x->s)};
-    if (random_next(&x->s) % 3 == 0) b.group = 1 + random_next(&x->s) % 3, b.mask = 1 + random_next(&x->s) % 3;
+    if (random_next(&x->s) % 3 == 0)
+        b.groups.group = 1 + random_next(&x->s) % 3, b.groups.mask = 1 + random_next(&x->s) % 3;
     return b;
 }
 
@@ -87,8 +88,10 @@ static int do_touch(const ovoid_body *a, const ovoid_body *b) {
 }
 
 static int are_in_groups(const ovoid_world_body *a, const ovoid_world_body *b) {
-    uint32_t ga = a->group || a->mask ? a->group : ~0u, ma = a->group || a->mask ? a->mask : ~0u;
-    uint32_t gb = b->group || b->mask ? b->group : ~0u, mb = b->group || b->mask ? b->mask : ~0u;
+    uint32_t ga = a->groups.group || a->groups.mask ? a->groups.group : ~0u,
+             ma = a->groups.group || a->groups.mask ? a->groups.mask : ~0u;
+    uint32_t gb = b->groups.group || b->groups.mask ? b->groups.group : ~0u,
+             mb = b->groups.group || b->groups.mask ? b->groups.mask : ~0u;
     return ga & mb && gb & ma;
 }
 
@@ -213,13 +216,13 @@ static void test_groups(void) {
     ovoid_shape *ball = ovoid_shape_create_sphere(1, NULL, NULL);
     for (uint32_t k = 0; k < 16; k++) {
         ovoid_world *w = ovoid_world_create(NULL, NULL);
-        ovoid_world_body body = {
-            .body = {.shape = ball, .pose = {{0, 0, 0}, {1, 0, 0, 0}}}, .group = 1 + k % 2, .mask = 1 + k / 2 % 2};
-        ovoid_world_body probe = {.body = body.body, .group = 1 + k / 4 % 2, .mask = 1 + k / 8 % 2};
+        ovoid_world_body body = {.body = {.shape = ball, .pose = {{0, 0, 0}, {1, 0, 0, 0}}},
+                                 .groups = {1 + k % 2, 1 + k / 2 % 2}};
+        ovoid_world_body probe = {.body = body.body, .groups = {1 + k / 4 % 2, 1 + k / 8 % 2}};
         ovoid_world_hit hit;
         CHECK(ovoid_world_add(w, &body, NULL) != 0);
-        CHECK(ovoid_world_find_any_to(w, &probe, 1, &hit, NULL) == OVOID_OK);
-        CHECK_EQ(hit.b != 0, body.group == probe.mask && probe.group == body.mask);
+        CHECK(ovoid_world_find_any_of(w, &(ovoid_world_probes){.items = &probe, .count = 1}, &hit, NULL) == OVOID_OK);
+        CHECK_EQ(hit.b != 0, body.groups.group == probe.groups.mask && probe.groups.group == body.groups.mask);
         ovoid_world_destroy(w);
     }
     ovoid_shape_destroy(ball);

@@ -83,7 +83,7 @@ static uint64_t live(ovoid_shape **shapes, const ovoid_world_options *o, size_t 
     for (int i = 0; i < BODIES; i++)
         bodies[i] = (ovoid_world_body){
             .body = {.shape = shapes[random_next(&s) % WORLD_SHAPES], .pose = {random_place(&s, 18), random_quat(&s)}}};
-    CHECK(ovoid_world_add_many(w, bodies, BODIES, ids, NULL) == OVOID_OK);
+    CHECK(ovoid_world_add_many(w, &(ovoid_world_additions){bodies, BODIES, ids}, NULL) == OVOID_OK);
     for (int f = 0; f < FRAMES; f++) {
         ovoid_contact_query q = {.kind = (ovoid_query_kind)(f / 2), .margin = f / 2 ? 0.1 : 0};
         ovoid_contacts frame;
@@ -101,7 +101,8 @@ static uint64_t live(ovoid_shape **shapes, const ovoid_world_options *o, size_t 
         ids[BODIES] = ids[17];
         poses[BODIES] = poses[17];
         for (int i = 0; i < BODIES && f % 4 == 0; i++) CHECK(ovoid_world_move(w, ids[i], &poses[i], NULL) == OVOID_OK);
-        if (f % 4) CHECK(ovoid_world_move_many(w, ids, poses, BODIES + (f % 4 == 3), NULL) == OVOID_OK);
+        if (f % 4)
+            CHECK(ovoid_world_move_many(w, &(ovoid_world_moves){ids, poses, BODIES + (f % 4 == 3)}, NULL) == OVOID_OK);
         for (int i = f; i < BODIES; i += 100) {
             CHECK(ovoid_world_remove(w, ids[i], NULL) == OVOID_OK);
             ids[i] = ovoid_world_add(w, &bodies[i], NULL);

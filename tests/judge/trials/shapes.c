@@ -152,8 +152,8 @@ ovoid_shape *make_round(uint64_t *r) {
 ovoid_shape *make_prism(uint64_t *r) {
     uint32_t sides = 3 + (uint32_t)(random_next(r) % 40);
     double radius = log_uniform(r, 0.2, 5);
-    return random_next(r) % 2 ? ovoid_shape_create_prism(radius, 1, sides, NULL, NULL)
-                              : ovoid_shape_create_pyramid(radius, 1, sides, NULL, NULL);
+    return random_next(r) % 2 ? ovoid_shape_create_prism(&(ovoid_prism){radius, 1, sides}, NULL, NULL)
+                              : ovoid_shape_create_pyramid(&(ovoid_prism){radius, 1, sides}, NULL, NULL);
 }
 
 ovoid_shape *make_any(uint64_t *r) {

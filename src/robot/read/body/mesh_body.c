@@ -3,9 +3,9 @@
 
 // The hull with the allowance that keeps brackets true of the triangles.
 static ovoid_code allow(mesh_body *body, double allowance, const ovoid_allocator *allocator, ovoid_error *error) {
-    ovoid_allowance own = ovoid_shape_get_allowance(body->shape);
-    own.inside += allowance;
-    ovoid_shape *allowed = ovoid_shape_create_allowed(body->shape, own, allocator, error);
+    ovoid_shape_options options = {.allowance = ovoid_shape_get_allowance(body->shape), .allocator = allocator};
+    options.allowance.inside += allowance;
+    ovoid_shape *allowed = ovoid_shape_create_allowed(body->shape, &options, error);
     ovoid_shape_destroy(body->shape);
     body->shape = allowed;
     body->allowance = allowance;
@@ -22,8 +22,7 @@ ovoid_code mesh_body_make(const ovoid_triangles *triangles, ovoid_shape *hull, c
     } else if (!code) {
         body->kind = match.is_closed ? OVOID_MESH_SOLID : OVOID_MESH_SURFACE;
         body->edges_open = match.edges_unmatched;
-        body->solid = ovoid_solid_create_from_triangles(triangles->xyz, triangles->point_count, triangles->indices,
-                                                        triangles->count, allocator, error);
+        body->solid = ovoid_solid_create_from_triangles(triangles, &(ovoid_solid_options){allocator}, error);
         if (!body->solid) code = error->code;
     }
     if (!code) return OVOID_OK;

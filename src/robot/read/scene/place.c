@@ -80,7 +80,7 @@ static ovoid_code place_links(placer *p) {
     ovoid_code code = OVOID_OK;
     ovoid_error why;
     for (size_t i = 0; i < p->from->state.joint_count && !code; i++) code = set_joint(p, &p->from->state.joints[i], q);
-    if (!code && (code = ovoid_robot_compute_poses(robot, q, p->links, NULL, &why)) != OVOID_OK)
+    if (!code && (code = ovoid_robot_compute_poses(robot, q, p->links, &why)) != OVOID_OK)
         code = fail(p, NULL, 0, code, "robot_state: %s", why.message);
     free(q);
     return code;
@@ -210,7 +210,8 @@ static ovoid_code add(const placer *p, size_t i) {
             uint32_t link = ovoid_robot_find_link(p->cell->robot, e->touching[k]);
             if (link != OVOID_ROBOT_NONE) links[count++] = link;
         }
-        to->id = ovoid_robot_cell_attach(p->cell, to->link, &body, links, count, &why);
+        const ovoid_robot_attachment held = {to->link, body, links, count};
+        to->id = ovoid_robot_cell_attach(p->cell, &held, &why);
         free(links);
     }
     return to->id ? OVOID_OK : fail(p, e->name, e->line, why.code, "%s", why.message);

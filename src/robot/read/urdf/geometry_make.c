@@ -76,7 +76,8 @@ static ovoid_code measure(robot_reader *r, const geometry *g, open_mesh *open) {
         if (!own && !is_unscaled(g)) return robot_fail(r, g->at, why.code, "%s: %s", g->path, why.message);
         ovoid_convexity c;
         const ovoid_shape *hull = own ? own : r->file->shapes[g->shape + i];
-        ovoid_code code = ovoid_mesh_compute_convexity(open->mesh, i, hull, &c, NULL);
+        ovoid_mesh_part part = ovoid_mesh_get_part(open->mesh, i);
+        ovoid_code code = ovoid_mesh_part_compute_convexity(&part, hull, &c, NULL);
         ovoid_shape_destroy(own);
         if (code) return robot_fail_memory(r);
         open->convexity.mesh_volume += c.mesh_volume;
