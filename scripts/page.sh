@@ -1,9 +1,10 @@
 #!/bin/sh
 # page.sh: the template of the page of one scene, build/page/page.html and build/release/page.html, where the tool's --html
 # finds it: three.js and the package of scripts/wasm.sh in one file. Then its tests in Chromium, where that is installed; not with --template.
+# --picture: no tests, but docs/page.png, the page of scripts/demo.sh as Chromium shows it.
 # Exit 1 where something is missing or wrong; without npm's packages it says so and tests nothing.
 set -eu
-options="--check --template"
+options="--check --template --picture"
 # shellcheck source=scripts/help.sh
 . "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
@@ -33,7 +34,15 @@ size=$(stat -c %s $out/page.html)
 [ "$size" -le $most ] || { echo "page: $size bytes; at most $most" >&2 && exit 1; }
 cp $out/page.html build/release/page.html
 [ "${1:-}" = --template ] && exit 0
+PLAYWRIGHT=$PWD/$out/web/page/node_modules/playwright-core/index.mjs && export PLAYWRIGHT
+if [ "${1:-}" = --picture ]; then
+    scripts/demo.sh >$out/demo.log
+    node web/page/picture.mjs build/demo/demo.html docs/page.png
+    size=$(stat -c %s docs/page.png)
+    echo "docs/page.png: $size bytes"
+    [ "$size" -le 200000 ] || { echo "page: more than 200000 bytes" >&2 && exit 1; }
+    exit 0
+fi
 
-OVOID=$PWD/build/release/ovoid PLAYWRIGHT=$PWD/$out/web/page/node_modules/playwright-core/index.mjs \
-    node --test web/page/test/*.test.mjs >$out/test.log 2>&1 || { cat $out/test.log >&2 && exit 1; }
+OVOID=$PWD/build/release/ovoid node --test web/page/test/*.test.mjs >$out/test.log 2>&1 || { cat $out/test.log >&2 && exit 1; }
 grep -E '^# (pass|fail|skipped) ' $out/test.log | awk '{ n[$2] = $3 } END { printf "%d passed, %d failed, %d skipped\n", n["pass"], n["fail"], n["skipped"] }'

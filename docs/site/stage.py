@@ -54,7 +54,7 @@ def stage_pages(out, reference, examples, demo):
                 text = re.sub(r"\[(!\[[^]]*\]\(demo\.svg\))\]\(page\.md\)", LIVE, text)
             text = add_navigation(text, reference, examples)
         write(out / page.name, text)
-    for figure in [*(ROOT / "docs").glob("*.svg"), *(ROOT / "docs" / "paper").glob("*.svg")]:
+    for figure in [*(ROOT / "docs").glob("*.svg"), *(ROOT / "docs").glob("*.png"), *(ROOT / "docs" / "paper").glob("*.svg")]:
         path = out / figure.relative_to(ROOT / "docs")
         path.parent.mkdir(exist_ok=True)
         path.write_bytes(figure.read_bytes())
