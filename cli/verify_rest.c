@@ -4,6 +4,7 @@
 #include "base/message.h"
 #include "pairs/impacts.h"
 #include "pairs/sweep.h"
+#include "tools/array.h"
 #include "verify.h"
 
 #include <math.h>
@@ -50,13 +51,8 @@ static ovoid_pose get_pose(const verify *v, size_t object) {
 static int add_item(verify *v, claim_kind kind, ovoid_couple c) {
     verify_rest *rest = &v->rest;
     const ovoid_scene *scene = v->bodies.scene;
-    if (rest->count == rest->capacity) {
-        size_t grown = rest->capacity ? 2 * rest->capacity : 64;
-        claim *items = realloc(rest->items, grown * sizeof *items);
-        if (!items) return message_error("out of memory for %zu pairs", grown), EXIT_INPUT;
-        rest->items = items;
-        rest->capacity = grown;
-    }
+    if (!array_reserve((void **)&rest->items, &rest->capacity, rest->count, sizeof *rest->items))
+        return message_error("out of memory for %zu pairs", rest->count + 1), EXIT_INPUT;
     ovoid_pose pose_a = get_pose(v, c.a), pose_b = get_pose(v, c.b);
     rest->items[rest->count++] =
         (claim){.kind = kind,

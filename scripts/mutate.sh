@@ -34,6 +34,7 @@ tests_of() {
     ellipsoid) echo "test_ellipsoid_contain test_ellipsoid_overlap test_ellipsoid_gap test_ellipsoid_exact test_ellipsoid_nearest test_ellipsoid_outer $query" ;;
     simd) echo "test_simd $query" ;;
     environment) echo "test_environment $query" ;;
+    tools) echo "test_tools" ;;
     world) echo "test_world_tree test_world_margins test_world_rules test_world_even test_world_states test_world_find test_world test_world_far test_world_threads test_world_soak" ;;
     solid_body) echo "test_solid_compound test_solid_impact test_solid_impact_altered test_world_solids test_io_scene" ;;
     solid) echo "test_solid_create test_hull_match test_solid_crossings test_solid test_solid_compound test_solid_flush test_judge_solid_altered test_judge_solid" ;;
