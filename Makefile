@@ -8,10 +8,11 @@ BUILD := build/release
 
 .PHONY: all help demo check check-all test abi coverage python cluster bits ports wasm page mutate bench soak soak-world soak-solid trust fuzz docs site install deb deb-root format lint clean
 
-all: ## the libraries and the tool, in build/release
+all: ## the libraries and the tool, in build/release, with the page of --html where Node.js is here
 	@scripts/setup.sh build
 	@cmake --preset release >/dev/null
 	@cmake --build $(BUILD) -j$(JOBS) --target libraries ovoid_cli
+	@JOBS=$(JOBS) scripts/template.sh $(BUILD)
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' Makefile | while IFS="$$(printf '\t')" read -r a b; do printf 'make %-12s %s\n' $$a "$$b"; done
@@ -116,7 +117,7 @@ site: ## the documentation as a site, in build/site, with the demo's scene live 
 install: all ## PREFIX=/usr/local DESTDIR=
 	@DESTDIR=$(DESTDIR) cmake --install $(BUILD) --prefix $(PREFIX)
 
-deb: ## Debian packages in build/deb, looked through by lintian
+deb: all ## Debian packages in build/deb, looked through by lintian
 	@scripts/setup.sh deb
 	@JOBS=$(JOBS) scripts/deb.sh
 

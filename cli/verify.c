@@ -194,13 +194,28 @@ static void print_counts(const verify *v) {
         printf("\n");
 }
 
+/// Proofs of two bodies hold where the poses are those of the query, and the results do not say these.
+static void advise_poses(const verify *v) {
+    static const ovoid_pose none = {{0, 0, 0}, {1, 0, 0, 0}};
+    if (v->bodies.scene || v->settings->list) return;
+    if (memcmp(&v->settings->pose_a, &none, sizeof none) == 0 && memcmp(&v->settings->pose_b, &none, sizeof none) == 0)
+        message_note(
+            "both bodies are at the origin: if \"ovoid distance\" had --pose-a or --pose-b, give them here too");
+}
+
 /// The exit code of what was counted: what does not hold, before what is missing or open.
 static int find_code(const verify *v) {
     const verify_counts *n = &v->counts;
-    if (n->held != n->proofs) return EXIT_NOT_PROVEN;
+    if (n->held != n->proofs) {
+        advise_poses(v);
+        return EXIT_NOT_PROVEN;
+    }
     if (v->settings->partial) return EXIT_APART;
     if (is_continuous_unasked(v))
         message_note("the results have impacts: --continuous proves that none is missing, --partial allows it");
+    if (!n->proofs && get_missing(n) && isnan(v->margin))
+        message_note("there are no results: with the --margin that was asked it is proven that all pairs are farther "
+                     "apart");
     int is_whole = !get_missing(n) && !n->impacts_lacking && !n->undecided && !is_continuous_unasked(v);
     return is_whole ? EXIT_APART : EXIT_TOUCH;
 }

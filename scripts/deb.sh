@@ -20,6 +20,8 @@ said cmake -S . -B "$folder" -DCMAKE_BUILD_TYPE=Release -DCMAKE_INSTALL_PREFIX=/
     -DCMAKE_EXE_LINKER_FLAGS="$link" -DCMAKE_SHARED_LINKER_FLAGS="$link" \
     -DOVOID_TESTS=OFF -DOVOID_BENCH=OFF -DOVOID_EXAMPLES=OFF -DOVOID_PYTHON=OFF
 said cmake --build "$folder" -j "${JOBS:-2}"
+# "make deb" has built the template before, where Node.js is here.
+if [ -f build/release/page.html ]; then cp build/release/page.html "$folder/"; else echo "deb: without the template of --html: make page" >&2; fi
 said cpack -G DEB --config "$folder/CPackConfig.cmake" -B "$folder"
 if command -v lintian >/dev/null; then
     # As root it would complain of just that.

@@ -112,7 +112,13 @@ static tally count_rows(const check *c) {
 static void report_counts(const check *c, const tally *t, double seconds) {
     size_t objects = ovoid_scene_get_count(c->scene);
     const char *unit = ovoid_scene_get_unit(c->scene);
-    if (c->settings->margin >= 0)
+    if (!c->row_count && c->settings->margin >= 0)
+        message_note("%zu objects in %.2f s; nothing is within %g%s%s: all pairs are proven farther apart, or ignored",
+                     objects, seconds, c->settings->margin, unit[0] ? " " : "", unit);
+    else if (!c->row_count)
+        message_note("%zu object%s: there is no pair to compare%s", objects, objects == 1 ? "" : "s",
+                     objects == 1 ? "" : ", the scene ignores all");
+    else if (c->settings->margin >= 0)
         message_note("%zu objects in %.2f s; pairs within %g%s%s: %zu, not proven: %zu; all others are farther or "
                      "ignored",
                      objects, seconds, c->settings->margin, unit[0] ? " " : "", unit, t->touch, t->not_proven);

@@ -113,10 +113,25 @@ static void report_smallest(const run_summary *s) {
                  nearest->time, names);
 }
 
+/// One sentence where no pair came within the margin, neither in a frame nor between two. 1: it was said.
+static int report_nothing(const run_summary *s, double seconds) {
+    const size_t *n = s->counts,
+                 listed = n[OVOID_UNDECIDED] + n[OVOID_SEPARATED] + n[OVOID_TOUCHING] + n[OVOID_OVERLAPPING];
+    const char *unit = ovoid_scene_get_unit(s->scene);
+    if (listed || s->margin < 0 || (s->impacts && s->impacts->found + s->impacts->not_proven > 0)) return 0;
+    message_note(
+        "%zu frames, %zu objects in %.2f s; nothing comes within %g%s%s%s: all pairs are proven farther apart, "
+        "or ignored",
+        s->frames, ovoid_scene_get_count(s->scene), seconds, s->margin, unit[0] ? " " : "", unit,
+        s->impacts ? ", also between the frames" : " in a frame");
+    return 1;
+}
+
 void run_report(const run_summary *s, double seconds) {
     const size_t *n = s->counts;
     const char *unit = ovoid_scene_get_unit(s->scene);
     char within[48], farther[80];
+    if (report_nothing(s, seconds)) return;
     message_note("%zu frames, %zu objects in %.2f s; pairs listed: %zu; separated: %zu, touching: %zu, overlapping: "
                  "%zu, undecided: %zu",
                  s->frames, ovoid_scene_get_count(s->scene), seconds,

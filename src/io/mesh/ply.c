@@ -91,6 +91,8 @@ static ovoid_code read_element_line(ply_file *p) {
     if (word_is(word, length, "face")) e->kind = PLY_FACE;
     if (!cursor_read_integer(&p->c, &e->count) || e->count < 0)
         return fail_header(p, "an element needs a name and a count >= 0");
+    if (word_is(word, length, "tristrips") && e->count)
+        return fail_header(p, "triangle strips (tristrips) are not read: save the triangles as faces, as MeshLab does");
     for (int i = 0; i < p->element_count - 1; i++)
         if (e->kind != PLY_OTHER && p->elements[i].kind == e->kind)
             return fail_header(p, "the element is declared twice");

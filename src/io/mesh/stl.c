@@ -64,10 +64,16 @@ static ovoid_code read_binary(mesh_reader *reader) {
     if (size < HEADER) return io_fail(reader->error, OVOID_ERROR_FORMAT, at, "%zu bytes are no STL file", size);
     uint32_t promised = read_u32(reader->file.data + 80);
     uint64_t needed = HEADER + (uint64_t)TRIANGLE * promised;
-    if (size != needed)
-        return io_fail(reader->error, OVOID_ERROR_FORMAT, at, "%s: %lu triangles take %llu bytes, the file has %zu",
-                       size < needed ? "truncated" : "bad count", (unsigned long)promised, (unsigned long long)needed,
-                       size);
+    if (size < needed)
+        return io_fail(reader->error, OVOID_ERROR_FORMAT, at,
+                       "truncated: %lu triangles take %llu bytes, the file has %zu; save or fetch it again",
+                       (unsigned long)promised, (unsigned long long)needed, size);
+    if (size > needed)
+        return io_fail(reader->error, OVOID_ERROR_FORMAT, at,
+                       "bad count: %lu triangles take %llu bytes, the file has %zu; if the last %llu are not wanted: "
+                       "truncate -s %llu FILE",
+                       (unsigned long)promised, (unsigned long long)needed, size, (unsigned long long)(size - needed),
+                       (unsigned long long)needed);
     mesh_part *part = mesh_add_part(reader, "", 0);
     if (!part) return OVOID_ERROR_MEMORY;
     point_table table = {.slots = NULL};

@@ -335,6 +335,11 @@ static ovoid_code refuse_octomap(const message_reader *r, const yaml_value *worl
 
 static ovoid_code read_world(message_reader *r, ovoid_obstacles *o, const yaml_value *root) {
     const yaml_value *world, *objects = NULL;
+    if (root->kind == YAML_TEXT && strchr(root->text, '*'))
+        return message_fail(
+            r, root, OVOID_ERROR_FORMAT,
+            "this is MoveIt's text of a scene (.scene), which is not read: load it in RViz, and save the "
+            "message: rostopic echo -n 1 /move_group/monitored_planning_scene >scene.yaml");
     ovoid_code code = message_find_kind(r, root, "world", YAML_MAP, &world);
     if (!code && world) code = message_find_kind(r, world, "collision_objects", YAML_LIST, &objects);
     if (code) return code;

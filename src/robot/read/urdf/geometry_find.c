@@ -23,6 +23,11 @@ static ovoid_code tell_absent(robot_reader *r, const package_search *search, con
         if (!count++) first = g;
     }
     if (!count) return OVOID_OK;
+    if (strncmp(first->address, "package://", 10) != 0)
+        return robot_fail(r, first->at, OVOID_ERROR_FILE,
+                          "the mesh \"%.70s\" is absent%s; put the file there, or write package://NAME/PATH into the "
+                          "URDF and say where the package is: --package NAME=DIR",
+                          first->address, count > 1 ? ", as are others" : "");
     return robot_fail(r, first->at, OVOID_ERROR_FILE,
                       "the mesh \"%.70s\" is absent%s; say where its package is: --package NAME=DIR", first->address,
                       count > 1 ? ", as are others" : "");

@@ -189,7 +189,7 @@ package_result package_search_find(const package_search *s, const char *address,
 void package_search_describe(const package_search *s, const char *address, char *text, size_t room) {
     const char *rest, *plain = get_path(address);
     if (plain) {
-        (void)snprintf(text, room, "looked for %s beside the URDF", plain);
+        (void)snprintf(text, room, "looked for %s%s", plain, *plain == '/' ? "" : " beside the URDF");
         return;
     }
     const ovoid_robot_package *given = find_given(s, address + 10, &rest);
