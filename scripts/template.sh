@@ -2,7 +2,6 @@
 # template.sh FOLDER: the template of the pages that --html writes, as FOLDER/page.html, from scripts/page.sh. It is built anew where its sources
 # are newer. Where a tool for it is not here, or npm has no network, one sentence says so: the rest of ovoid works without it.
 set -eu
-options=
 # shellcheck source=scripts/help.sh
 . "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
