@@ -91,7 +91,9 @@ ovoid_code verdict_verify_compound(verdict *v, const ovoid_body_pair *pair, cons
 
 ovoid_code verdict_verify_solid(verdict *v, const ovoid_body_pair *pair, const ovoid_body_answer *answer,
                                 const ovoid_exclusions *exclusions, int points, ovoid_error *error) {
-    if (pair->a.compound || pair->b.compound) return ovoid_body_verify(pair, answer, &v->options, exclusions, error);
+    if (pair->a.compound || pair->b.compound)
+        return ovoid_body_verify(pair, answer, &(ovoid_body_basis){.options = &v->options, .exclusions = exclusions},
+                                 error);
     judge *mine = take(v);
     ovoid_code code = judge_verify_solid(mine, pair, answer, exclusions, points, error);
     give_back(v, mine);
@@ -119,19 +121,21 @@ void verdict_destroy(verdict *v) { (void)v; }
 ovoid_code verdict_verify(verdict *v, const ovoid_pair *pair, const ovoid_answer *answer, const ovoid_cover *cover,
                           int points, ovoid_error *error) {
     (void)points;
-    return ovoid_answer_verify(pair, answer, &v->options, cover, error);
+    return ovoid_answer_verify(pair, answer, &(ovoid_answer_basis){.options = &v->options, .cover = cover}, error);
 }
 
 ovoid_code verdict_verify_compound(verdict *v, const ovoid_body_pair *pair, const ovoid_body_answer *answer,
                                    const ovoid_exclusions *exclusions, const ovoid_pair *points, ovoid_error *error) {
     (void)points;
-    return ovoid_body_verify(pair, answer, &v->options, exclusions, error);
+    return ovoid_body_verify(pair, answer, &(ovoid_body_basis){.options = &v->options, .exclusions = exclusions},
+                             error);
 }
 
 ovoid_code verdict_verify_solid(verdict *v, const ovoid_body_pair *pair, const ovoid_body_answer *answer,
                                 const ovoid_exclusions *exclusions, int points, ovoid_error *error) {
     (void)points;
-    return ovoid_body_verify(pair, answer, &v->options, exclusions, error);
+    return ovoid_body_verify(pair, answer, &(ovoid_body_basis){.options = &v->options, .exclusions = exclusions},
+                             error);
 }
 
 int verdict_is_exact(void) { return 0; }

@@ -47,9 +47,11 @@ ovoid_code verify_claim_impact(const claim *item, double margin, const ovoid_bod
                                const ovoid_step *steps, const ovoid_step_group *groups, ovoid_error *error) {
     const ovoid_moving_body *a = &item->moving[0], *b = &item->moving[1];
     if (!a->shape || !b->shape || found->group_count)
-        return ovoid_body_impact_verify(a, b, margin, found, NULL, steps, groups, error);
+        return ovoid_body_impact_verify(&(ovoid_moving_body_pair){*a, *b, margin}, found,
+                                        &(ovoid_motion_basis){.steps = steps, .groups = groups}, error);
     ovoid_moving_shape moving[2] = {ovoid_moving_body_get_part(a, 0), ovoid_moving_body_get_part(b, 0)};
-    return ovoid_impact_verify(&moving[0], &moving[1], margin, &found->impact, NULL, steps, error);
+    return ovoid_impact_verify(&(ovoid_moving_pair){moving[0], moving[1], margin}, &found->impact,
+                               &(ovoid_motion_basis){.steps = steps}, error);
 }
 
 /// Checks an impact: the steps show that the pair was farther apart than the margin until then, and at the end it is

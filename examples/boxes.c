@@ -20,7 +20,7 @@ int main(void) {
            answer.point_b.x, answer.point_b.y, answer.point_b.z);
 
     // The proof is data: it can be checked without trusting the search, here or by anyone else.
-    ovoid_code code = ovoid_answer_verify(&pair, &answer, NULL, NULL, &error);
+    ovoid_code code = ovoid_answer_verify(&pair, &answer, NULL, &error);
     printf("proof: %s\n", code == OVOID_OK ? "holds" : error.message);
     int right = code == OVOID_OK && answer.lower <= 0.79289323 && answer.upper >= 0.79289321;
     ovoid_shape_destroy(cube);

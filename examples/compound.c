@@ -35,15 +35,15 @@ int main(void) {
                             {.compound = mug, .pose = {{0.2, 0.1, 0.9}, none}}};
     ovoid_exclusion items[200];
     ovoid_exclusions all = {.items = items, .capacity = 200};
-    ovoid_body_answer x = ovoid_body_distance(&pair, NULL, NULL, &all);
+    ovoid_body_answer x = ovoid_body_distance(&pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
     int refused = 0;
     for (double z = 0.9; z > 0.73; z -= 0.05) {
         pair.b.pose.position.z = z;
         ovoid_body_proof known = ovoid_body_answer_get_proof(&x);
-        x = ovoid_body_distance(&pair, NULL, &known, &all);
+        x = ovoid_body_distance(&pair, NULL, &(ovoid_body_evidence){.earlier = &known, .exclusions = &all});
         printf("z %.2f: part %u of the table, part %u of the mug: %s, %.6f apart; %zu exclusions, %u of 50 pairs\n", z,
                x.part_a, x.part_b, ovoid_status_get_name(x.status), x.lower, all.count, x.tested);
-        refused += ovoid_body_verify(&pair, &x, NULL, &all, &error) != OVOID_OK;
+        refused += ovoid_body_verify(&pair, &x, &(ovoid_body_basis){.exclusions = &all}, &error) != OVOID_OK;
     }
     // From 0.75 to the table's 0.74.
     int wrong = refused || x.part_a != 0 || x.part_b != 0 || fabs(x.lower - 0.01) > 1e-8;

@@ -37,7 +37,7 @@ int main(void) {
             ovoid_world_get(world, frame.items[0].a, &a, NULL);
             ovoid_world_get(world, frame.items[0].b, &b, NULL);
             ovoid_pair pair = {a.body.shape, b.body.shape, a.body.pose, b.body.pose};
-            wrong += ovoid_answer_verify(&pair, &proof.answer.deciding, NULL, NULL, NULL) != OVOID_OK;
+            wrong += ovoid_answer_verify(&pair, &proof.answer.deciding, NULL, NULL) != OVOID_OK;
         }
         for (int i = 0; i < BODIES; i++) {
             ovoid_pose *pose = &bodies[i].body.pose;

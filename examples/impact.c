@@ -22,19 +22,20 @@ int main(void) {
 
     static ovoid_step steps[CAPACITY];
     ovoid_motion_options options = {.steps = steps, .capacity = CAPACITY};
-    ovoid_impact x = ovoid_impact_find(&a, &b, 0, &options);
+    ovoid_impact x = ovoid_impact_find(&(ovoid_moving_pair){a, b, 0}, &options);
     printf("%s: free until %.12f, hit at %.12f, %zu steps, %u queries\n", ovoid_impact_status_get_name(x.status),
            x.free_until, x.hit_at, x.step_count, x.iterations);
     printf("at (%g, %g, %g), normal (%g, %g, %g)\n", x.free.point_a.x, x.free.point_a.y, x.free.point_a.z,
            x.free.normal.x, x.free.normal.y, x.free.normal.z);
 
     // The steps prove it to whoever does not trust the search.
-    ovoid_code code = ovoid_impact_verify(&a, &b, 0, &x, &options, steps, &error);
+    ovoid_code code = ovoid_impact_verify(&(ovoid_moving_pair){a, b, 0}, &x,
+                                          &(ovoid_motion_basis){.options = &options, .steps = steps}, &error);
     printf("proof: %s\n", code == OVOID_OK ? "holds" : error.message);
 
     // How near would it come if it flew past, 3 above?
     b.motion.start.position.z = 3.5;
-    ovoid_approach y = ovoid_approach_find(&a, &b, NULL);
+    ovoid_approach y = ovoid_approach_find(&(ovoid_moving_pair){a, b, 0}, NULL);
     printf("3.5 above: %.9f <= smallest distance <= %.9f, at time %.6f\n", y.lower, y.upper, y.time);
     int right = code == OVOID_OK && x.status == OVOID_IMPACT_HIT && x.hit_at - x.free_until <= 1e-9 && y.lower > 0.4;
     ovoid_shape_destroy(box);

@@ -26,7 +26,7 @@ int main(int count, char **arguments) {
         ovoid_vec3 p = answer.point_a, q = answer.point_b;
         printf("%s, distance %.9g m\n", ovoid_status_get_name(answer.status), ovoid_answer_get_distance(&answer));
         printf("from %.6g %.6g %.6g to %.6g %.6g %.6g\n", p.x, p.y, p.z, q.x, q.y, q.z);
-        code = ovoid_answer_verify(&pair, &answer, NULL, &cover, NULL) != OVOID_OK;
+        code = ovoid_answer_verify(&pair, &answer, &(ovoid_answer_basis){.cover = &cover}, NULL) != OVOID_OK;
     }
     ovoid_shape_destroy(a);
     ovoid_shape_destroy(b);

@@ -39,9 +39,11 @@ int main(void) {
         ovoid_robot_step steps[STEPS];
         const ovoid_robot_path_options options = {.steps = steps, .capacity = STEPS};
         ovoid_robot_path_answer is;
-        if (ovoid_robot_path_find_hit(checker, &paths[i], &options, &is, &error) != OVOID_OK) return 1;
+        if (ovoid_robot_path_find_hit(checker, &(ovoid_robot_path_query){&paths[i], &options}, &is, &error) != OVOID_OK)
+            return 1;
         int holds = is.step_count <= STEPS &&
-                    ovoid_robot_path_verify(cell, &paths[i], &options, &is, steps, &error) == OVOID_OK;
+                    ovoid_robot_path_verify(cell, &is, &(ovoid_robot_path_basis){{&paths[i], &options}, steps},
+                                            &error) == OVOID_OK;
         printf("%s until s = %.4f; %s\n", is.status == OVOID_ROBOT_FREE ? "free" : "first hit, free", is.free_until,
                holds ? "the proof holds" : "no proof");
     }

@@ -38,9 +38,9 @@ int main(void) {
     for (double x = 0; x < 7; x += 2) {
         ovoid_body_pair pair = {{.solid = ring, .pose = ovoid_pose_make_identity()},
                                 {.shape = peg, .pose = {{x, 0, 0}, {1, 0, 0, 0}}}};
-        ovoid_body_answer answer = ovoid_body_distance(&pair, NULL, NULL, &all);
+        ovoid_body_answer answer = ovoid_body_distance(&pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
         printf("peg at %g: %s, %.4f to %.4f\n", x, ovoid_status_get_name(answer.status), answer.lower, answer.upper);
-        refused += ovoid_body_verify(&pair, &answer, NULL, &all, &error) != OVOID_OK;
+        refused += ovoid_body_verify(&pair, &answer, &(ovoid_body_basis){.exclusions = &all}, &error) != OVOID_OK;
     }
     ovoid_shape_destroy(peg);
     ovoid_solid_destroy(ring);

@@ -19,7 +19,8 @@ static void check(findings *f, const ovoid_answer *x, const ovoid_cover *cover, 
     ovoid_error error = {OVOID_OK, -1, ""};
     judge_set_options(f->judge, f->options);
     ovoid_code code = judge_verify_answer(f->judge, f->pair, x, cover, &error);
-    if (code == OVOID_OK) code = ovoid_answer_verify(f->pair, x, f->options, cover, &error);
+    if (code == OVOID_OK)
+        code = ovoid_answer_verify(f->pair, x, &(ovoid_answer_basis){.options = f->options, .cover = cover}, &error);
     // Where a limit ended the search of a depth, a common point may be all there is.
     int has_points = x->status == OVOID_SEPARATED || x->limit == OVOID_LIMIT_NONE;
     if (code == OVOID_OK && is_full && has_points && x->stage != OVOID_STAGE_NONE && x->status != OVOID_UNDECIDED)
@@ -90,7 +91,8 @@ void fuzz_ask(const ovoid_pair *pair, double margin, const ovoid_options *option
     ovoid_answer answers[4] = {ovoid_collide(pair, options, earlier), ovoid_distance(pair, options, earlier),
                                ovoid_within(pair, margin, options, earlier), ovoid_pair_compute_bounds(pair)};
     for (int i = 0; i < 4; i++)
-        fuzz_require(ovoid_answer_verify(pair, &answers[i], i < 3 ? options : NULL, NULL, NULL) == OVOID_OK);
+        fuzz_require(ovoid_answer_verify(pair, &answers[i], &(ovoid_answer_basis){.options = i < 3 ? options : NULL},
+                                         NULL) == OVOID_OK);
 }
 
 #endif

@@ -13,7 +13,7 @@ truth *truths_create(const workload *work, uint32_t *open) {
         ovoid_pair pair = workload_get_pair(work, i);
         ovoid_answer answer = ovoid_depth(&pair, NULL, NULL, &cover);
         truths[i] = (truth){answer.lower, answer.upper};
-        if (ovoid_answer_verify(&pair, &answer, NULL, &cover, NULL) != OVOID_OK)
+        if (ovoid_answer_verify(&pair, &answer, &(ovoid_answer_basis){.cover = &cover}, NULL) != OVOID_OK)
             truths[i] = (truth){-INFINITY, INFINITY};
         *open += !(truths[i].upper - truths[i].lower <= 1e-7 * work->pairs[i].size);
     }

@@ -64,7 +64,7 @@ static void decide_touch(const swarm *what, const ovoid_pose *poses, uint32_t a,
     ovoid_pair pair = {what->shapes[what->shape_of[a]].shape, what->shapes[what->shape_of[b]].shape, poses[a],
                        poses[b]};
     ovoid_answer answer = ovoid_collide(&pair, NULL, NULL);
-    int proven = ovoid_answer_verify(&pair, &answer, NULL, NULL, NULL) == OVOID_OK;
+    int proven = ovoid_answer_verify(&pair, &answer, NULL, NULL) == OVOID_OK;
     truth->unproven += !proven;
     if (!proven || answer.status == OVOID_UNDECIDED || answer.status == OVOID_TOUCHING)
         meetings_add(&truth->open, a, b, 0);
@@ -125,7 +125,7 @@ static int may_meet(const balled *a, const balled *b, double margin) {
 static int decide_near(const balled balls[2], const uint32_t names[2], double margin, meeting_truth *truth) {
     ovoid_pair pair = {balls[0].body->shape, balls[1].body->shape, balls[0].pose, balls[1].pose};
     ovoid_answer answer = margin > 0 ? ovoid_distance(&pair, NULL, NULL) : ovoid_collide(&pair, NULL, NULL);
-    if (ovoid_answer_verify(&pair, &answer, NULL, NULL, NULL) != OVOID_OK) {
+    if (ovoid_answer_verify(&pair, &answer, NULL, NULL) != OVOID_OK) {
         truth->unproven++;
         answer.lower = -INFINITY;
         answer.upper = INFINITY;

@@ -251,7 +251,8 @@ uint32_t ours_count_unproven(const workload *work, question what) {
         double margin = work->pairs[i].margin;
         ovoid_answer answer = what == QUESTION_DEPTH ? ovoid_depth(&pair, NULL, NULL, &cover)
                                                      : ours_get_answer(&pair, what, margin, NULL);
-        ovoid_code code = ovoid_answer_verify(&pair, &answer, NULL, what == QUESTION_DEPTH ? &cover : NULL, NULL);
+        ovoid_code code = ovoid_answer_verify(
+            &pair, &answer, &(ovoid_answer_basis){.cover = what == QUESTION_DEPTH ? &cover : NULL}, NULL);
         unproven += code != OVOID_OK || read_verdict(&answer, what, margin) == VERDICT_NONE;
     }
     return unproven;

@@ -101,7 +101,7 @@ ovoid_body_pair make_pair_at(const ovoid_solid *s, double gap, random_numbers &n
     for (int i = 0; i < 40; i++) {
         pair.b.pose.position = {at * n.x, at * n.y, at * n.z};
         if (!(gap > 0)) break;
-        const ovoid_body_answer x = ovoid_body_distance(&pair, nullptr, nullptr, nullptr);
+        const ovoid_body_answer x = ovoid_body_distance(&pair, nullptr, nullptr);
         if (std::fabs(x.upper - gap) < 0.02 * gap) break;
         at += x.upper > 0 ? gap - x.upper : 0.05;
     }
@@ -135,7 +135,7 @@ int run(const ovoid_solid *s, const model *m, double gap, std::size_t count) {
     std::vector<int> hits(count);
     const double distance = measure(count, [&] {
         for (std::size_t i = 0; i < count; i++)
-            distances[i] = std::fmax(0, ovoid_body_distance(&pairs[i], nullptr, nullptr, nullptr).upper);
+            distances[i] = std::fmax(0, ovoid_body_distance(&pairs[i], nullptr, nullptr).upper);
     });
     const double their_distance = measure(count, [&] {
         for (std::size_t i = 0; i < count; i++) {
@@ -147,7 +147,7 @@ int run(const ovoid_solid *s, const model *m, double gap, std::size_t count) {
     });
     const double collide = measure(count, [&] {
         for (std::size_t i = 0; i < count; i++)
-            hits[i] = ovoid_body_collide(&pairs[i], nullptr, nullptr, nullptr).status == OVOID_OVERLAPPING;
+            hits[i] = ovoid_body_collide(&pairs[i], nullptr, nullptr).status == OVOID_OVERLAPPING;
     });
     const double their_collide = measure(count, [&] {
         differ = 0;

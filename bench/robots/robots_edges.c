@@ -52,7 +52,7 @@ static double ask(robots_scene *s, const edge *e, int any_hit, ovoid_robot_path_
     ovoid_robot_path path = {e->q, 2};
     ovoid_robot_path_options options = {.any_hit = any_hit};
     double start = get_own_seconds();
-    ovoid_code code = ovoid_robot_path_find_hit(s->checker, &path, &options, is, NULL);
+    ovoid_code code = ovoid_robot_path_find_hit(s->checker, &(ovoid_robot_path_query){&path, &options}, is, NULL);
     return code == OVOID_OK ? (get_own_seconds() - start) * 1e6 : -1;
 }
 
@@ -79,9 +79,9 @@ static void prove(robots_run *run, robots_scene *s, edge *e, uint32_t length) {
     ovoid_robot_path path = {e->q, 2};
     ovoid_robot_path_options options = {.steps = steps, .capacity = STEPS};
     ovoid_robot_path_answer again;
-    ovoid_code code = ovoid_robot_path_find_hit(s->checker, &path, &options, &again, NULL);
+    ovoid_code code = ovoid_robot_path_find_hit(s->checker, &(ovoid_robot_path_query){&path, &options}, &again, NULL);
     if (code == OVOID_OK && again.step_count <= STEPS)
-        code = ovoid_robot_path_verify(s->cell, &path, &options, &again, steps, NULL);
+        code = ovoid_robot_path_verify(s->cell, &again, &(ovoid_robot_path_basis){{&path, &options}, steps}, NULL);
     run->judged++;
     run->wrong += code != OVOID_OK || again.status != e->is.status || any.status != e->is.status;
 }
@@ -163,7 +163,8 @@ void robots_run_edges(robots_run *run, robots_scene *s, rival *rivals, uint32_t 
     edge e = {.q = q};
     // The first search makes the checker's memory for paths.
     if (q && links && draw_edge(run, s, &e, 0.1))
-        (void)ovoid_robot_path_find_hit(s->checker, &(ovoid_robot_path){q, 2}, NULL, &e.is, NULL);
+        (void)ovoid_robot_path_find_hit(s->checker, &(ovoid_robot_path_query){&(ovoid_robot_path){q, 2}, NULL}, &e.is,
+                                        NULL);
     for (uint32_t i = 0; q && links && i < 3 * run->plan->edges; i++) {
         uint32_t length = i % 3;
         if (!draw_edge(run, s, &e, lengths[length])) break;

@@ -42,7 +42,7 @@ static void judge_pair(const judged *a, const judged *b, state_truth *right) {
     }
     ovoid_pair pair = {a->shape, b->shape, a->pose, b->pose};
     ovoid_answer is = ovoid_depth(&pair, NULL, NULL, &cover);
-    if (ovoid_answer_verify(&pair, &is, NULL, &cover, NULL) != OVOID_OK) {
+    if (ovoid_answer_verify(&pair, &is, &(ovoid_answer_basis){.cover = &cover}, NULL) != OVOID_OK) {
         right->is_free = 0;
         return;
     }

@@ -37,9 +37,13 @@ ovoid_body answers_get_body(const ovoid_scene *scene, size_t object, const ovoid
 
 static ovoid_body_answer find(const ovoid_body_pair *pair, const answers_query *q, ovoid_exclusions *exclusions) {
     ovoid_options options = {.absolute_tolerance = q->tolerance};
-    if (q->query == QUERY_COLLIDE) return ovoid_body_collide(pair, &options, q->earlier, exclusions);
-    if (q->query == QUERY_WITHIN) return ovoid_body_within(pair, q->margin, &options, q->earlier, exclusions);
-    return ovoid_body_depth(pair, &options, q->earlier, exclusions);
+    if (q->query == QUERY_COLLIDE)
+        return ovoid_body_collide(pair, &options,
+                                  &(ovoid_body_evidence){.earlier = q->earlier, .exclusions = exclusions});
+    if (q->query == QUERY_WITHIN)
+        return ovoid_body_within(pair, q->margin, &options,
+                                 &(ovoid_body_evidence){.earlier = q->earlier, .exclusions = exclusions});
+    return ovoid_body_depth(pair, &options, &(ovoid_body_evidence){.earlier = q->earlier, .exclusions = exclusions});
 }
 
 void answers_describe(const ovoid_scene *scene, ovoid_couple couple, ovoid_record *record) {

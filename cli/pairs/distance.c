@@ -161,7 +161,9 @@ static int verify_record(const ovoid_body_pair *pair, const ovoid_record *record
                                                       pair->b.compound ? record->part_b : 0);
     ovoid_exclusions exclusions = {(ovoid_exclusion *)record->exclusions, record->exclusion_count,
                                    record->exclusion_count, (ovoid_cover *)record->cover};
-    if (ovoid_body_verify(pair, &answer, &asked, &exclusions, &error) == OVOID_OK) return 1;
+    if (ovoid_body_verify(pair, &answer, &(ovoid_body_basis){.options = &asked, .exclusions = &exclusions}, &error) ==
+        OVOID_OK)
+        return 1;
     message_error("the proof does not hold: %s", error.message);
     return 0;
 }

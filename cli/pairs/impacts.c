@@ -152,7 +152,7 @@ int pair_impact_find(pair_impact *p, const ovoid_moving_body bodies[2], double m
     ovoid_motion_options options = {.capacity = proof ? STEPS : 0, .group_capacity = has_groups ? STEPS : 0};
     for (;;) {
         if (proof && !reserve(p, &options)) return 0;
-        p->found = ovoid_body_impact_find(a, b, margin, &options);
+        p->found = ovoid_body_impact_find(&(ovoid_moving_body_pair){*a, *b, margin}, &options);
         if (!has_groups) p->found.group_count = 0;
         size_t steps = p->found.impact.step_count, groups = p->found.group_count;
         if (!proof || (steps <= options.capacity && groups <= options.group_capacity)) return 1;
@@ -281,7 +281,7 @@ static int is_arrival(const cli_impacts *impacts, const impact *item) {
     if (!pair_impact_is_arrival(&item->pair)) return 0;
     ovoid_body_pair pair = {answers_get_body(impacts->scene, c.a, &f->poses[c.a]),
                             answers_get_body(impacts->scene, c.b, &f->poses[c.b])};
-    ovoid_body_answer at_end = ovoid_body_within(&pair, impacts->margin, NULL, NULL, NULL);
+    ovoid_body_answer at_end = ovoid_body_within(&pair, impacts->margin, NULL, NULL);
     int within = ovoid_body_answer_is_within(&at_end, impacts->margin);
     return within > 0 || (within < 0 && at_end.limit == OVOID_LIMIT_NONE);
 }

@@ -100,10 +100,12 @@ static int find_answer(const solids_pair *p, const solids_query *q, solids_resul
         free(r->exclusions.items);
         r->exclusions = (ovoid_exclusions){malloc(room * sizeof(ovoid_exclusion)), room, 0, NULL};
         if (!r->exclusions.items) return 0;
-        r->answer = ovoid_body_distance(&p->pair, &options, NULL, &r->exclusions);
+        r->answer = ovoid_body_distance(&p->pair, &options, &(ovoid_body_evidence){.exclusions = &r->exclusions});
         if (r->exclusions.count <= room) break;
     }
-    r->holds = ovoid_body_verify(&p->pair, &r->answer, &options, &r->exclusions, &error) == OVOID_OK;
+    r->holds =
+        ovoid_body_verify(&p->pair, &r->answer, &(ovoid_body_basis){.options = &options, .exclusions = &r->exclusions},
+                          &error) == OVOID_OK;
     if (!r->holds) message_error("the proof does not hold: %s", error.message);
     return 1;
 }

@@ -37,7 +37,9 @@ static void check(findings *f, const ovoid_body_answer *x, const ovoid_exclusion
     ovoid_error error = {OVOID_OK, -1, ""};
     // Without all exclusions there is nothing to check it by.
     if (exclusions->count <= exclusions->capacity) {
-        fuzz_require_code(ovoid_body_verify(f->pair, x, f->options, exclusions, &error), &error);
+        fuzz_require_code(
+            ovoid_body_verify(f->pair, x, &(ovoid_body_basis){.options = f->options, .exclusions = exclusions}, &error),
+            &error);
         put_before_judge(f->pair, x, f->options, exclusions);
     }
     f->lower = fmax(f->lower, x->lower);
@@ -52,16 +54,18 @@ static void ask_all(findings *f, double margin, const ovoid_options *options, co
     static ovoid_cover cover;
     ovoid_exclusions exclusions = {items, capacity, 0, &cover};
     f->options = options;
-    ovoid_body_answer x = ovoid_body_collide(f->pair, options, earlier, &exclusions);
+    ovoid_body_answer x =
+        ovoid_body_collide(f->pair, options, &(ovoid_body_evidence){.earlier = earlier, .exclusions = &exclusions});
     check(f, &x, &exclusions);
-    x = ovoid_body_within(f->pair, margin, options, earlier, &exclusions);
+    x = ovoid_body_within(f->pair, margin, options,
+                          &(ovoid_body_evidence){.earlier = earlier, .exclusions = &exclusions});
     check(f, &x, &exclusions);
     int within = ovoid_answer_is_within(&x.deciding, margin);
     if (within == 1) fuzz_require(f->lower <= margin);
     if (within == 0) fuzz_require(f->upper > margin);
-    x = ovoid_body_distance(f->pair, options, earlier, &exclusions);
+    x = ovoid_body_distance(f->pair, options, &(ovoid_body_evidence){.earlier = earlier, .exclusions = &exclusions});
     check(f, &x, &exclusions);
-    x = ovoid_body_depth(f->pair, options, earlier, &exclusions);
+    x = ovoid_body_depth(f->pair, options, &(ovoid_body_evidence){.earlier = earlier, .exclusions = &exclusions});
     check(f, &x, &exclusions);
 }
 

@@ -53,15 +53,19 @@ static void check_impact(const ovoid_moving_shape *a, const ovoid_moving_shape *
     static ovoid_step steps[STEPS];
     options.steps = steps;
     options.capacity = STEPS;
-    ovoid_impact x = ovoid_impact_find(a, b, margin, &options);
+    ovoid_impact x = ovoid_impact_find(&(ovoid_moving_pair){*a, *b, margin}, &options);
     ovoid_error error = {OVOID_OK, -1, ""};
     if (x.limit == OVOID_LIMIT_POSE_A || x.limit == OVOID_LIMIT_POSE_B || x.limit == OVOID_LIMIT_OPTIONS) {
         fuzz_require(x.status == OVOID_IMPACT_UNDECIDED);
-        fuzz_require_code(ovoid_impact_verify(a, b, margin, &x, &options, NULL, &error), &error);
+        fuzz_require_code(ovoid_impact_verify(&(ovoid_moving_pair){*a, *b, margin}, &x,
+                                              &(ovoid_motion_basis){.options = &options}, &error),
+                          &error);
         return;
     }
     if (x.step_count <= STEPS)
-        fuzz_require_code(ovoid_impact_verify(a, b, margin, &x, &options, steps, &error), &error);
+        fuzz_require_code(ovoid_impact_verify(&(ovoid_moving_pair){*a, *b, margin}, &x,
+                                              &(ovoid_motion_basis){.options = &options, .steps = steps}, &error),
+                          &error);
     fuzz_require(x.begin <= x.free_until && x.free_until <= x.end);
     if (x.status == OVOID_IMPACT_HIT) fuzz_require(x.free_until <= x.hit_at && x.hit_at <= x.end);
     // Samples of what is free.
@@ -77,10 +81,13 @@ static void check_approach(const ovoid_moving_shape *a, const ovoid_moving_shape
     static ovoid_step steps[STEPS];
     options.steps = steps;
     options.capacity = STEPS;
-    ovoid_approach x = ovoid_approach_find(a, b, &options);
+    ovoid_approach x = ovoid_approach_find(&(ovoid_moving_pair){*a, *b, 0}, &options);
     ovoid_error error = {OVOID_OK, -1, ""};
     if (x.limit == OVOID_LIMIT_POSE_A || x.limit == OVOID_LIMIT_POSE_B || x.limit == OVOID_LIMIT_OPTIONS) return;
-    if (x.step_count <= STEPS) fuzz_require_code(ovoid_approach_verify(a, b, &x, &options, steps, &error), &error);
+    if (x.step_count <= STEPS)
+        fuzz_require_code(ovoid_approach_verify(&(ovoid_moving_pair){*a, *b, 0}, &x,
+                                                &(ovoid_motion_basis){.options = &options, .steps = steps}, &error),
+                          &error);
     fuzz_require(x.lower <= x.upper);
     double slack = 1e-9 * find_size(a, b, x.begin, x.end);
     for (int i = 0; i <= 16 && slack < 1e30 && x.status != OVOID_OVERLAPPING; i++) {
@@ -111,13 +118,13 @@ static void check_solids(const ovoid_moving_shape *a, const ovoid_moving_shape *
     if (!compound) return;
     ovoid_moving_body bodies[2] = {{.shape = a->shape, .motion = a->motion},
                                    {.compound = compound, .motion = b->motion}};
-    ovoid_body_impact x = ovoid_body_impact_find(&bodies[0], &bodies[1], margin, options);
+    ovoid_body_impact x = ovoid_body_impact_find(&(ovoid_moving_body_pair){bodies[0], bodies[1], margin}, options);
     fuzz_require(!(x.impact.free_until > x.impact.hit_at));
     double least = INFINITY;
     for (size_t i = 0; i < 2; i++) {
         ovoid_moving_shape one = ovoid_moving_body_get_part(&bodies[0], 0),
                            other = ovoid_moving_body_get_part(&bodies[1], i);
-        ovoid_impact alone = ovoid_impact_find(&one, &other, margin, options);
+        ovoid_impact alone = ovoid_impact_find(&(ovoid_moving_pair){one, other, margin}, options);
         fuzz_require(!(x.impact.free_until > alone.hit_at));
         least = fmin(least, alone.free_until);
     }

@@ -58,7 +58,7 @@ static void check_claim(const ovoid_robot_proof *p, const ovoid_robot_proof_sour
     if (p->has_pair && ovoid_robot_cell_get_pair(cell, p->pair, &sides, &error) != OVOID_OK) return;
     answer.hit.a = sides.a;
     answer.hit.b = sides.b;
-    if (ovoid_robot_path_verify(cell, &path, &o, &answer, p->steps, &error) != OVOID_OK) {
+    if (ovoid_robot_path_verify(cell, &answer, &(ovoid_robot_path_basis){{&path, &o}, p->steps}, &error) != OVOID_OK) {
         fuzz_require_error(&error);
         return;
     }

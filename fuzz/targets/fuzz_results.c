@@ -20,7 +20,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     int got;
     while ((got = ovoid_results_reader_read(reader, &record, &error)) == 1) {
         fuzz_require(ovoid_results_reader_get_line(reader) > 0);
-        (void)ovoid_answer_verify(&pair, &record.answer, NULL, record.cover, &error);
+        (void)ovoid_answer_verify(&pair, &record.answer, &(ovoid_answer_basis){.cover = record.cover}, &error);
         fuzz_require(ovoid_record_write_json(nowhere, &record) == OVOID_OK);
         fuzz_require(ovoid_record_write_csv(nowhere, &record) == OVOID_OK);
     }

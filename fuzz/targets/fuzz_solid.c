@@ -65,7 +65,7 @@ typedef struct findings {
 static void check(findings *f, const ovoid_body_answer *x, const ovoid_exclusions *all) {
     ovoid_error error = {OVOID_OK, -1, ""};
     if (all->count <= all->capacity) {
-        fuzz_require_code(ovoid_body_verify(f->pair, x, NULL, all, &error), &error);
+        fuzz_require_code(ovoid_body_verify(f->pair, x, &(ovoid_body_basis){.exclusions = all}, &error), &error);
         put_before_judge(f->pair, x, all);
     }
     f->lower = fmax(f->lower, x->lower);
@@ -76,14 +76,15 @@ static void check(findings *f, const ovoid_body_answer *x, const ovoid_exclusion
 static void ask(findings *f, double margin, const ovoid_body_proof *earlier, size_t capacity) {
     static ovoid_exclusion items[ITEMS];
     ovoid_exclusions all = {items, capacity, 0, NULL};
-    ovoid_body_answer x = ovoid_body_collide(f->pair, NULL, earlier, &all);
+    ovoid_body_answer x =
+        ovoid_body_collide(f->pair, NULL, &(ovoid_body_evidence){.earlier = earlier, .exclusions = &all});
     check(f, &x, &all);
-    x = ovoid_body_within(f->pair, margin, NULL, earlier, &all);
+    x = ovoid_body_within(f->pair, margin, NULL, &(ovoid_body_evidence){.earlier = earlier, .exclusions = &all});
     check(f, &x, &all);
-    x = ovoid_body_distance(f->pair, NULL, earlier, &all);
+    x = ovoid_body_distance(f->pair, NULL, &(ovoid_body_evidence){.earlier = earlier, .exclusions = &all});
     check(f, &x, &all);
     ovoid_body_proof known = {x.part_a, x.part_b, x.deciding.proof};
-    x = ovoid_body_distance(f->pair, NULL, &known, &all);
+    x = ovoid_body_distance(f->pair, NULL, &(ovoid_body_evidence){.earlier = &known, .exclusions = &all});
     check(f, &x, &all);
 }
 
@@ -115,12 +116,14 @@ static void ask_impact(fuzz_bytes *from, const ovoid_body_pair *pair, double mar
     ovoid_moving_body a = take_moving(from, &pair->a, is_wild), b = take_moving(from, &pair->b, is_wild);
     const ovoid_motion_options options = {
         .iterations = 100, .steps = steps, .capacity = STEPS, .groups = groups, .group_capacity = GROUPS};
-    ovoid_body_impact x = ovoid_body_impact_find(&a, &b, margin, &options);
+    ovoid_body_impact x = ovoid_body_impact_find(&(ovoid_moving_body_pair){a, b, margin}, &options);
     const ovoid_impact *is = &x.impact;
     ovoid_error error = {OVOID_OK, -1, ""};
     fuzz_require(!(is->free_until > is->hit_at));
     if (is->step_count > STEPS || x.group_count > GROUPS) return;
-    fuzz_require_code(ovoid_body_impact_verify(&a, &b, margin, &x, NULL, steps, groups, &error), &error);
+    fuzz_require_code(ovoid_body_impact_verify(&(ovoid_moving_body_pair){a, b, margin}, &x,
+                                               &(ovoid_motion_basis){.steps = steps, .groups = groups}, &error),
+                      &error);
     if (is_wild || is->limit >= OVOID_LIMIT_POSE_A) return;
     double slack = 1e-6 * find_size(&a, &b, is->end);
     for (int i = 0; i < 4; i++) {
@@ -129,7 +132,7 @@ static void ask_impact(fuzz_bytes *from, const ovoid_body_pair *pair, double mar
         ovoid_body_pair at = *pair;
         at.a.pose = ovoid_motion_compute_pose(&a.motion, time);
         at.b.pose = ovoid_motion_compute_pose(&b.motion, time);
-        fuzz_require(ovoid_body_within(&at, margin, NULL, NULL, NULL).upper > margin - slack);
+        fuzz_require(ovoid_body_within(&at, margin, NULL, NULL).upper > margin - slack);
     }
 }
 

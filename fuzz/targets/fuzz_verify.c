@@ -133,7 +133,8 @@ static void check_claim(const known *k, const ovoid_record *record) {
     int by_judge = judge_verify_answer(the_judge, &k->pair, x, record->cover, &error) == OVOID_OK;
     if (!by_judge) fuzz_require_error(&error);
     (void)judge_verify_points(the_judge, &k->pair, x, &error);
-    int by_library = ovoid_answer_verify(&k->pair, x, NULL, record->cover, &error) == OVOID_OK;
+    int by_library =
+        ovoid_answer_verify(&k->pair, x, &(ovoid_answer_basis){.cover = record->cover}, &error) == OVOID_OK;
     if (!by_judge && !by_library) return;
     fuzz_require(x->lower <= k->truth.high && x->upper >= k->truth.low);
     if (x->status == OVOID_SEPARATED) fuzz_require(k->truth.sign > 0);

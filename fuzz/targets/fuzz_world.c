@@ -95,7 +95,7 @@ static void check_contact(const model *m, const ovoid_contact *c, double margin)
     int i = find_body(m, c->a), j = find_body(m, c->b);
     fuzz_require(c->a < c->b && i >= 0 && j >= 0 && is_pair(m, i, j) && ovoid_world_is_pair(m->world, c->a, c->b));
     ovoid_body_pair pair = {m->bodies[i].body, m->bodies[j].body};
-    ovoid_body_answer alone = ovoid_body_depth(&pair, NULL, NULL, NULL);
+    ovoid_body_answer alone = ovoid_body_depth(&pair, NULL, NULL);
     fuzz_require(c->verdict.lower <= alone.upper && alone.lower <= c->verdict.upper);
     fuzz_require(!(c->verdict.lower > margin));
     static ovoid_exclusion items[256];
@@ -104,7 +104,8 @@ static void check_contact(const model *m, const ovoid_contact *c, double margin)
     ovoid_error error = {OVOID_OK, -1, ""};
     ovoid_contact_proof proof = {.exclusions = &exclusions};
     fuzz_require_code(ovoid_world_compute_proof(m->world, c, &proof, &error), &error);
-    fuzz_require_code(ovoid_body_verify(&pair, &proof.answer, NULL, &exclusions, &error), &error);
+    fuzz_require_code(ovoid_body_verify(&pair, &proof.answer, &(ovoid_body_basis){.exclusions = &exclusions}, &error),
+                      &error);
 }
 
 static void ask_frame(model *m, fuzz_bytes *from) {
@@ -129,7 +130,7 @@ static void ask_frame(model *m, fuzz_bytes *from) {
         for (int j = 0; j < i; j++) {
             if (!is_pair(m, i, j)) continue;
             ovoid_body_pair pair = {m->bodies[i].body, m->bodies[j].body};
-            ovoid_body_answer x = ovoid_body_within(&pair, query.margin, NULL, NULL, NULL);
+            ovoid_body_answer x = ovoid_body_within(&pair, query.margin, NULL, NULL);
             int is_there = 0;
             for (size_t k = 0; k < frame.count; k++)
                 is_there |= (frame.items[k].a == m->bodies[i].id && frame.items[k].b == m->bodies[j].id) ||
@@ -141,7 +142,7 @@ static void ask_frame(model *m, fuzz_bytes *from) {
 // The answer about a pair alone.
 static ovoid_answer ask_alone(const ovoid_body *a, const ovoid_body *b) {
     ovoid_body_pair pair = {*a, *b};
-    return ovoid_body_depth(&pair, NULL, NULL, NULL).deciding;
+    return ovoid_body_depth(&pair, NULL, NULL).deciding;
 }
 
 // No pair that was asked about is nearer than the hit says; body: the one asked about, or -1 for all pairs.

@@ -106,29 +106,35 @@ typedef struct ovoid_body_answer {
  * vertex norm + radius of both (of a shape vertex norm + radius, of a solid the largest point norm) and the distance of
  * their frames' origins. Refused as there, SHAPE_A or SHAPE_B where a body has not exactly one of shape, compound and
  * solid, and POSE_A or POSE_B where a part would lie beyond OVOID_LENGTH_MAX.
- * earlier: of this pair of bodies, or NULL. exclusions: NULL where no proof is wanted; the items' ranges are of the
- * trees' orders. Two shapes get the bits that ovoid_collide and its sisters give. Cost: a traversal of both trees.
+ * evidence: NULL, or what is known of this pair of bodies and what is wanted; the exclusions' ranges are of the trees'
+ * orders. Two shapes get the bits that ovoid_collide and its sisters give. Cost: a traversal of both trees.
  */
+
+/** What a query of bodies begins with, and what it writes beside its answer. */
+typedef struct ovoid_body_evidence {
+    const ovoid_body_proof *earlier; /**< of this pair of bodies; NULL: none */
+    ovoid_exclusions *exclusions;    /**< receive what proves the answer for all pairs of parts; NULL: not wanted */
+} ovoid_body_evidence;
 
 /** Do the bodies touch? Stops at the first two parts that overlap. */
 OVOID_API ovoid_body_answer ovoid_body_collide(const ovoid_body_pair *pair, const ovoid_options *options,
-                                               const ovoid_body_proof *earlier, ovoid_exclusions *exclusions);
+                                               const ovoid_body_evidence *evidence);
 /**
  * Are the bodies within margin (>= 0) of each other? Stops when no two parts are, or when two are and the sign of d is
  * known. Read it with ovoid_body_answer_is_within.
  */
 OVOID_API ovoid_body_answer ovoid_body_within(const ovoid_body_pair *pair, double margin, const ovoid_options *options,
-                                              const ovoid_body_proof *earlier, ovoid_exclusions *exclusions);
+                                              const ovoid_body_evidence *evidence);
 /** The distance to the tolerance and the nearest parts; where two overlap only that is proven, of solids with a depth.
  */
 OVOID_API ovoid_body_answer ovoid_body_distance(const ovoid_body_pair *pair, const ovoid_options *options,
-                                                const ovoid_body_proof *earlier, ovoid_exclusions *exclusions);
+                                                const ovoid_body_evidence *evidence);
 /**
  * The signed distance to the tolerance: where the bodies overlap, minus the depth of the deepest pair of parts. With a
  * solid as ovoid_body_distance, as the depth of triangles is not searched for.
  */
 OVOID_API ovoid_body_answer ovoid_body_depth(const ovoid_body_pair *pair, const ovoid_options *options,
-                                             const ovoid_body_proof *earlier, ovoid_exclusions *exclusions);
+                                             const ovoid_body_evidence *evidence);
 
 /** 1: proven within the margin (upper <= margin); 0: proven farther (lower > margin); -1: the bracket straddles it. */
 OVOID_API int ovoid_body_answer_is_within(const ovoid_body_answer *answer, double margin);
@@ -139,19 +145,23 @@ OVOID_API ovoid_answer ovoid_body_answer_get_answer(const ovoid_body_answer *ans
 /** The answer of two bodies without a solid from that of their deciding pair, as it was kept in a file, say. */
 OVOID_API ovoid_body_answer ovoid_body_answer_make(const ovoid_answer *deciding, uint32_t part_a, uint32_t part_b);
 
+/** What an answer is verified with, beside its own proof; all zero is the default, and NULL means that. */
+typedef struct ovoid_body_basis {
+    const ovoid_options *options;       /**< those of the query; NULL: the default */
+    const ovoid_exclusions *exclusions; /**< those of the query; NULL is enough for two shapes */
+} ovoid_body_basis;
+
 /**
  * Verifies an answer without any search: the deciding pair as ovoid_answer_verify does, each exclusion by all its parts
  * along its normal, that with the deciding pair they leave out no pair of parts, what is inside by the winding numbers
  * of all components, a common point by its distance from all triangles, a depth of solids by all points along
  * `parting`; and that status and limit follow from their brackets and the tolerance. Not claims, and not verified:
  * visited, tested, `parting` of what is apart or has no solid, why a bracket is wide (a limit other than NONE).
- * OVOID_OK, or PROOF with a sentence in *error (may be NULL; place: the exclusion). options: those of the query, or
- * NULL, the default. exclusions: those of the query; NULL is enough for two shapes. Cost: the parts of all exclusions,
+ * OVOID_OK, or PROOF with a sentence in *error (may be NULL; place: the exclusion). Cost: the parts of all exclusions,
  * and for each component that is not outside of the other's box all triangles.
  */
 OVOID_API ovoid_code ovoid_body_verify(const ovoid_body_pair *pair, const ovoid_body_answer *answer,
-                                       const ovoid_options *options, const ovoid_exclusions *exclusions,
-                                       ovoid_error *error);
+                                       const ovoid_body_basis *basis, ovoid_error *error);
 
 #ifdef __cplusplus
 }

@@ -23,6 +23,12 @@ typedef struct ovoid_moving_body {
     const ovoid_solid *solid;
 } ovoid_moving_body;
 
+/** Two bodies that move, and the margin (>= 0) within which they meet. */
+typedef struct ovoid_moving_body_pair {
+    ovoid_moving_body a, b;
+    double margin;
+} ovoid_moving_body_pair;
+
 /** When two moving bodies come within a margin of each other. */
 typedef struct ovoid_body_impact {
     ovoid_impact impact;     /**< status, limit and times of the bodies: free_until is the least of all pairs of parts,
@@ -35,7 +41,7 @@ typedef struct ovoid_body_impact {
 } ovoid_body_impact;
 
 /**
- * When do two moving bodies first come within margin (>= 0) of each other? ovoid_impact_find over the pairs of parts,
+ * When do two moving bodies first come within the margin of each other? ovoid_impact_find over the pairs of parts,
  * down both trees: the balls around nodes move too, and nodes that these bring together later than the first hit found
  * are pruned. Options as in ovoid_impact_find; iterations are those of each pair of parts. Refused as there, SHAPE_A or
  * SHAPE_B where a body has not exactly one of shape, compound and solid. Allocates nothing; with a solid stack 32 KB
@@ -47,22 +53,20 @@ typedef struct ovoid_body_impact {
  * time is as wide as that takes. Cost: a sweep of two balls or parts for each pair that comes near: some thousands for
  * surfaces that touch.
  */
-OVOID_API ovoid_body_impact ovoid_body_impact_find(const ovoid_moving_body *a, const ovoid_moving_body *b,
-                                                   double margin, const ovoid_motion_options *options);
+OVOID_API ovoid_body_impact ovoid_body_impact_find(const ovoid_moving_body_pair *pair,
+                                                   const ovoid_motion_options *options);
 
 /**
  * Verifies an impact without a search: that the groups leave out no pair of parts, that the steps of each reach
  * free_until with a gap above the margin, that the deciding parts are within the margin at hit_at, and that times and
  * status follow as in ovoid_impact_verify. Not verified beside what that function leaves: `free`, visited, tested. With
  * a solid the bodies are queried at the beginning once more, and what is inside is counted over all triangles: they
- * must be apart there, or within the margin with a bracket that the claimed one holds. options: those of the query, or
- * NULL as there. steps, groups: all that the query wrote (options.groups). OVOID_OK, or PROOF with a sentence in *error
- * (may be NULL); place: the group. Cost: the steps, the square of the number of groups, and with a solid a query.
+ * must be apart there, or within the margin with a bracket that the claimed one holds. basis: with all steps and groups
+ * that the query wrote (options.groups). OVOID_OK, or PROOF with a sentence in *error (may be NULL); place: the group.
+ * Cost: the steps, the square of the number of groups, and with a solid a query.
  */
-OVOID_API ovoid_code ovoid_body_impact_verify(const ovoid_moving_body *a, const ovoid_moving_body *b, double margin,
-                                              const ovoid_body_impact *impact, const ovoid_motion_options *options,
-                                              const ovoid_step *steps, const ovoid_step_group *groups,
-                                              ovoid_error *error);
+OVOID_API ovoid_code ovoid_body_impact_verify(const ovoid_moving_body_pair *pair, const ovoid_body_impact *impact,
+                                              const ovoid_motion_basis *basis, ovoid_error *error);
 
 /** Part i of a moving shape or compound, as a moving shape: its pose at a time is that of ovoid_compound's definition.
  */

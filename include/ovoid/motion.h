@@ -84,6 +84,12 @@ OVOID_API ovoid_pose ovoid_moving_shape_compute_pose(const ovoid_moving_shape *m
  */
 OVOID_API ovoid_box ovoid_moving_shape_compute_box(const ovoid_moving_shape *moving, double begin, double end);
 
+/** Two shapes that move. */
+typedef struct ovoid_moving_pair {
+    ovoid_moving_shape a, b;
+    double margin; /**< >= 0: within it they meet (ovoid_impact_find); ovoid_approach_find does not use it */
+} ovoid_moving_pair;
+
 /** What a query about two moving bodies proves. */
 typedef enum ovoid_impact_status {
     OVOID_IMPACT_UNDECIDED = 0, /**< no impact is proven, nor that there is none; `limit` says why */
@@ -153,26 +159,30 @@ typedef struct ovoid_impact {
 } ovoid_impact;
 
 /**
- * When do two moving bodies first come within margin (>= 0) of each other? Conservative advancement: B. Mirtich,
+ * When do two moving bodies first come within the margin of each other? Conservative advancement: B. Mirtich,
  * Impulse-based dynamic simulation of rigid body systems, 1996; X. Zhang, M. Lee, Y. J. Kim, Interactive continuous
  * collision detection for non-convex polyhedra, 2006; here with a bound of second order along one normal. Where they
  * are within the margin at the beginning, hit_at = begin. Cost: a distance query and some supports a step, two to
  * twenty steps for most motions.
  */
-OVOID_API ovoid_impact ovoid_impact_find(const ovoid_moving_shape *a, const ovoid_moving_shape *b, double margin,
-                                         const ovoid_motion_options *options);
+OVOID_API ovoid_impact ovoid_impact_find(const ovoid_moving_pair *pair, const ovoid_motion_options *options);
+
+/** What an impact or an approach is verified with, beside its own answers. */
+typedef struct ovoid_motion_basis {
+    const ovoid_motion_options *options; /**< those of the query; NULL: the default, at the answer's own times */
+    const ovoid_step *steps;             /**< all step_count of them */
+    const ovoid_step_group *groups;      /**< of ovoid_body_impact_find: all group_count of them */
+} ovoid_motion_basis;
 
 /**
- * Checks an impact without any search: that its times are those asked for, that each step's gap is above the margin
+ * Verifies an impact without any search: that its times are those asked for, that each step's gap is above the margin
  * from its beginning to its end, that the steps reach free_until, that the bodies are within the margin at hit_at, that
  * the status follows, and that a refusal is right and claims nothing. Not claims, and not checked: iterations; the
- * limit of a query that is not refused; `hit` where there is none. options: those of the query; NULL: the defaults, at
- * the impact's own times. steps: all step_count of them. OVOID_OK, or PROOF with a sentence in *error (may be NULL);
- * place: the step.
+ * limit of a query that is not refused; `hit` where there is none. basis: NULL where there are no steps. OVOID_OK, or
+ * PROOF with a sentence in *error (may be NULL); place: the step.
  */
-OVOID_API ovoid_code ovoid_impact_verify(const ovoid_moving_shape *a, const ovoid_moving_shape *b, double margin,
-                                         const ovoid_impact *impact, const ovoid_motion_options *options,
-                                         const ovoid_step *steps, ovoid_error *error);
+OVOID_API ovoid_code ovoid_impact_verify(const ovoid_moving_pair *pair, const ovoid_impact *impact,
+                                         const ovoid_motion_basis *basis, ovoid_error *error);
 
 /**
  * The first time at which B, moved along `displacement` (time 0: where it is, 1: all the way), is within margin of A,
@@ -226,16 +236,14 @@ typedef struct ovoid_approach {
  * level that follows the smallest distance found. Cost: some tens of queries for a turn or less, in proportion to the
  * turns where a body spins.
  */
-OVOID_API ovoid_approach ovoid_approach_find(const ovoid_moving_shape *a, const ovoid_moving_shape *b,
-                                             const ovoid_motion_options *options);
+OVOID_API ovoid_approach ovoid_approach_find(const ovoid_moving_pair *pair, const ovoid_motion_options *options);
 
 /**
- * Checks an approach without any search: that the steps prove lower over all of [begin, end], and the answer upper;
+ * Verifies an approach without any search: that the steps prove lower over all of [begin, end], and the answer upper;
  * that the status follows, TOUCHING within the options' tolerance. Arguments and errors as in ovoid_impact_verify.
  */
-OVOID_API ovoid_code ovoid_approach_verify(const ovoid_moving_shape *a, const ovoid_moving_shape *b,
-                                           const ovoid_approach *approach, const ovoid_motion_options *options,
-                                           const ovoid_step *steps, ovoid_error *error);
+OVOID_API ovoid_code ovoid_approach_verify(const ovoid_moving_pair *pair, const ovoid_approach *approach,
+                                           const ovoid_motion_basis *basis, ovoid_error *error);
 
 /** The name of a status in results, for example "hit"; never NULL. */
 OVOID_API const char *ovoid_impact_status_get_name(ovoid_impact_status status);

@@ -233,14 +233,19 @@ OVOID_API double ovoid_answer_get_distance(const ovoid_answer *answer);
 /** 1: proven within the margin (upper <= margin); 0: proven farther (lower > margin); -1: the bracket straddles it. */
 OVOID_API int ovoid_answer_is_within(const ovoid_answer *answer, double margin);
 
+/** What an answer is verified with, beside its own proof; all zero is the default, and NULL means that. */
+typedef struct ovoid_answer_basis {
+    const ovoid_options *options; /**< those of the query; NULL: the default, as of ovoid_pair_compute_bounds */
+    const ovoid_cover *cover;     /**< that of ovoid_depth, or NULL */
+} ovoid_answer_basis;
+
 /**
- * Checks an answer against its pair without any search: every bound is recomputed from the proof alone, with directed
- * error bounds, and the status must be what the bracket and the options' tolerance say. options: those that the query
- * was asked with, NULL the default, which is that of ovoid_pair_compute_bounds too. cover: that of ovoid_depth, or
- * NULL. OVOID_OK, or PROOF with a sentence in *error (may be NULL).
+ * Verifies an answer against its pair without any search: every bound is recomputed from the proof alone, with directed
+ * error bounds, and the status must be what the bracket and the options' tolerance say. OVOID_OK, or PROOF with a
+ * sentence in *error (may be NULL).
  */
 OVOID_API ovoid_code ovoid_answer_verify(const ovoid_pair *pair, const ovoid_answer *answer,
-                                         const ovoid_options *options, const ovoid_cover *cover, ovoid_error *error);
+                                         const ovoid_answer_basis *basis, ovoid_error *error);
 
 /** The name of a status in results, for example "separated"; never NULL. */
 OVOID_API const char *ovoid_status_get_name(ovoid_status status);

@@ -24,8 +24,6 @@ using robot_options = zeroed<ovoid_robot_options>;
 using robot_query_options = zeroed<ovoid_robot_query_options>;
 /** How a motion is checked. */
 using robot_path_options = zeroed<ovoid_robot_path_options>;
-/** How a clearance is computed. */
-using robot_clearance_options = zeroed<ovoid_robot_clearance_options>;
 /** The answer to a state. */
 using robot_answer = ovoid_robot_answer;
 
@@ -189,15 +187,17 @@ class robot_checker
                                      const ovoid_robot_path_options &o = robot_path_options()) {
         const ovoid_robot_path path = {states.data(), count};
         ovoid_robot_path_answer found;
-        call(ovoid_robot_path_find_hit, &path, &o, &found);
+        const ovoid_robot_path_query query = {&path, &o};
+        call(ovoid_robot_path_find_hit, &query, &found);
         return found;
     }
     /** The smallest clearance of a path of `count` states, as a bracket. Throws ARGUMENT, MEMORY. */
     ovoid_robot_clearance compute_clearance(span<const double> states, std::size_t count,
-                                            const ovoid_robot_clearance_options &o = robot_clearance_options()) {
+                                            const ovoid_robot_path_options &o = robot_path_options()) {
         const ovoid_robot_path path = {states.data(), count};
         ovoid_robot_clearance found;
-        call(ovoid_robot_path_compute_clearance, &path, &o, &found);
+        const ovoid_robot_path_query query = {&path, &o};
+        call(ovoid_robot_path_compute_clearance, &query, &found);
         return found;
     }
     /** All near pairs with gradients by `variables` numbers. Throws as ovoid_robot_find_near fails. */
@@ -240,7 +240,8 @@ inline void verify_robot_path(const robot_cell &cell, span<const double> states,
                               span<const ovoid_robot_step> steps) {
     const ovoid_robot_path path = {states.data(), count};
     ovoid_error e;
-    detail::require(ovoid_robot_path_verify(cell.get(), &path, &o, &found, steps.data(), &e), e);
+    const ovoid_robot_path_basis basis = {{&path, &o}, steps.data()};
+    detail::require(ovoid_robot_path_verify(cell.get(), &found, &basis, &e), e);
 }
 /** How many pairs a cell has. */
 inline std::size_t pair_count(const robot_cell &cell) noexcept { return ovoid_robot_cell_get_pair_count(cell.get()); }

@@ -53,15 +53,23 @@ typedef struct ovoid_robot_step {
 typedef struct ovoid_robot_path_options {
     ovoid_robot_query_options query; /**< margin, limits, which pairs */
     double tolerance; /**< of hit_at - free_until, in s; 0 means 2^-20. Where a body's allowance hides when it is met,
-                         up to 1/32 */
-    uint32_t states;  /**< most states that are looked at; 0 means 100 000 */
-    ovoid_robot_step *steps; /**< receives the proof's steps, up to capacity; NULL: none are wanted */
+                         up to 1/32. Of a clearance: of its bracket, a length; 0 means 1/1024 of the radius of the
+                         robot's largest element */
+    uint32_t states;  /**< most states that are looked at; 0 means 100 000, of a clearance 100 more for each segment */
+    ovoid_robot_step *steps; /**< receives the proof's steps, up to capacity; NULL: none are wanted. Of
+                                ovoid_robot_path_find_hit, as what follows */
     size_t capacity;
     ovoid_watch watch; /**< asked before each state; stopped: as though `states` were used up */
     int any_hit; /**< 1: any hit ends the search, the first one that is found: some states are looked at before anything
                       is proven. hit_at need not be the first hit then, and free_until is what was proven by then, often
                       0. Whether the path is free is answered as without it, and sooner where it is not */
 } ovoid_robot_path_options;
+
+/** What is asked of a path. */
+typedef struct ovoid_robot_path_query {
+    const ovoid_robot_path *path;
+    const ovoid_robot_path_options *options; /**< NULL: the default */
+} ovoid_robot_path_query;
 
 /** The answer to a path. */
 typedef struct ovoid_robot_path_answer {
@@ -85,28 +93,23 @@ typedef struct ovoid_robot_path_answer {
  * *answer is UNDECIDED. The checker keeps the search's memory: only the first path after a change of the
  * cell allocates. Cost: some tens of states a segment.
  */
-OVOID_API ovoid_code ovoid_robot_path_find_hit(ovoid_robot_checker *checker, const ovoid_robot_path *path,
-                                               const ovoid_robot_path_options *options, ovoid_robot_path_answer *answer,
-                                               ovoid_error *error);
+OVOID_API ovoid_code ovoid_robot_path_find_hit(ovoid_robot_checker *checker, const ovoid_robot_path_query *query,
+                                               ovoid_robot_path_answer *answer, ovoid_error *error);
+
+/** What an answer to a path is verified with. */
+typedef struct ovoid_robot_path_basis {
+    ovoid_robot_path_query query;  /**< margin, limits and pairs of its options count */
+    const ovoid_robot_step *steps; /**< all step_count of them */
+} ovoid_robot_path_basis;
 
 /**
- * Checks an answer without any search: that the steps (all step_count of them) hold, that those of each pair reach from
+ * Verifies an answer without any search: that the steps hold, that those of each pair reach from
  * 0 to free_until, that the state at hit_at is within the margin, and that the bracket of the hit holds what is found
- * there. Of UNDECIDED the bracket is not looked at. options: margin, limits and pairs count.
+ * there. Of UNDECIDED the bracket is not looked at.
  * OVOID_OK; PROOF with a sentence (place: the step, or -1); ARGUMENT, MEMORY. Takes the cell as it was.
  */
-OVOID_API ovoid_code ovoid_robot_path_verify(const ovoid_robot_cell *cell, const ovoid_robot_path *path,
-                                             const ovoid_robot_path_options *options,
-                                             const ovoid_robot_path_answer *answer, const ovoid_robot_step *steps,
-                                             ovoid_error *error);
-
-/** How a clearance is computed; all zero is the default, and NULL means that. */
-typedef struct ovoid_robot_clearance_options {
-    ovoid_robot_query_options query; /**< limits, which pairs; margin: of the status */
-    double tolerance;  /**< of the bracket, a length; 0 means 1/1024 of the radius of the robot's largest element */
-    uint32_t states;   /**< most states that are looked at; 0 means 100 000 and 100 for each segment */
-    ovoid_watch watch; /**< asked before each state; stopped: as though `states` were used up */
-} ovoid_robot_clearance_options;
+OVOID_API ovoid_code ovoid_robot_path_verify(const ovoid_robot_cell *cell, const ovoid_robot_path_answer *answer,
+                                             const ovoid_robot_path_basis *basis, ovoid_error *error);
 
 /** The smallest clearance of a path: the least signed distance of any queried pair at any real s. */
 typedef struct ovoid_robot_clearance {
@@ -129,8 +132,8 @@ typedef struct ovoid_robot_clearance {
  * no states, too many), MEMORY; then the bracket is all numbers. Cost: some tens of states a segment; more the smaller
  * the tolerance, about as 1/sqrt(tolerance).
  */
-OVOID_API ovoid_code ovoid_robot_path_compute_clearance(ovoid_robot_checker *checker, const ovoid_robot_path *path,
-                                                        const ovoid_robot_clearance_options *options,
+OVOID_API ovoid_code ovoid_robot_path_compute_clearance(ovoid_robot_checker *checker,
+                                                        const ovoid_robot_path_query *query,
                                                         ovoid_robot_clearance *clearance, ovoid_error *error);
 
 /** How many pairs a cell has, queried or left out; their numbers begin at 0. */

@@ -67,13 +67,15 @@ ovoid_code answer_verify(const answer_object *self, ovoid_error *error) {
     ovoid_body_pair bodies = {body_make(state, self->a, self->pose_a), body_make(state, self->b, self->pose_b)};
     if (bodies.a.shape && bodies.b.shape) {
         ovoid_pair pair = {bodies.a.shape, bodies.b.shape, self->pose_a, self->pose_b};
-        return ovoid_answer_verify(&pair, &self->of.deciding, &self->options, cover, error);
+        return ovoid_answer_verify(&pair, &self->of.deciding,
+                                   &(ovoid_answer_basis){.options = &self->options, .cover = cover}, error);
     }
     ovoid_exclusions exclusions = {self->exclusions, self->exclusion_count, self->exclusion_count,
                                    self->cover ? &unpacked : NULL};
     ovoid_code code;
     Py_BEGIN_ALLOW_THREADS;
-    code = ovoid_body_verify(&bodies, &self->of, &self->options, &exclusions, error);
+    code = ovoid_body_verify(&bodies, &self->of,
+                             &(ovoid_body_basis){.options = &self->options, .exclusions = &exclusions}, error);
     Py_END_ALLOW_THREADS;
     return code;
 }

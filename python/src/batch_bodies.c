@@ -19,10 +19,10 @@ static ovoid_answer ask_shapes(const bodies_query *q, const ovoid_body_pair *of)
 
 static ovoid_body_answer ask_once(const bodies_query *q, const ovoid_body_pair *pair) {
     switch (q->name) {
-    case QUERY_COLLIDE: return ovoid_body_collide(pair, q->options, NULL, NULL);
-    case QUERY_WITHIN: return ovoid_body_within(pair, q->margin, q->options, NULL, NULL);
-    case QUERY_DISTANCE: return ovoid_body_distance(pair, q->options, NULL, NULL);
-    default: return ovoid_body_depth(pair, q->options, NULL, NULL);
+    case QUERY_COLLIDE: return ovoid_body_collide(pair, q->options, NULL);
+    case QUERY_WITHIN: return ovoid_body_within(pair, q->margin, q->options, NULL);
+    case QUERY_DISTANCE: return ovoid_body_distance(pair, q->options, NULL);
+    default: return ovoid_body_depth(pair, q->options, NULL);
     }
 }
 

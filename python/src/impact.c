@@ -58,11 +58,11 @@ static void search(impact_object *self, int what, const ovoid_moving_body *a, co
     ovoid_moving_shape shape_a = make_moving_shape(a), shape_b = make_moving_shape(b);
     Py_BEGIN_ALLOW_THREADS;
     if (what == APPROACH)
-        self->approach = ovoid_approach_find(&shape_a, &shape_b, o);
+        self->approach = ovoid_approach_find(&(ovoid_moving_pair){shape_a, shape_b, 0}, o);
     else if (a->shape && b->shape)
-        self->of.impact = ovoid_impact_find(&shape_a, &shape_b, self->margin, o);
+        self->of.impact = ovoid_impact_find(&(ovoid_moving_pair){shape_a, shape_b, self->margin}, o);
     else
-        self->of = ovoid_body_impact_find(a, b, self->margin, o);
+        self->of = ovoid_body_impact_find(&(ovoid_moving_body_pair){*a, *b, self->margin}, o);
     Py_END_ALLOW_THREADS;
 }
 
@@ -162,13 +162,16 @@ ovoid_code impact_verify(module_state *state, PyObject *object, ovoid_error *err
     ovoid_moving_body a = make_moving(state, self->a, self->motion_a), b = make_moving(state, self->b, self->motion_b);
     ovoid_moving_shape shape_a = make_moving_shape(&a), shape_b = make_moving_shape(&b);
     if (Py_TYPE(object) == state->approach)
-        return ovoid_approach_verify(&shape_a, &shape_b, &self->approach, &self->options, self->steps, error);
+        return ovoid_approach_verify(&(ovoid_moving_pair){shape_a, shape_b, 0}, &self->approach,
+                                     &(ovoid_motion_basis){.options = &self->options, .steps = self->steps}, error);
     if (a.shape && b.shape)
-        return ovoid_impact_verify(&shape_a, &shape_b, self->margin, &self->of.impact, &self->options, self->steps,
-                                   error);
+        return ovoid_impact_verify(&(ovoid_moving_pair){shape_a, shape_b, self->margin}, &self->of.impact,
+                                   &(ovoid_motion_basis){.options = &self->options, .steps = self->steps}, error);
     ovoid_code code;
     Py_BEGIN_ALLOW_THREADS;
-    code = ovoid_body_impact_verify(&a, &b, self->margin, &self->of, &self->options, self->steps, self->groups, error);
+    code = ovoid_body_impact_verify(
+        &(ovoid_moving_body_pair){a, b, self->margin}, &self->of,
+        &(ovoid_motion_basis){.options = &self->options, .steps = self->steps, .groups = self->groups}, error);
     Py_END_ALLOW_THREADS;
     return code;
 }

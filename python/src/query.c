@@ -191,10 +191,18 @@ static int query_shapes(const query_input *in, answer_object *to) {
 static ovoid_body_answer query_once(const query_input *in, ovoid_exclusions *exclusions) {
     const ovoid_body_proof *earlier = in->has_earlier ? &in->earlier : NULL;
     switch (in->name) {
-    case QUERY_COLLIDE: return ovoid_body_collide(&in->pair, &in->options, earlier, exclusions);
-    case QUERY_WITHIN: return ovoid_body_within(&in->pair, in->margin, &in->options, earlier, exclusions);
-    case QUERY_DISTANCE: return ovoid_body_distance(&in->pair, &in->options, earlier, exclusions);
-    default: return ovoid_body_depth(&in->pair, &in->options, earlier, exclusions);
+    case QUERY_COLLIDE:
+        return ovoid_body_collide(&in->pair, &in->options,
+                                  &(ovoid_body_evidence){.earlier = earlier, .exclusions = exclusions});
+    case QUERY_WITHIN:
+        return ovoid_body_within(&in->pair, in->margin, &in->options,
+                                 &(ovoid_body_evidence){.earlier = earlier, .exclusions = exclusions});
+    case QUERY_DISTANCE:
+        return ovoid_body_distance(&in->pair, &in->options,
+                                   &(ovoid_body_evidence){.earlier = earlier, .exclusions = exclusions});
+    default:
+        return ovoid_body_depth(&in->pair, &in->options,
+                                &(ovoid_body_evidence){.earlier = earlier, .exclusions = exclusions});
     }
 }
 

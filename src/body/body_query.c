@@ -31,27 +31,29 @@ void body_find_internal(const ovoid_body_pair *pair, const ovoid_options *option
 }
 
 static ovoid_body_answer find(const ovoid_body_pair *pair, const ovoid_options *options, query_goal goal,
-                              const ovoid_body_proof *earlier, ovoid_exclusions *exclusions) {
+                              const ovoid_body_evidence *known) {
     OVOID_ASSERT(pair);
+    const ovoid_body_proof *earlier = known ? known->earlier : NULL;
+    ovoid_exclusions *exclusions = known ? known->exclusions : NULL;
     ENVIRONMENT_RETURN_FILLED(ovoid_body_answer, out, goal,
                               body_find_internal(pair, options, goal, earlier, exclusions, &out));
 }
 
 ovoid_body_answer ovoid_body_collide(const ovoid_body_pair *pair, const ovoid_options *options,
-                                     const ovoid_body_proof *earlier, ovoid_exclusions *exclusions) {
-    return find(pair, options, query_goal_make_collide(), earlier, exclusions);
+                                     const ovoid_body_evidence *known) {
+    return find(pair, options, query_goal_make_collide(), known);
 }
 ovoid_body_answer ovoid_body_within(const ovoid_body_pair *pair, double margin, const ovoid_options *options,
-                                    const ovoid_body_proof *earlier, ovoid_exclusions *exclusions) {
-    return find(pair, options, query_goal_make_within(margin), earlier, exclusions);
+                                    const ovoid_body_evidence *known) {
+    return find(pair, options, query_goal_make_within(margin), known);
 }
 ovoid_body_answer ovoid_body_distance(const ovoid_body_pair *pair, const ovoid_options *options,
-                                      const ovoid_body_proof *earlier, ovoid_exclusions *exclusions) {
-    return find(pair, options, query_goal_make_distance(options), earlier, exclusions);
+                                      const ovoid_body_evidence *known) {
+    return find(pair, options, query_goal_make_distance(options), known);
 }
 ovoid_body_answer ovoid_body_depth(const ovoid_body_pair *pair, const ovoid_options *options,
-                                   const ovoid_body_proof *earlier, ovoid_exclusions *exclusions) {
-    return find(pair, options, query_goal_make_depth(options), earlier, exclusions);
+                                   const ovoid_body_evidence *known) {
+    return find(pair, options, query_goal_make_depth(options), known);
 }
 
 int ovoid_body_answer_is_within(const ovoid_body_answer *x, double margin) {

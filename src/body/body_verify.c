@@ -293,8 +293,10 @@ static ovoid_code verify(const ovoid_body_pair *pair, const ovoid_body_answer *x
     return c.has_solid ? verify_solids(&c, &parts, error) : verify_parts(&c, &parts, options, error);
 }
 
-ovoid_code ovoid_body_verify(const ovoid_body_pair *pair, const ovoid_body_answer *answer, const ovoid_options *options,
-                             const ovoid_exclusions *exclusions, ovoid_error *error) {
+ovoid_code ovoid_body_verify(const ovoid_body_pair *pair, const ovoid_body_answer *answer,
+                             const ovoid_body_basis *basis, ovoid_error *error) {
     OVOID_ASSERT(pair && answer);
-    ENVIRONMENT_RETURN(ovoid_code, pair, verify(pair, answer, options, exclusions, error));
+    static const ovoid_body_basis none;
+    const ovoid_body_basis *from = basis ? basis : &none;
+    ENVIRONMENT_RETURN(ovoid_code, pair, verify(pair, answer, from->options, from->exclusions, error));
 }

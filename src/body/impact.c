@@ -254,13 +254,12 @@ COMPILER_NOINLINE static int begin_decides(descent *d) {
     return 1;
 }
 
-static void find(const ovoid_moving_body *a, const ovoid_moving_body *b, double margin,
-                 const ovoid_motion_options *options, ovoid_body_impact *out) {
-    OVOID_ASSERT(a && b);
+static void find(const ovoid_moving_body_pair *pair, const ovoid_motion_options *options, ovoid_body_impact *out) {
+    OVOID_ASSERT(pair);
     *out = (ovoid_body_impact){.impact = {.hit_at = INFINITY}};
     ovoid_impact *x = &out->impact;
-    descent d = {.margin = margin, .out = out, .free_until = INFINITY};
-    x->limit = start(&d, a, b, options);
+    descent d = {.margin = pair->margin, .out = out, .free_until = INFINITY};
+    x->limit = start(&d, &pair->a, &pair->b, options);
     x->free = x->hit = answer_make_refused(x->limit);
     if (x->limit != OVOID_LIMIT_NONE) return;
     double end = d.end;
@@ -277,7 +276,6 @@ static void find(const ovoid_moving_body *a, const ovoid_moving_body *b, double 
     x->end = end;
 }
 
-ovoid_body_impact ovoid_body_impact_find(const ovoid_moving_body *a, const ovoid_moving_body *b, double margin,
-                                         const ovoid_motion_options *options) {
-    ENVIRONMENT_RETURN_FILLED(ovoid_body_impact, out, margin, find(a, b, margin, options, &out));
+ovoid_body_impact ovoid_body_impact_find(const ovoid_moving_body_pair *pair, const ovoid_motion_options *options) {
+    ENVIRONMENT_RETURN_FILLED(ovoid_body_impact, out, pair, find(pair, options, &out));
 }

@@ -157,10 +157,10 @@ static ovoid_code verify_query(claim *c, const ovoid_moving_body *a, const ovoid
     return impact_verify_query(balls, &query, error);
 }
 
-static ovoid_code verify(claim *c, const ovoid_moving_body *a, const ovoid_moving_body *b, ovoid_error *error) {
+static ovoid_code verify(claim *c, const ovoid_moving_body_pair *pair, ovoid_error *error) {
     const ovoid_impact *x = &c->found->impact;
     OVOID_ASSERT((c->steps || !x->step_count) && (c->groups || !c->found->group_count));
-    ovoid_code code = verify_query(c, a, b, error);
+    ovoid_code code = verify_query(c, &pair->a, &pair->b, error);
     if (code != OVOID_OK || impact_is_refusal(x)) return code;
     if (!impact_is_sound(x, c->margin) || c->found->part_a >= c->trees.a.tree.count ||
         c->found->part_b >= c->trees.b.tree.count)
@@ -173,9 +173,9 @@ static ovoid_code verify(claim *c, const ovoid_moving_body *a, const ovoid_movin
     return code == OVOID_OK ? verify_hit(c, error) : code;
 }
 
-ovoid_code ovoid_body_impact_verify(const ovoid_moving_body *a, const ovoid_moving_body *b, double margin,
-                                    const ovoid_body_impact *impact, const ovoid_motion_options *options,
-                                    const ovoid_step *steps, const ovoid_step_group *groups, ovoid_error *error) {
-    claim c = {.margin = margin, .found = impact, .options = options, .steps = steps, .groups = groups};
-    ENVIRONMENT_RETURN(ovoid_code, c, verify(&c, a, b, error));
+ovoid_code ovoid_body_impact_verify(const ovoid_moving_body_pair *pair, const ovoid_body_impact *impact,
+                                    const ovoid_motion_basis *basis, ovoid_error *error) {
+    claim c = {.margin = pair->margin, .found = impact};
+    if (basis) c.options = basis->options, c.steps = basis->steps, c.groups = basis->groups;
+    ENVIRONMENT_RETURN(ovoid_code, c, verify(&c, pair, error));
 }

@@ -211,6 +211,6 @@ double body_find_outside(const body *b, vec3 x) {
     ovoid_body_pair pair = {.a = {.shape = b->point, .pose = at},
                             .b = {.solid = b->solid, .pose = ovoid_pose_make_identity()}};
     ovoid_options options = {.absolute_tolerance = b->tolerance};
-    ovoid_body_answer answer = ovoid_body_distance(&pair, &options, NULL, NULL);
+    ovoid_body_answer answer = ovoid_body_distance(&pair, &options, NULL);
     return answer.status == OVOID_SEPARATED ? answer.lower * b->inverse : 0;
 }

@@ -126,12 +126,11 @@ static void finish(approach *state) {
     out->limit = s->used >= s->most ? OVOID_LIMIT_ITERATIONS : OVOID_LIMIT_PRECISION;
 }
 
-static ovoid_approach find(const ovoid_moving_shape *a, const ovoid_moving_shape *b,
-                           const ovoid_motion_options *options) {
-    OVOID_ASSERT(a && b);
+static ovoid_approach find(const ovoid_moving_pair *pair, const ovoid_motion_options *options) {
+    OVOID_ASSERT(pair);
     ovoid_approach out = {.lower = -INFINITY, .upper = INFINITY};
     approach state = {.out = &out};
-    out.limit = sweep_make(&state.s, (moving_shapes){a, b}, options, APPROACH_TOLERANCE);
+    out.limit = sweep_make(&state.s, (moving_shapes){&pair->a, &pair->b}, options, APPROACH_TOLERANCE);
     if (out.limit != OVOID_LIMIT_NONE) {
         out.answer = answer_make_refused(out.limit);
         return out;
@@ -145,7 +144,6 @@ static ovoid_approach find(const ovoid_moving_shape *a, const ovoid_moving_shape
     return out;
 }
 
-ovoid_approach ovoid_approach_find(const ovoid_moving_shape *a, const ovoid_moving_shape *b,
-                                   const ovoid_motion_options *options) {
-    ENVIRONMENT_RETURN(ovoid_approach, a, find(a, b, options));
+ovoid_approach ovoid_approach_find(const ovoid_moving_pair *pair, const ovoid_motion_options *options) {
+    ENVIRONMENT_RETURN(ovoid_approach, pair, find(pair, options));
 }

@@ -178,16 +178,14 @@ void impact_find(moving_shapes shapes, double margin, const ovoid_motion_options
     finish(&state);
 }
 
-static ovoid_impact find(const ovoid_moving_shape *a, const ovoid_moving_shape *b, double margin,
-                         const ovoid_motion_options *options) {
+static ovoid_impact find(const ovoid_moving_pair *pair, const ovoid_motion_options *options) {
     ovoid_impact out;
-    impact_find((moving_shapes){a, b}, margin, options, 1e-9, &out);
+    impact_find((moving_shapes){&pair->a, &pair->b}, pair->margin, options, 1e-9, &out);
     return out;
 }
 
-ovoid_impact ovoid_impact_find(const ovoid_moving_shape *a, const ovoid_moving_shape *b, double margin,
-                               const ovoid_motion_options *options) {
-    ENVIRONMENT_RETURN(ovoid_impact, margin, find(a, b, margin, options));
+ovoid_impact ovoid_impact_find(const ovoid_moving_pair *pair, const ovoid_motion_options *options) {
+    ENVIRONMENT_RETURN(ovoid_impact, pair, find(pair, options));
 }
 
 const char *ovoid_impact_status_get_name(ovoid_impact_status status) {

@@ -40,12 +40,6 @@ typedef struct query_claim {
 /// OVOID_OK if the query has these times, or is refused for this reason and nothing is claimed.
 ovoid_code impact_verify_query(moving_shapes shapes, const query_claim *claim, ovoid_error *error);
 
-/// The steps of a proof, and the options of its query (NULL: not known).
-typedef struct step_proof {
-    const ovoid_motion_options *options;
-    const ovoid_step *steps;
-} step_proof;
-
 /// 1 if an impact says that its query is refused; 1 if it claims nothing of the bodies.
 int impact_is_refusal(const ovoid_impact *impact);
 int impact_is_empty(const ovoid_impact *impact);

@@ -43,7 +43,7 @@ ovoid_code impact_verify_answer(moving_shapes shapes, const answer_claim *claim,
     double shift = motion_pair_find_pair(&pieces, claim->time, &pair);
     // The bounds alone are claimed, whatever the tolerance that the queries at single times had.
     static const ovoid_options any = {.absolute_tolerance = INFINITY};
-    ovoid_code code = ovoid_answer_verify(&pair, claim->answer, &any, NULL, error);
+    ovoid_code code = ovoid_answer_verify(&pair, claim->answer, &(ovoid_answer_basis){.options = &any}, error);
     if (code != OVOID_OK) return code;
     double lower = claim->answer->lower - shift, upper = claim->answer->upper + shift;
     if (lower > claim->above && upper <= claim->most) return OVOID_OK;
@@ -97,9 +97,11 @@ int impact_is_sound(const ovoid_impact *impact, double margin) {
     return is_known && times && hit && !(is_free && impact->free_until != impact->end) && margin >= 0;
 }
 
-static ovoid_code verify_impact(moving_shapes shapes, double margin, const ovoid_impact *impact,
-                                const step_proof *proof, ovoid_error *error) {
-    OVOID_ASSERT(shapes.a && shapes.b && impact && (proof->steps || !impact->step_count));
+static ovoid_code verify_impact(const ovoid_moving_pair *pair, const ovoid_impact *impact,
+                                const ovoid_motion_basis *proof, ovoid_error *error) {
+    const moving_shapes shapes = {&pair->a, &pair->b};
+    double margin = pair->margin;
+    OVOID_ASSERT(impact && (proof->steps || !impact->step_count));
     const query_claim query = {margin,      proof->options, impact->begin,
                                impact->end, impact->limit,  impact_is_empty(impact)};
     ovoid_code code = impact_verify_query(shapes, &query, error);
@@ -118,11 +120,10 @@ static ovoid_code verify_impact(moving_shapes shapes, double margin, const ovoid
     return code;
 }
 
-ovoid_code ovoid_impact_verify(const ovoid_moving_shape *a, const ovoid_moving_shape *b, double margin,
-                               const ovoid_impact *impact, const ovoid_motion_options *options, const ovoid_step *steps,
-                               ovoid_error *error) {
-    const step_proof proof = {options, steps};
-    ENVIRONMENT_RETURN(ovoid_code, margin, verify_impact((moving_shapes){a, b}, margin, impact, &proof, error));
+ovoid_code ovoid_impact_verify(const ovoid_moving_pair *pair, const ovoid_impact *impact,
+                               const ovoid_motion_basis *basis, ovoid_error *error) {
+    static const ovoid_motion_basis none;
+    ENVIRONMENT_RETURN(ovoid_code, pair, verify_impact(pair, impact, basis ? basis : &none, error));
 }
 
 // 1 if the status says what the bracket says; of bodies that touch, within the tolerance that was asked for.
@@ -145,9 +146,9 @@ static int approach_is_sound(moving_shapes shapes, const ovoid_approach *claimed
     return 0;
 }
 
-static ovoid_code verify_approach(moving_shapes shapes, const ovoid_approach *claimed, const step_proof *proof,
+static ovoid_code verify_approach(moving_shapes shapes, const ovoid_approach *claimed, const ovoid_motion_basis *proof,
                                   ovoid_error *error) {
-    OVOID_ASSERT(shapes.a && shapes.b && claimed && (proof->steps || !claimed->step_count));
+    OVOID_ASSERT(claimed && (proof->steps || !claimed->step_count));
     int is_empty = claimed->status == OVOID_UNDECIDED && claimed->lower == -INFINITY && claimed->upper == INFINITY;
     const query_claim query = {0, proof->options, claimed->begin, claimed->end, claimed->limit, is_empty};
     ovoid_code code = impact_verify_query(shapes, &query, error);
@@ -168,9 +169,9 @@ static ovoid_code verify_approach(moving_shapes shapes, const ovoid_approach *cl
     return code;
 }
 
-ovoid_code ovoid_approach_verify(const ovoid_moving_shape *a, const ovoid_moving_shape *b,
-                                 const ovoid_approach *approach, const ovoid_motion_options *options,
-                                 const ovoid_step *steps, ovoid_error *error) {
-    const step_proof proof = {options, steps};
-    ENVIRONMENT_RETURN(ovoid_code, a, verify_approach((moving_shapes){a, b}, approach, &proof, error));
+ovoid_code ovoid_approach_verify(const ovoid_moving_pair *pair, const ovoid_approach *approach,
+                                 const ovoid_motion_basis *basis, ovoid_error *error) {
+    static const ovoid_motion_basis none;
+    moving_shapes shapes = {&pair->a, &pair->b};
+    ENVIRONMENT_RETURN(ovoid_code, shapes, verify_approach(shapes, approach, basis ? basis : &none, error));
 }

@@ -199,7 +199,9 @@ ovoid_code bounds_verify_internal(const answer_claims *claims, ovoid_error *erro
                                        : refusal_verify_internal(answer_get_verdict(claims->answer), refused, error);
 }
 
-ovoid_code ovoid_answer_verify(const ovoid_pair *pair, const ovoid_answer *answer, const ovoid_options *options,
-                               const ovoid_cover *cover, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, pair, answer_verify_internal(pair, answer, options, cover, error));
+ovoid_code ovoid_answer_verify(const ovoid_pair *pair, const ovoid_answer *answer, const ovoid_answer_basis *basis,
+                               ovoid_error *error) {
+    static const ovoid_answer_basis none;
+    const ovoid_answer_basis *from = basis ? basis : &none;
+    ENVIRONMENT_RETURN(ovoid_code, pair, answer_verify_internal(pair, answer, from->options, from->cover, error));
 }

@@ -164,7 +164,7 @@ part_hit solid_cast_body(const ovoid_body *body, const ovoid_body *moved, vec3 w
     const ovoid_moving_body a = {body->shape, body->compound, still, body->solid};
     const ovoid_motion motion = ovoid_motion_make_velocity(moved->pose, way, (vec3){0, 0, 0}, 1);
     const ovoid_moving_body b = {moved->shape, moved->compound, motion, moved->solid};
-    ovoid_body_impact impact = ovoid_body_impact_find(&a, &b, 0, &options);
+    ovoid_body_impact impact = ovoid_body_impact_find(&(ovoid_moving_body_pair){a, b, 0}, &options);
     const ovoid_impact *i = &impact.impact;
     return (part_hit){impact.part_a, impact.part_b, i->status, i->free_until, i->hit_at, i->hit.point_a, i->hit.normal};
 }

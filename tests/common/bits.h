@@ -161,7 +161,8 @@ static inline uint64_t bits_add_pair(uint64_t hash, const ovoid_pair *p) {
     for (int k = 0; k < BITS_ANSWERS; k++) {
         hash = bits_add_answer(hash, &x[k]);
         const ovoid_cover *shown = k == 0 ? &cover : k == 7 ? &warm_cover : NULL;
-        ovoid_code code = ovoid_answer_verify(p, &x[k], k == 8 ? &few : NULL, shown, NULL);
+        ovoid_code code =
+            ovoid_answer_verify(p, &x[k], &(ovoid_answer_basis){.options = k == 8 ? &few : NULL, .cover = shown}, NULL);
         BITS_ADD(hash, code);
     }
     return bits_add_cover(bits_add_cover(hash, &cover), &warm_cover);

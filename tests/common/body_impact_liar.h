@@ -42,7 +42,7 @@ static ovoid_body place(const ovoid_moving_body *m, double time) {
 }
 static ovoid_body_answer ask(const truth *t, double time) {
     ovoid_body_pair pair = {place(&t->a, time), place(&t->b, time)};
-    return ovoid_body_distance(&pair, NULL, NULL, NULL);
+    return ovoid_body_distance(&pair, NULL, NULL);
 }
 static ovoid_answer ask_leaves(const truth *t, uint32_t leaf_a, uint32_t leaf_b, double time) {
     leaf_shape a = make_leaf(t, 0, leaf_a, time), b = make_leaf(t, 1, leaf_b, time);
@@ -118,7 +118,9 @@ static int is_false(const truth *t, const ovoid_body_impact *found) {
 // ---- lies
 
 static void tell(const truth *t, const ovoid_body_impact *x, alter_count *n) {
-    ovoid_code code = ovoid_body_impact_verify(&t->a, &t->b, t->margin, x, t->told, steps, groups, NULL);
+    ovoid_code code =
+        ovoid_body_impact_verify(&(ovoid_moving_body_pair){t->a, t->b, t->margin}, x,
+                                 &(ovoid_motion_basis){.options = t->told, .steps = steps, .groups = groups}, NULL);
     alter_take(n, is_false(t, x), code != OVOID_OK);
 }
 
@@ -153,7 +155,8 @@ static const alter_table table = ALTER_TABLE(fields, counts), group_table = ALTE
 
 static void lie_about(const truth *t, const ovoid_body_impact *right) {
     ovoid_motion_options half = {.begin = 0.25, .end = 0.75};
-    ovoid_body_impact other = ovoid_body_impact_find(&t->a, &t->b, t->margin, &half), x = *right;
+    ovoid_body_impact other = ovoid_body_impact_find(&(ovoid_moving_body_pair){t->a, t->b, t->margin}, &half),
+                      x = *right;
     alter_walk w = alter_walk_make(&table, &x, sizeof x, &other);
     for (alter_count *n; (n = alter_next(&w));)
         if (x.group_count <= CAPACITY) tell(t, &x, n);
@@ -257,18 +260,26 @@ static void forge_margins(const truth *t, const ovoid_body_impact *right) {
 // Of a body that is refused only that reason is right, and nothing may be claimed beside it.
 static void forge_refusals(const truth *t) {
     ovoid_moving_body none = {.motion = t->b.motion};
-    ovoid_body_impact right = ovoid_body_impact_find(&t->a, &none, t->margin, &t->options), x = right;
-    CHECK_EQ(ovoid_body_impact_verify(&t->a, &none, t->margin, &x, t->told, NULL, NULL, NULL), OVOID_OK);
+    ovoid_body_impact right = ovoid_body_impact_find(&(ovoid_moving_body_pair){t->a, none, t->margin}, &t->options),
+                      x = right;
+    CHECK_EQ(ovoid_body_impact_verify(&(ovoid_moving_body_pair){t->a, none, t->margin}, &x,
+                                      &(ovoid_motion_basis){.options = t->told}, NULL),
+             OVOID_OK);
     x.impact.hit_at = 0.5;
-    CHECK(ovoid_body_impact_verify(&t->a, &none, t->margin, &x, t->told, NULL, NULL, NULL) != OVOID_OK);
+    CHECK(ovoid_body_impact_verify(&(ovoid_moving_body_pair){t->a, none, t->margin}, &x,
+                                   &(ovoid_motion_basis){.options = t->told}, NULL) != OVOID_OK);
     x = right;
     x.impact.limit = OVOID_LIMIT_SHAPE_A;
-    CHECK(ovoid_body_impact_verify(&t->a, &none, t->margin, &x, t->told, NULL, NULL, NULL) != OVOID_OK);
+    CHECK(ovoid_body_impact_verify(&(ovoid_moving_body_pair){t->a, none, t->margin}, &x,
+                                   &(ovoid_motion_basis){.options = t->told}, NULL) != OVOID_OK);
     x = right;
     x.impact.limit = OVOID_LIMIT_OPTIONS;
-    CHECK_EQ(ovoid_body_impact_verify(&t->a, &t->b, -1, &x, t->told, NULL, NULL, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_body_impact_verify(&(ovoid_moving_body_pair){t->a, t->b, -1}, &x,
+                                      &(ovoid_motion_basis){.options = t->told}, NULL),
+             OVOID_OK);
     x.group_count = 1;
-    CHECK(ovoid_body_impact_verify(&t->a, &t->b, -1, &x, t->told, NULL, groups, NULL) != OVOID_OK);
+    CHECK(ovoid_body_impact_verify(&(ovoid_moving_body_pair){t->a, t->b, -1}, &x,
+                                   &(ovoid_motion_basis){.options = t->told, .groups = groups}, NULL) != OVOID_OK);
 }
 
 static void forge_all(const truth *t, const ovoid_body_impact *right) {
@@ -315,9 +326,12 @@ static void set_times(truth *t, uint64_t seed) {
 
 static void try_case(truth *t, uint64_t seed) {
     uint64_t s = seed;
-    ovoid_body_impact right = ovoid_body_impact_find(&t->a, &t->b, t->margin, &t->options);
+    ovoid_body_impact right = ovoid_body_impact_find(&(ovoid_moving_body_pair){t->a, t->b, t->margin}, &t->options);
     ovoid_error error;
-    if (!CHECK_EQ(ovoid_body_impact_verify(&t->a, &t->b, t->margin, &right, t->told, steps, groups, &error), OVOID_OK))
+    if (!CHECK_EQ(ovoid_body_impact_verify(&(ovoid_moving_body_pair){t->a, t->b, t->margin}, &right,
+                                           &(ovoid_motion_basis){.options = t->told, .steps = steps, .groups = groups},
+                                           &error),
+                  OVOID_OK))
         printf("  %s\n", error.message);
     add_time(t, t->begin);
     add_time(t, t->end);

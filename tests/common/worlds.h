@@ -51,10 +51,10 @@ static inline ovoid_body_answer world_ask(const ovoid_world_body *a, const ovoid
     if (q->options) o = *q->options;
     o.cap = q->margin > 0 ? q->margin : 1e-300;
     switch (q->kind) {
-    case OVOID_QUERY_COLLIDE: return ovoid_body_collide(&pair, &o, NULL, NULL);
-    case OVOID_QUERY_WITHIN: return ovoid_body_within(&pair, q->margin, &o, NULL, NULL);
-    case OVOID_QUERY_DISTANCE: return ovoid_body_distance(&pair, &o, NULL, NULL);
-    default: return ovoid_body_depth(&pair, &o, NULL, NULL);
+    case OVOID_QUERY_COLLIDE: return ovoid_body_collide(&pair, &o, NULL);
+    case OVOID_QUERY_WITHIN: return ovoid_body_within(&pair, q->margin, &o, NULL);
+    case OVOID_QUERY_DISTANCE: return ovoid_body_distance(&pair, &o, NULL);
+    default: return ovoid_body_depth(&pair, &o, NULL);
     }
 }
 
@@ -82,7 +82,7 @@ static inline void world_check_contact(const ovoid_world *w, const ovoid_contact
     static ovoid_cover cover;
     ovoid_exclusions exclusions = {items, 4096, 0, &cover};
     ovoid_body_pair pair = {a->body, b->body};
-    ovoid_answer alone = world_ask(a, b, q).deciding, truth = ovoid_body_depth(&pair, NULL, NULL, NULL).deciding;
+    ovoid_answer alone = world_ask(a, b, q).deciding, truth = ovoid_body_depth(&pair, NULL, NULL).deciding;
     CHECK_EQ(c->verdict.status, alone.status);
     CHECK_LE(c->verdict.lower, truth.upper);
     CHECK_LE(truth.lower, c->verdict.upper);
@@ -93,7 +93,8 @@ static inline void world_check_contact(const ovoid_world *w, const ovoid_contact
     ovoid_error error = {0};
     CHECK(ovoid_world_compute_proof(w, c, &proof, &error) == OVOID_OK);
     ovoid_body_answer proven = proof.answer;
-    if (!CHECK(ovoid_body_verify(&pair, &proven, q->options, &exclusions, &error) == OVOID_OK))
+    if (!CHECK(ovoid_body_verify(&pair, &proven, &(ovoid_body_basis){.options = q->options, .exclusions = &exclusions},
+                                 &error) == OVOID_OK))
         printf("  %s\n", error.message);
     CHECK_EQ(proven.status, alone.status);
     // Two brackets of one distance, each as wide as the tolerance.

@@ -130,7 +130,7 @@ void check_compounds() {
     const ovoid::body_pair p({arm, vec3(0, 0, 1)}, {b.hull, vec3(7, 1, 0)});
     const ovoid_body_pair c = {{nullptr, arm.get(), pose(vec3(0, 0, 1)), nullptr},
                                {b.hull.get(), nullptr, pose(vec3(7, 1, 0)), nullptr}};
-    const ovoid_body_answer truth = ovoid_body_distance(&c, nullptr, nullptr, nullptr);
+    const ovoid_body_answer truth = ovoid_body_distance(&c, nullptr, nullptr);
     std::vector<ovoid_exclusion> space(10);
     ovoid::exclusions e(space);
     const ovoid::body_answer found = ovoid::distance(p, {}, nullptr, &e);
@@ -139,11 +139,11 @@ void check_compounds() {
     CHECK(e.is_complete() && e.written().size() == e.count && ovoid::is_proven(p, found, ovoid::options(), &e));
     ovoid::verify(p, found, ovoid::options(), &e);
     const ovoid::body_proof warm = ovoid::proof_of(found);
-    CHECK(is_same_answer(ovoid::collide(p).deciding, ovoid_body_collide(&c, nullptr, nullptr, nullptr).deciding));
-    CHECK(is_same_answer(ovoid::collide(p, {}, &warm).deciding,
-                         ovoid_body_collide(&c, nullptr, &warm, nullptr).deciding));
-    CHECK(is_same_answer(ovoid::within(p, 3).deciding, ovoid_body_within(&c, 3, nullptr, nullptr, nullptr).deciding));
-    CHECK(is_same_answer(ovoid::depth(p).deciding, ovoid_body_depth(&c, nullptr, nullptr, nullptr).deciding));
+    const ovoid_body_evidence known = {&warm, nullptr};
+    CHECK(is_same_answer(ovoid::collide(p).deciding, ovoid_body_collide(&c, nullptr, nullptr).deciding));
+    CHECK(is_same_answer(ovoid::collide(p, {}, &warm).deciding, ovoid_body_collide(&c, nullptr, &known).deciding));
+    CHECK(is_same_answer(ovoid::within(p, 3).deciding, ovoid_body_within(&c, 3, nullptr, nullptr).deciding));
+    CHECK(is_same_answer(ovoid::depth(p).deciding, ovoid_body_depth(&c, nullptr, nullptr).deciding));
     ovoid::body_answer wrong = found;
     wrong.lower += 1;
     CHECK(!ovoid::is_proven(p, wrong, ovoid::options(), &e));
@@ -177,7 +177,8 @@ void check_motions() {
     std::vector<ovoid::step> steps(1000);
     ovoid::motion_options o;
     o.with_steps(steps);
-    const ovoid::impact hit = ovoid::find_impact(x, y, 0, o), truth = ovoid_impact_find(&ca, &cb, 0, nullptr);
+    const ovoid_moving_pair both = {ca, cb, 0};
+    const ovoid::impact hit = ovoid::find_impact(x, y, 0, o), truth = ovoid_impact_find(&both, nullptr);
     CHECK(hit.status == OVOID_IMPACT_HIT && hit.hit_at == truth.hit_at && hit.free_until == truth.free_until);
     CHECK(std::strcmp(ovoid::name(hit.status), "hit") == 0);
     ovoid::verify(x, y, 0, hit, steps);
@@ -195,7 +196,8 @@ void check_motions() {
     wide.with_steps(steps);
     const ovoid::moving_shape past(b.pill, ovoid::motion::between(vec3(6, 0, 4.5), vec3(-6, 0, 4.5), 1));
     const ovoid::approach nearest = ovoid::find_approach(x, past, wide);
-    const ovoid_approach also = ovoid_approach_find(&ca, &past, nullptr);
+    const ovoid_moving_pair passing = {ca, past, 0};
+    const ovoid_approach also = ovoid_approach_find(&passing, nullptr);
     CHECK(nearest.lower == also.lower && nearest.upper == also.upper && nearest.time == also.time);
     ovoid::verify(x, past, nearest, steps);
 
@@ -225,7 +227,8 @@ void check_motions() {
     ovoid::motion_options full;
     full.with_steps(steps).with_groups(groups);
     const ovoid::body_impact met = ovoid::find_impact(u, v, 0, full);
-    const ovoid_body_impact c_met = ovoid_body_impact_find(&u, &v, 0, nullptr);
+    const ovoid_moving_body_pair meeting = {u, v, 0};
+    const ovoid_body_impact c_met = ovoid_body_impact_find(&meeting, nullptr);
     CHECK(met.impact.hit_at == c_met.impact.hit_at && met.part_a == 0);
     ovoid::verify(u, v, 0, met, steps, groups);
     CHECK(u.part(1).shape == b.pill.get() && is_same(v.swept(0, 1), ovoid_moving_body_compute_box(&v, 0, 1)));

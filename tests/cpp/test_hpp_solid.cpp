@@ -63,19 +63,20 @@ void check_queries() {
         const body_pair p({angle}, {cube, at}), two({angle}, {angle, at});
         for (const body_pair *q : {&p, &two}) {
             ovoid_exclusions all = {items, 512, 0, nullptr}, c = {other, 512, 0, nullptr};
+            const ovoid_body_evidence into = {nullptr, &c};
             const ovoid::body_answer x = ovoid::distance(*q, {}, nullptr, &all);
-            CHECK(is_same_solid_answer(x, ovoid_body_distance(q, nullptr, nullptr, &c)));
+            CHECK(is_same_solid_answer(x, ovoid_body_distance(q, nullptr, &into)));
             CHECK_EQ(all.count, c.count);
             CHECK(ovoid::is_proven(*q, x, ovoid::options(), &all));
             ovoid::body_answer wrong = x;
             wrong.deciding.lower += 0.1;
             CHECK(!ovoid::is_proven(*q, wrong, ovoid::options(), &all));
             const ovoid::body_proof earlier = ovoid::proof_of(x);
-            CHECK(is_same_solid_answer(ovoid::distance(*q, {}, &earlier),
-                                       ovoid_body_distance(q, nullptr, &earlier, nullptr)));
-            CHECK(is_same_solid_answer(ovoid::collide(*q), ovoid_body_collide(q, nullptr, nullptr, nullptr)));
+            const ovoid_body_evidence known = {&earlier, nullptr};
+            CHECK(is_same_solid_answer(ovoid::distance(*q, {}, &earlier), ovoid_body_distance(q, nullptr, &known)));
+            CHECK(is_same_solid_answer(ovoid::collide(*q), ovoid_body_collide(q, nullptr, nullptr)));
             const ovoid::body_answer w = ovoid::within(*q, 0.5);
-            CHECK(is_same_solid_answer(w, ovoid_body_within(q, 0.5, nullptr, nullptr, nullptr)));
+            CHECK(is_same_solid_answer(w, ovoid_body_within(q, 0.5, nullptr, nullptr)));
             CHECK_EQ(ovoid::is_within(w, 0.5), ovoid_body_answer_is_within(&w, 0.5));
         }
     }

@@ -57,10 +57,11 @@ static void check_answer(const ovoid_world *w, const ovoid_contact *c) {
     ovoid_error error = {OVOID_OK, -1, ""};
     CHECK(ovoid_world_get(w, c->a, &a, NULL) == OVOID_OK && ovoid_world_get(w, c->b, &b, NULL) == OVOID_OK);
     const ovoid_body_pair pair = {a.body, b.body};
-    ovoid_body_answer x = ovoid_body_distance(&pair, NULL, NULL, &all);
+    ovoid_body_answer x = ovoid_body_distance(&pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
     CHECK_EQ(x.status, c->verdict.status);
     if (all.count > CAPACITY) return;
-    if (!CHECK_EQ(ovoid_body_verify(&pair, &x, NULL, &all, &error), OVOID_OK)) printf("  %s\n", error.message);
+    if (!CHECK_EQ(ovoid_body_verify(&pair, &x, &(ovoid_body_basis){.exclusions = &all}, &error), OVOID_OK))
+        printf("  %s\n", error.message);
 }
 
 static void check_grid(const assembly *a, double cell) {

@@ -41,7 +41,8 @@ static void destroy_object(object *o) {
 static void check_checks(const ovoid_body_pair *pair, const ovoid_body_answer *x, const ovoid_exclusions *all) {
     ovoid_error error = {.message = ""};
     CHECK_LE(all->count, CAPACITY);
-    if (!CHECK(ovoid_body_verify(pair, x, NULL, all, &error) == OVOID_OK)) printf("  %s\n", error.message);
+    if (!CHECK(ovoid_body_verify(pair, x, &(ovoid_body_basis){.exclusions = all}, &error) == OVOID_OK))
+        printf("  %s\n", error.message);
 }
 
 static void check_pair(const object *a, const object *b, uint64_t *s) {
@@ -49,12 +50,12 @@ static void check_pair(const object *a, const object *b, uint64_t *s) {
     ovoid_body_pair pair = {{.compound = a->compound, .pose = {random_vec3(s, reach), random_quat(s)}},
                             {.compound = b->compound, .pose = {random_vec3(s, reach), random_quat(s)}}};
     ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
-    ovoid_body_answer distance = ovoid_body_distance(&pair, NULL, NULL, &all);
+    ovoid_body_answer distance = ovoid_body_distance(&pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
     check_checks(&pair, &distance, &all);
-    ovoid_body_answer collide = ovoid_body_collide(&pair, NULL, NULL, &all);
+    ovoid_body_answer collide = ovoid_body_collide(&pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
     check_checks(&pair, &collide, &all);
     CHECK_EQ(collide.status, distance.status);
-    ovoid_body_answer depth = ovoid_body_depth(&pair, NULL, NULL, NULL);
+    ovoid_body_answer depth = ovoid_body_depth(&pair, NULL, NULL);
     CHECK_LE(depth.lower, distance.upper);
     CHECK_LE(distance.lower, depth.upper);
     if (get_count(&pair.a) * get_count(&pair.b) > 150) return;

@@ -38,10 +38,12 @@ static void check_pair(const mesh *a, const mesh *b, const ovoid_body_pair *pair
     ovoid_exclusions all = {items, 200000, 0, NULL};
     ovoid_error error = {OVOID_OK, -1, ""};
     double truth = find_surfaces(a, b, pair);
-    ovoid_body_answer x = ovoid_body_distance(pair, NULL, NULL, &all), y = ovoid_body_collide(pair, NULL, NULL, NULL);
+    ovoid_body_answer x = ovoid_body_distance(pair, NULL, &(ovoid_body_evidence){.exclusions = &all}),
+                      y = ovoid_body_collide(pair, NULL, NULL);
     CHECK_EQ(x.status, status);
     CHECK_EQ(y.status, status);
-    if (!CHECK_EQ(ovoid_body_verify(pair, &x, NULL, &all, &error), OVOID_OK)) printf("  %s\n", error.message);
+    if (!CHECK_EQ(ovoid_body_verify(pair, &x, &(ovoid_body_basis){.exclusions = &all}, &error), OVOID_OK))
+        printf("  %s\n", error.message);
     CHECK_LE(x.deciding.lower, truth + 1e-12 * size);
     if (x.deciding.lower > 0) CHECK_LE(x.deciding.upper - x.deciding.lower, 1e-9 * size);
     if (!(truth > 0)) CHECK_LE(x.upper, 0);
@@ -77,7 +79,7 @@ int main(void) {
             if (!ovoid_solid_compute_winding(a, p, &winding)) winding = 0;
         }
         pair.b = (ovoid_body){.solid = b, .pose = {p, {1, 0, 0, 0}}};
-        ovoid_body_answer x = ovoid_body_distance(&pair, NULL, NULL, NULL);
+        ovoid_body_answer x = ovoid_body_distance(&pair, NULL, NULL);
         CHECK_EQ(x.status, OVOID_OVERLAPPING);
         check_pair(&bunny, &small, &pair, OVOID_OVERLAPPING, size);
     }

@@ -50,7 +50,8 @@ static const alter_table answer_table = ALTER_TABLE(alter_answer_fields, of_answ
 
 static void tell(const told *t, const ovoid_body_answer *x, const ovoid_exclusions *all, alter_count *n) {
     ovoid_error why = {.message = ""};
-    int is_refused = ovoid_body_verify(&t->pair, x, &t->options, all, NULL) != OVOID_OK;
+    int is_refused = ovoid_body_verify(&t->pair, x, &(ovoid_body_basis){.options = &t->options, .exclusions = all},
+                                       NULL) != OVOID_OK;
     judge_set_options(court, &t->options);
     int is_lie = !is_refused && (judge_verify_compound(court, &t->pair, x, all, &why) != OVOID_OK ||
                                  alter_limit_is_false(&x->deciding, t->most, 0, t->options.cap));
@@ -117,10 +118,10 @@ static void lie_about_cover(const told *t, const ovoid_body_answer *x, const ovo
 
 static ovoid_body_answer ask(const told *t, int query, double margin, ovoid_exclusions *all) {
     switch (query) {
-    case 0: return ovoid_body_collide(&t->pair, &t->options, NULL, all);
-    case 1: return ovoid_body_within(&t->pair, margin, &t->options, NULL, all);
-    case 2: return ovoid_body_distance(&t->pair, &t->options, NULL, all);
-    default: return ovoid_body_depth(&t->pair, &t->options, NULL, all);
+    case 0: return ovoid_body_collide(&t->pair, &t->options, &(ovoid_body_evidence){.exclusions = all});
+    case 1: return ovoid_body_within(&t->pair, margin, &t->options, &(ovoid_body_evidence){.exclusions = all});
+    case 2: return ovoid_body_distance(&t->pair, &t->options, &(ovoid_body_evidence){.exclusions = all});
+    default: return ovoid_body_depth(&t->pair, &t->options, &(ovoid_body_evidence){.exclusions = all});
     }
 }
 
@@ -145,7 +146,9 @@ static void check_pair(told *t, uint64_t *s) {
     t->other = last;
     t->counts[0] = find_vertex_count(&t->pair.a, x.part_a);
     t->counts[1] = find_vertex_count(&t->pair.b, x.part_b);
-    if (!CHECK(ovoid_body_verify(&t->pair, &x, &t->options, &all, &error) == OVOID_OK)) puts(error.message);
+    if (!CHECK(ovoid_body_verify(&t->pair, &x, &(ovoid_body_basis){.options = &t->options, .exclusions = &all},
+                                 &error) == OVOID_OK))
+        puts(error.message);
     lie_about_answer(t, &x, &all);
     if (all.count) lie_about_exclusions(t, &x, &all, s);
     if (cover.point_count) lie_about_cover(t, &x, &all, s);

@@ -57,7 +57,7 @@ static void run_pair(run *all, const ovoid_pair *pair) {
     if (code == OVOID_OK) code = judge_verify_points(trial_judge, pair, &x, &error);
     all->judge_seconds += seconds_now() - between;
     all->query_seconds += between - before;
-    if (code == OVOID_OK) code = ovoid_answer_verify(pair, &x, NULL, &cover, &error);
+    if (code == OVOID_OK) code = ovoid_answer_verify(pair, &x, &(ovoid_answer_basis){.cover = &cover}, &error);
     t->pairs++;
     t->answers++;
     if (code != OVOID_OK) trial_fail(t, pair, &x, "depth", error.message);

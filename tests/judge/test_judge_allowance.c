@@ -9,7 +9,8 @@ static long accepted, strengthened;
 static void check(judge *context, const ovoid_pair *p, const ovoid_answer *x, const ovoid_cover *cover) {
     ovoid_error error = {.message = ""};
     if (!CHECK_EQ(judge_verify_answer(context, p, x, cover, &error), OVOID_OK)) printf("  %s\n", error.message);
-    if (!CHECK_EQ(ovoid_answer_verify(p, x, NULL, cover, &error), OVOID_OK)) printf("  %s\n", error.message);
+    if (!CHECK_EQ(ovoid_answer_verify(p, x, &(ovoid_answer_basis){.cover = cover}, &error), OVOID_OK))
+        printf("  %s\n", error.message);
     accepted++;
 }
 
@@ -20,7 +21,7 @@ static void set_status(ovoid_answer *x) {
 
 static void check_refused(judge *context, const ovoid_pair *p, const ovoid_answer *x, const ovoid_cover *cover) {
     CHECK(judge_verify_answer(context, p, x, cover, NULL) != OVOID_OK);
-    CHECK(ovoid_answer_verify(p, x, NULL, cover, NULL) != OVOID_OK);
+    CHECK(ovoid_answer_verify(p, x, &(ovoid_answer_basis){.cover = cover}, NULL) != OVOID_OK);
     strengthened++;
 }
 

@@ -38,7 +38,7 @@ static void check_answer(const ovoid_pair *pair, const ovoid_answer *x, const ov
     ovoid_error error = {.message = ""};
     if (!CHECK(judge_verify_answer(exact, pair, x, cover, &error) == OVOID_OK) ||
         !CHECK(judge_verify_points(exact, pair, x, &error) == OVOID_OK) ||
-        !CHECK(ovoid_answer_verify(pair, x, NULL, cover, &error) == OVOID_OK))
+        !CHECK(ovoid_answer_verify(pair, x, &(ovoid_answer_basis){.cover = cover}, &error) == OVOID_OK))
         printf("  %s\n", error.message);
     vec3 difference = vec3_sub(x->point_b, x->point_a);
     double d = vec3_dot(difference, x->normal), rounding = 1e-9 + 1e-13;
@@ -71,7 +71,7 @@ static void check_widths(void) {
         ovoid_answer x = ovoid_depth(&pair, NULL, NULL, &cover);
         CHECK_LE(x.upper - x.lower, 0.02);
         CHECK_LE(x.upper, -1.97);
-        CHECK(ovoid_answer_verify(&pair, &x, NULL, &cover, NULL) == OVOID_OK);
+        CHECK(ovoid_answer_verify(&pair, &x, &(ovoid_answer_basis){.cover = &cover}, NULL) == OVOID_OK);
     }
     ovoid_shape_destroy(a);
 }

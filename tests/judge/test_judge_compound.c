@@ -108,12 +108,12 @@ static void check_round(int round) {
     if (round % 5 == 1) pair.b = (ovoid_body){.shape = shapes[0], .pose = pair.b.pose};
     if (CHECK(a && b)) {
         ovoid_exclusions all = {.items = items, .capacity = CAPACITY, .cover = &cover};
-        ovoid_body_answer x = ovoid_body_distance(&pair, NULL, NULL, &all);
+        ovoid_body_answer x = ovoid_body_distance(&pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
         judge_answer(&pair, &x, &all);
-        x = ovoid_body_depth(&pair, NULL, NULL, &all);
+        x = ovoid_body_depth(&pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
         judge_answer(&pair, &x, &all);
         judge_truth_of(&pair, &x);
-        x = ovoid_body_collide(&pair, NULL, NULL, &all);
+        x = ovoid_body_collide(&pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
         judge_answer(&pair, &x, &all);
     }
     judge_forget(court);
@@ -137,7 +137,7 @@ static void check_edges(void) {
                             {.compound = row, .pose = ovoid_pose_make_identity()}};
     pair.b.pose.position.x = 4;
     ovoid_exclusions all = {.items = items, .capacity = CAPACITY, .cover = &cover};
-    ovoid_body_answer x = ovoid_body_distance(&pair, NULL, NULL, &all);
+    ovoid_body_answer x = ovoid_body_distance(&pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
     CHECK(judge_all(&pair, &x, &all) == OVOID_OK);
     // All at once: the deciding pair is among them, which is no fault.
     items[0] = (ovoid_exclusion){0, 3, 0, 3, {1, 0, 0}, {0, 0, 0}, 1.5};

@@ -12,7 +12,7 @@ int main(void) {
         check_seed = seed;
         moving_make(&c, seed);
         double margin = seed % 3 ? 0 : 0.1 * c.size;
-        ovoid_impact x = ovoid_impact_find(&c.a, &c.b, margin, NULL);
+        ovoid_impact x = ovoid_impact_find(&(ovoid_moving_pair){c.a, c.b, margin}, NULL);
         ovoid_pair pair = moving_get_pair(&c.a, &c.b, x.free_until);
         ovoid_error error = {.message = ""};
         if (!CHECK_EQ(judge_verify_answer(context, &pair, &x.free, NULL, &error), OVOID_OK))

@@ -293,19 +293,19 @@ static void judge_answer(inquiry *q, const ovoid_body_answer *x, int is_distance
 
 static void ask(inquiry *q, uint64_t *s) {
     const ovoid_body_pair *pair = &q->pair;
-    ovoid_body_answer x = ovoid_body_distance(pair, NULL, NULL, &q->all);
+    ovoid_body_answer x = ovoid_body_distance(pair, NULL, &(ovoid_body_evidence){.exclusions = &q->all});
     judge_answer(q, &x, 1);
     if (x.status == OVOID_SEPARATED) CHECK_LE(x.upper - x.lower, q->tolerance);
     ovoid_body_proof earlier = {x.part_a, x.part_b, x.deciding.proof};
-    x = ovoid_body_distance(pair, NULL, &earlier, &q->all);
+    x = ovoid_body_distance(pair, NULL, &(ovoid_body_evidence){.earlier = &earlier, .exclusions = &q->all});
     judge_answer(q, &x, 1);
-    x = ovoid_body_collide(pair, NULL, NULL, &q->all);
+    x = ovoid_body_collide(pair, NULL, &(ovoid_body_evidence){.exclusions = &q->all});
     judge_answer(q, &x, 0);
     earlier.part_a = (uint32_t)(random_next(s) % 40), earlier.part_b = (uint32_t)(random_next(s) % 40);
-    x = ovoid_body_collide(pair, NULL, &earlier, &q->all);
+    x = ovoid_body_collide(pair, NULL, &(ovoid_body_evidence){.earlier = &earlier, .exclusions = &q->all});
     judge_answer(q, &x, 0);
     double margin = q->truth.surfaces * random_uniform(s, 0.5, 2);
-    x = ovoid_body_within(pair, margin, NULL, NULL, &q->all);
+    x = ovoid_body_within(pair, margin, NULL, &(ovoid_body_evidence){.exclusions = &q->all});
     judge_answer(q, &x, 0);
     int is = ovoid_body_answer_is_within(&x, margin);
     if (!q->truth.is_common && q->truth.surfaces > margin + q->tolerance) CHECK_EQ(is, 0);
@@ -313,13 +313,13 @@ static void ask(inquiry *q, uint64_t *s) {
         CHECK(is == 1 || q->truth.surfaces <= q->slack);
     ovoid_options options = {.cap = random_uniform(s, 0, 2) * q->truth.surfaces};
     if (q->truth.surfaces > q->slack) {
-        x = ovoid_body_distance(pair, &options, NULL, &q->all);
+        x = ovoid_body_distance(pair, &options, &(ovoid_body_evidence){.exclusions = &q->all});
         judge_answer(q, &x, 0);
     }
     // The other way round.
     ovoid_body_pair turned = {pair->b, pair->a};
     q->pair = turned;
-    x = ovoid_body_distance(&turned, NULL, NULL, &q->all);
+    x = ovoid_body_distance(&turned, NULL, &(ovoid_body_evidence){.exclusions = &q->all});
     judge_answer(q, &x, 1);
 }
 

@@ -64,7 +64,7 @@ static int is_false(const truth *t, const ovoid_body_answer *x, const ovoid_excl
 // ---- lies
 
 static void tell(truth *t, const ovoid_body_answer *x, const ovoid_exclusions *all, alter_count *n) {
-    int is_refused = ovoid_body_verify(&t->pair, x, NULL, all, NULL) != OVOID_OK;
+    int is_refused = ovoid_body_verify(&t->pair, x, &(ovoid_body_basis){.exclusions = all}, NULL) != OVOID_OK;
     alter_take(n, !is_refused && is_false(t, x, all), is_refused);
 }
 
@@ -257,9 +257,9 @@ static void set_second(truth *t, mesh *m, int kind, ovoid_shape **shape, ovoid_c
 
 static ovoid_body_answer ask(const truth *t, int query, ovoid_exclusions *all) {
     double margin = 0.5 * fmax(t->brute.surfaces, 0);
-    return query == 0   ? ovoid_body_distance(&t->pair, NULL, NULL, all)
-           : query == 1 ? ovoid_body_collide(&t->pair, NULL, NULL, all)
-                        : ovoid_body_within(&t->pair, margin, NULL, NULL, all);
+    return query == 0   ? ovoid_body_distance(&t->pair, NULL, &(ovoid_body_evidence){.exclusions = all})
+           : query == 1 ? ovoid_body_collide(&t->pair, NULL, &(ovoid_body_evidence){.exclusions = all})
+                        : ovoid_body_within(&t->pair, margin, NULL, &(ovoid_body_evidence){.exclusions = all});
 }
 
 static void try_answer(truth *t, int query, double scale, uint64_t *s) {
@@ -268,7 +268,7 @@ static void try_answer(truth *t, int query, double scale, uint64_t *s) {
     t->all = (ovoid_exclusions){.items = items, .capacity = CAPACITY};
     t->right = ask(t, query, &t->all);
     if (t->all.count > t->all.capacity) return;
-    if (!CHECK_EQ(ovoid_body_verify(&t->pair, &t->right, NULL, &t->all, &error), OVOID_OK))
+    if (!CHECK_EQ(ovoid_body_verify(&t->pair, &t->right, &(ovoid_body_basis){.exclusions = &t->all}, &error), OVOID_OK))
         printf("  %s\n", error.message);
     CHECK(!is_false(t, &t->right, &t->all));
     lie_about(t, &other, scale);

@@ -26,7 +26,7 @@ static ovoid_answer alter(const ovoid_answer *x, int upper, double bound) {
 
 static int is_accepted(const ovoid_pair *p, const ovoid_answer *x, int upper, double bound) {
     ovoid_answer y = alter(x, upper, bound);
-    return ovoid_answer_verify(p, &y, NULL, &cover, NULL) == OVOID_OK;
+    return ovoid_answer_verify(p, &y, &(ovoid_answer_basis){.cover = &cover}, NULL) == OVOID_OK;
 }
 
 /// The last double in the direction of `beyond`, which is refused, that is accepted.
@@ -74,7 +74,7 @@ static long altered;
 
 static void check_refused(const ovoid_pair *p, const ovoid_answer *y, const ovoid_cover *c, const char *what) {
     altered++;
-    if (!CHECK(ovoid_answer_verify(p, y, NULL, c, NULL) != OVOID_OK) && check_failed < 10)
+    if (!CHECK(ovoid_answer_verify(p, y, &(ovoid_answer_basis){.cover = c}, NULL) != OVOID_OK) && check_failed < 10)
         printf("  accepted: %s\n", what);
 }
 

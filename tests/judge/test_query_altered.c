@@ -27,7 +27,8 @@ static int is_false(const told *t, const ovoid_answer *x, const ovoid_cover *cov
 }
 
 static void tell(const told *t, const ovoid_answer *x, const ovoid_cover *cover, alter_count *n) {
-    int is_refused = ovoid_answer_verify(&t->pair, x, &t->options, cover, NULL) != OVOID_OK;
+    int is_refused = ovoid_answer_verify(&t->pair, x, &(ovoid_answer_basis){.options = &t->options, .cover = cover},
+                                         NULL) != OVOID_OK;
     int is_lie = !is_refused && is_false(t, x, cover);
     if (!alter_take(n, is_lie, is_refused) && check_failed < 20)
         printf("  %s %s [%.17g, %.17g] kind %s count %u\n", ovoid_status_get_name(x->status),
@@ -64,7 +65,9 @@ static void lie_about_cover(const told *t, const ovoid_answer *x, const ovoid_co
 
 static void lie_about(const told *t, const ovoid_answer *x, const ovoid_cover *cover, uint64_t *s) {
     ovoid_error error = {.message = ""};
-    if (!CHECK(ovoid_answer_verify(&t->pair, x, &t->options, cover, &error) == OVOID_OK)) puts(error.message);
+    if (!CHECK(ovoid_answer_verify(&t->pair, x, &(ovoid_answer_basis){.options = &t->options, .cover = cover},
+                                   &error) == OVOID_OK))
+        puts(error.message);
     if (x->stage == OVOID_STAGE_NONE && x->lower == -INFINITY) return;
     CHECK(!alter_limit_is_false(x, t->most, t->wide, t->options.cap));
     ovoid_answer y = *x;

@@ -21,7 +21,7 @@ static int holds(const ovoid_pair *p, const ovoid_answer *x, const ovoid_cover *
     ovoid_error error = {OVOID_OK, 0, ""};
     int judged = judge_verify_answer(court, p, x, cover, &error) == OVOID_OK;
     if (!judged) printf("judge: %s\n", error.message);
-    int checked = ovoid_answer_verify(p, x, NULL, cover, &error) == OVOID_OK;
+    int checked = ovoid_answer_verify(p, x, &(ovoid_answer_basis){.cover = cover}, &error) == OVOID_OK;
     if (!checked) printf("check: %s\n", error.message);
     return judged && checked;
 }
@@ -341,16 +341,16 @@ static void test_altered(void) {
     CHECK(x.proof.normal_low.x != 0);
     CHECK(holds(&p, &x, NULL));
     y = x, y.proof.normal_low = (ovoid_vec3){0, 0, 0};
-    CHECK(ovoid_answer_verify(&p, &y, NULL, NULL, NULL) == OVOID_ERROR_PROOF);
+    CHECK(ovoid_answer_verify(&p, &y, NULL, NULL) == OVOID_ERROR_PROOF);
     CHECK(judge_verify_answer(court, &p, &y, NULL, NULL) == OVOID_ERROR_PROOF);
     y = x, y.proof.normal_low.x += 1e-18;
-    CHECK(ovoid_answer_verify(&p, &y, NULL, NULL, NULL) == OVOID_ERROR_PROOF);
+    CHECK(ovoid_answer_verify(&p, &y, NULL, NULL) == OVOID_ERROR_PROOF);
     CHECK(judge_verify_answer(court, &p, &y, NULL, NULL) == OVOID_ERROR_PROOF);
     y = x, y.proof.normal_low.x = NAN;
-    CHECK(ovoid_answer_verify(&p, &y, NULL, NULL, NULL) == OVOID_ERROR_PROOF);
+    CHECK(ovoid_answer_verify(&p, &y, NULL, NULL) == OVOID_ERROR_PROOF);
     CHECK(judge_verify_answer(court, &p, &y, NULL, NULL) == OVOID_ERROR_NOT_FINITE);
     y = x, y.lower *= 1.001, y.upper = fmax(y.upper, y.lower);
-    CHECK(ovoid_answer_verify(&p, &y, NULL, NULL, NULL) == OVOID_ERROR_PROOF);
+    CHECK(ovoid_answer_verify(&p, &y, NULL, NULL) == OVOID_ERROR_PROOF);
     // Handed back: the same sign at once, without a search of doubles that cannot tell.
     ovoid_answer warm = ovoid_collide(&p, NULL, &x.proof);
     CHECK_EQ(warm.status, OVOID_SEPARATED);

@@ -27,8 +27,8 @@ static void get_state(size_t n, const double *states, size_t count, double at, d
     for (size_t i = 0; i < n; i++) q[i] = q0[i] + (at - (double)k) * (q1[i] - q0[i]);
 }
 
-static void compare(ovoid_robot_checker *x, size_t n, const ovoid_robot_path *path,
-                    const ovoid_robot_clearance_options *o, const ovoid_robot_clearance *is) {
+static void compare(ovoid_robot_checker *x, size_t n, const ovoid_robot_path *path, const ovoid_robot_path_options *o,
+                    const ovoid_robot_clearance *is) {
     double q[7 * ROBOT_LINKS], end = path->count > 1 ? (double)(path->count - 1) : 0, least = INFINITY;
     for (int i = 0; i <= SAMPLES; i++) {
         get_state(n, path->states, path->count, end * i / SAMPLES, q);
@@ -83,10 +83,10 @@ static void test_random(void) {
                 states[k * n + v] = fmin(fmax(next, is.lower), is.upper);
             }
         ovoid_robot_path path = {states, length};
-        ovoid_robot_clearance_options o = {
+        ovoid_robot_path_options o = {
             .query = {.limit_slack = 1e-9, .without_obstacles = i % 7 == 0, .without_self = i % 2}, .tolerance = 0.01};
         ovoid_robot_clearance is;
-        ovoid_code code = ovoid_robot_path_compute_clearance(x, &path, &o, &is, &error);
+        ovoid_code code = ovoid_robot_path_compute_clearance(x, &(ovoid_robot_path_query){&path, &o}, &is, &error);
         if (CHECK_EQ(code, OVOID_OK)) compare(x, n, &path, &o, &is);
         ovoid_robot_checker_destroy(x);
         ovoid_robot_cell_destroy(cell);
@@ -114,9 +114,9 @@ static void test_hinge(void) {
     ovoid_robot_path path = {q, 3};
     double before = 0;
     for (double tolerance = 0.1; tolerance > 1e-7; tolerance /= 10) {
-        ovoid_robot_clearance_options o = {.query = {.margin = 0.5}, .tolerance = tolerance};
+        ovoid_robot_path_options o = {.query = {.margin = 0.5}, .tolerance = tolerance};
         ovoid_robot_clearance is;
-        CHECK_EQ(ovoid_robot_path_compute_clearance(x, &path, &o, &is, &error), OVOID_OK);
+        CHECK_EQ(ovoid_robot_path_compute_clearance(x, &(ovoid_robot_path_query){&path, &o}, &is, &error), OVOID_OK);
         CHECK(is.lower <= 0.8 && is.upper >= 0.8 && is.upper - is.lower <= tolerance * (1 + 1e-6));
         CHECK_EQ(is.status, OVOID_ROBOT_FREE);
         CHECK(is.a.link == 1 && is.b.body == id);
@@ -127,35 +127,37 @@ static void test_hinge(void) {
     ovoid_robot_clearance is;
     // Nearer, the ball's middle comes to 0.05 from the wall's face.
     CHECK_EQ(ovoid_robot_cell_move(cell, id, &(ovoid_pose){{1.15, 0, 0}, {1, 0, 0, 0}}, &error), OVOID_OK);
-    CHECK_EQ(
-        ovoid_robot_path_compute_clearance(x, &path, &(ovoid_robot_clearance_options){.tolerance = 1e-5}, &is, &error),
-        OVOID_OK);
+    CHECK_EQ(ovoid_robot_path_compute_clearance(
+                 x, &(ovoid_robot_path_query){&path, &(ovoid_robot_path_options){.tolerance = 1e-5}}, &is, &error),
+             OVOID_OK);
     CHECK(is.lower <= -0.05 && is.upper >= -0.05 && is.upper - is.lower <= 1.001e-5 && is.status == OVOID_ROBOT_HIT);
     CHECK_EQ(ovoid_robot_cell_move(cell, id, &wall.pose, &error), OVOID_OK);
-    ovoid_robot_clearance_options o = {.query = {.margin = 0.9}};
-    CHECK_EQ(ovoid_robot_path_compute_clearance(x, &path, &o, &is, &error), OVOID_OK);
+    ovoid_robot_path_options o = {.query = {.margin = 0.9}};
+    CHECK_EQ(ovoid_robot_path_compute_clearance(x, &(ovoid_robot_path_query){&path, &o}, &is, &error), OVOID_OK);
     CHECK_EQ(is.status, OVOID_ROBOT_HIT);
     // The padding is a part of the link; so deep inside that the ball is met.
     CHECK_EQ(ovoid_robot_cell_set_padding(cell, 1, 0.3, &error), OVOID_OK);
-    CHECK_EQ(ovoid_robot_path_compute_clearance(x, &path, NULL, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_path_compute_clearance(x, &(ovoid_robot_path_query){&path, NULL}, &is, &error), OVOID_OK);
     CHECK(is.lower <= 0.5 && is.upper >= 0.5);
     // Few states: the bracket is wide, and right.
-    o = (ovoid_robot_clearance_options){.states = 7, .tolerance = 1e-9};
-    CHECK_EQ(ovoid_robot_path_compute_clearance(x, &path, &o, &is, &error), OVOID_OK);
+    o = (ovoid_robot_path_options){.states = 7, .tolerance = 1e-9};
+    CHECK_EQ(ovoid_robot_path_compute_clearance(x, &(ovoid_robot_path_query){&path, &o}, &is, &error), OVOID_OK);
     CHECK(is.lower < 0.5 && is.upper >= 0.5 && is.states == 7);
     // Refused: a limit; no tolerance.
     const double far[2] = {0, 4};
     path = (ovoid_robot_path){far, 2};
-    CHECK_EQ(ovoid_robot_path_compute_clearance(x, &path, NULL, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_path_compute_clearance(x, &(ovoid_robot_path_query){&path, NULL}, &is, &error), OVOID_OK);
     CHECK(is.status == OVOID_ROBOT_REFUSED && is.code == OVOID_ERROR_RANGE && is.upper == INFINITY);
     o.tolerance = NAN;
-    CHECK_EQ(ovoid_robot_path_compute_clearance(x, &path, &o, &is, &error), OVOID_ERROR_ARGUMENT);
+    CHECK_EQ(ovoid_robot_path_compute_clearance(x, &(ovoid_robot_path_query){&path, &o}, &is, &error),
+             OVOID_ERROR_ARGUMENT);
     path.count = 0;
-    CHECK_EQ(ovoid_robot_path_compute_clearance(x, &path, NULL, &is, &error), OVOID_ERROR_ARGUMENT);
+    CHECK_EQ(ovoid_robot_path_compute_clearance(x, &(ovoid_robot_path_query){&path, NULL}, &is, &error),
+             OVOID_ERROR_ARGUMENT);
     // No pair.
     CHECK_EQ(ovoid_robot_cell_remove(cell, id, &error), OVOID_OK);
     path = (ovoid_robot_path){q, 1};
-    CHECK_EQ(ovoid_robot_path_compute_clearance(x, &path, NULL, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_path_compute_clearance(x, &(ovoid_robot_path_query){&path, NULL}, &is, &error), OVOID_OK);
     CHECK(is.lower == INFINITY && is.upper == INFINITY && is.status == OVOID_ROBOT_UNDECIDED);
     CHECK_EQ(is.code, OVOID_ERROR_EMPTY);
     ovoid_robot_checker_destroy(x);

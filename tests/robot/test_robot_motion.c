@@ -25,7 +25,7 @@ static ovoid_code check_motion(ovoid_robot_checker *x, const double *q0, const d
     memcpy(states + n, q1, n * sizeof *q1);
     ovoid_robot_path path = {states, 2};
     ovoid_robot_path_answer is;
-    ovoid_code code = ovoid_robot_path_find_hit(x, &path, options, &is, &error);
+    ovoid_code code = ovoid_robot_path_find_hit(x, &(ovoid_robot_path_query){&path, options}, &is, &error);
     *found = (found_motion){is.status,     is.hit.code, is.hit.variable, is.states,
                             is.free_until, is.hit_at,   is.hit.a,        is.hit.b};
     return code;

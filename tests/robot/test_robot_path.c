@@ -122,7 +122,7 @@ static void spoil(uint64_t *s, const scene *c, const ovoid_robot_path *path, con
         steps[at].normal = (ovoid_vec3){-kept.normal.x, -kept.normal.y, -kept.normal.z};
     }
     // Only what is before free_until is wanted.
-    ovoid_code code = ovoid_robot_path_verify(c->cell, path, o, &more, steps, &error);
+    ovoid_code code = ovoid_robot_path_verify(c->cell, &more, &(ovoid_robot_path_basis){{path, o}, steps}, &error);
     double wanted = steps[at].end < kept.end ? steps[at].end : kept.begin;
     if (wanted < x->free_until) CHECK_EQ(code, OVOID_ERROR_PROOF);
     steps[at] = kept;
@@ -134,11 +134,11 @@ static void compare_any_hit(const scene *c, const ovoid_robot_path *path, const 
     ovoid_robot_path_options o = *first;
     ovoid_robot_path_answer x;
     o.any_hit = 1;
-    CHECK_EQ(ovoid_robot_path_find_hit(c->checker, path, &o, &x, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_path_find_hit(c->checker, &(ovoid_robot_path_query){path, &o}, &x, &error), OVOID_OK);
     if (known->status != OVOID_ROBOT_UNDECIDED && x.status != OVOID_ROBOT_UNDECIDED) CHECK_EQ(x.status, known->status);
     if (known->status == OVOID_ROBOT_HIT) CHECK_EQ(x.status, OVOID_ROBOT_HIT);
     compare_samples(c, path->states, path->count, o.query.margin, &x);
-    ovoid_code code = ovoid_robot_path_verify(c->cell, path, &o, &x, steps, &error);
+    ovoid_code code = ovoid_robot_path_verify(c->cell, &x, &(ovoid_robot_path_basis){{path, &o}, steps}, &error);
     if (!CHECK_EQ(code, OVOID_OK)) printf("  any hit: %s\n", error.message);
     if (x.status != OVOID_ROBOT_HIT || known->status != OVOID_ROBOT_HIT) return;
     CHECK(x.hit_at >= known->free_until);
@@ -160,13 +160,13 @@ static void test_random(void) {
         ovoid_robot_path_options o = {
             .query = {.margin = margin, .limit_slack = 1e-9}, .states = 3000, .steps = steps, .capacity = STEPS};
         ovoid_robot_path_answer x;
-        CHECK_EQ(ovoid_robot_path_find_hit(c.checker, &path, &o, &x, &error), OVOID_OK);
+        CHECK_EQ(ovoid_robot_path_find_hit(c.checker, &(ovoid_robot_path_query){&path, &o}, &x, &error), OVOID_OK);
         CHECK(x.step_count <= STEPS && x.status != OVOID_ROBOT_REFUSED);
         frees += x.status == OVOID_ROBOT_FREE, hits += x.status == OVOID_ROBOT_HIT;
         undecided += x.status == OVOID_ROBOT_UNDECIDED;
         step_sum += (long)x.step_count, state_sum += x.states;
         compare_samples(&c, states, count, margin, &x);
-        ovoid_code code = ovoid_robot_path_verify(c.cell, &path, &o, &x, steps, &error);
+        ovoid_code code = ovoid_robot_path_verify(c.cell, &x, &(ovoid_robot_path_basis){{&path, &o}, steps}, &error);
         if (!CHECK_EQ(code, OVOID_OK)) printf("  %d: %s\n", i, error.message);
         spoil(&s, &c, &path, &o, &x);
         compare_any_hit(&c, &path, &o, &x);
@@ -200,7 +200,7 @@ static void test_wrist(double turns, double at, double radius) {
     ovoid_robot_path path = {q, 2};
     ovoid_robot_path_options o = {.steps = steps, .capacity = STEPS};
     ovoid_robot_path_answer is;
-    CHECK_EQ(ovoid_robot_path_find_hit(x, &path, &o, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_path_find_hit(x, &(ovoid_robot_path_query){&path, &o}, &is, &error), OVOID_OK);
     if (radius < 0.95) {
         // The first meeting of the plate's angle, minus half the rod's thickness at about that radius.
         double first = (fmod(at + 200 * pi - q[0], 2 * pi)) / (q[1] - q[0]);
@@ -209,14 +209,16 @@ static void test_wrist(double turns, double at, double radius) {
         CHECK(fabs(is.hit_at - first) < 0.01 / turns);
     } else
         CHECK_EQ(is.status, OVOID_ROBOT_FREE);
-    CHECK_EQ(ovoid_robot_path_verify(cell, &path, &o, &is, steps, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_path_verify(cell, &is, &(ovoid_robot_path_basis){{&path, &o}, steps}, &error), OVOID_OK);
     // A hit is that of a pair which is queried, and its bracket is.
     if (is.status == OVOID_ROBOT_HIT) {
         ovoid_robot_path_answer other = is;
         other.hit.lower = is.hit.upper + 1e-6, other.hit.upper = is.hit.upper + 2e-6;
-        CHECK_EQ(ovoid_robot_path_verify(cell, &path, &o, &other, steps, &error), OVOID_ERROR_PROOF);
+        CHECK_EQ(ovoid_robot_path_verify(cell, &other, &(ovoid_robot_path_basis){{&path, &o}, steps}, &error),
+                 OVOID_ERROR_PROOF);
         o.query.without_obstacles = 1;
-        CHECK_EQ(ovoid_robot_path_verify(cell, &path, &o, &is, steps, &error), OVOID_ERROR_PROOF);
+        CHECK_EQ(ovoid_robot_path_verify(cell, &is, &(ovoid_robot_path_basis){{&path, &o}, steps}, &error),
+                 OVOID_ERROR_PROOF);
     }
     ovoid_robot_checker_destroy(x);
     ovoid_robot_cell_destroy(cell);
@@ -269,7 +271,7 @@ static void test_arc(void) {
         CHECK_EQ(ovoid_robot_cell_set_padding(cell, HINGES, i % 2 ? 0.02 : 0, &error), OVOID_OK);
         ovoid_robot_path path = {q, 2};
         ovoid_robot_path_answer is;
-        CHECK_EQ(ovoid_robot_path_find_hit(x, &path, NULL, &is, &error), OVOID_OK);
+        CHECK_EQ(ovoid_robot_path_find_hit(x, &(ovoid_robot_path_query){&path, NULL}, &is, &error), OVOID_OK);
         CHECK_EQ(is.status, OVOID_ROBOT_HIT);
         CHECK(is.free_until <= share && fabs(is.hit_at - share) <= 0.01 / angle);
         CHECK_EQ(ovoid_robot_cell_remove(cell, id, &error), OVOID_OK);
@@ -290,19 +292,19 @@ static void test_refusals(void) {
     double q[2] = {0, 2};
     ovoid_robot_path path = {q, 2};
     ovoid_robot_path_answer is;
-    CHECK_EQ(ovoid_robot_path_find_hit(x, &path, NULL, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_path_find_hit(x, &(ovoid_robot_path_query){&path, NULL}, &is, &error), OVOID_OK);
     CHECK(is.status == OVOID_ROBOT_REFUSED && is.hit.code == OVOID_ERROR_RANGE && is.refused == 0);
     q[1] = NAN;
-    CHECK_EQ(ovoid_robot_path_find_hit(x, &path, NULL, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_path_find_hit(x, &(ovoid_robot_path_query){&path, NULL}, &is, &error), OVOID_OK);
     CHECK_EQ(is.status, OVOID_ROBOT_REFUSED);
     path.count = 0;
-    CHECK_EQ(ovoid_robot_path_find_hit(x, &path, NULL, &is, &error), OVOID_ERROR_ARGUMENT);
+    CHECK_EQ(ovoid_robot_path_find_hit(x, &(ovoid_robot_path_query){&path, NULL}, &is, &error), OVOID_ERROR_ARGUMENT);
     path.count = 2, q[1] = 0.5;
     ovoid_robot_path_options o = {.tolerance = NAN};
-    CHECK_EQ(ovoid_robot_path_find_hit(x, &path, &o, &is, &error), OVOID_ERROR_ARGUMENT);
+    CHECK_EQ(ovoid_robot_path_find_hit(x, &(ovoid_robot_path_query){&path, &o}, &is, &error), OVOID_ERROR_ARGUMENT);
     o = (ovoid_robot_path_options){.query = {.margin = -1}};
-    CHECK_EQ(ovoid_robot_path_find_hit(x, &path, &o, &is, &error), OVOID_ERROR_ARGUMENT);
-    CHECK_EQ(ovoid_robot_path_find_hit(x, &path, NULL, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_path_find_hit(x, &(ovoid_robot_path_query){&path, &o}, &is, &error), OVOID_ERROR_ARGUMENT);
+    CHECK_EQ(ovoid_robot_path_find_hit(x, &(ovoid_robot_path_query){&path, NULL}, &is, &error), OVOID_OK);
     CHECK(is.status == OVOID_ROBOT_UNDECIDED && is.hit.code == OVOID_ERROR_EMPTY && is.step_count == 0);
     ovoid_robot_sides sides;
     CHECK_EQ(ovoid_robot_cell_get_pair_count(cell), 0);
@@ -330,19 +332,20 @@ static void test_memory(void) {
         ovoid_allocator allocator = countdown_make_allocator(&left);
         ovoid_robot_checker *x = ovoid_robot_checker_create(cell, &(ovoid_robot_checker_options){&allocator}, &error);
         left.left = failures;
-        ovoid_code code = ovoid_robot_path_find_hit(x, &path, NULL, &first, &error);
+        ovoid_code code = ovoid_robot_path_find_hit(x, &(ovoid_robot_path_query){&path, NULL}, &first, &error);
         is_done = code == OVOID_OK;
         if (!is_done) CHECK_EQ(code, OVOID_ERROR_MEMORY);
         if (is_done) {
             left.left = 0;
             ovoid_robot_checker_reset(x);
-            CHECK_EQ(ovoid_robot_path_find_hit(x, &path, NULL, &second, &error), OVOID_OK);
+            CHECK_EQ(ovoid_robot_path_find_hit(x, &(ovoid_robot_path_query){&path, NULL}, &second, &error), OVOID_OK);
             CHECK(second.status == first.status && second.free_until == first.free_until);
             CHECK_EQ(second.states, first.states);
             ovoid_id id = ovoid_robot_cell_add(cell, &body, &error);
-            CHECK_EQ(ovoid_robot_path_find_hit(x, &path, NULL, &second, &error), OVOID_ERROR_MEMORY);
+            CHECK_EQ(ovoid_robot_path_find_hit(x, &(ovoid_robot_path_query){&path, NULL}, &second, &error),
+                     OVOID_ERROR_MEMORY);
             left.left = 1 << 20;
-            CHECK_EQ(ovoid_robot_path_find_hit(x, &path, NULL, &second, &error), OVOID_OK);
+            CHECK_EQ(ovoid_robot_path_find_hit(x, &(ovoid_robot_path_query){&path, NULL}, &second, &error), OVOID_OK);
             CHECK(second.status == first.status && second.free_until == first.free_until);
             CHECK(id != 0);
         }

@@ -187,7 +187,7 @@ static int answer_is_false(const arm *m, const ovoid_robot_path_answer *x) {
 
 static int is_refused(const arm *m, const ovoid_robot_path_answer *x, const ovoid_robot_step *with) {
     const ovoid_robot_path_options o = {.query = {.margin = m->margin}};
-    return ovoid_robot_path_verify(m->cell, &m->path, &o, x, with, &error) != OVOID_OK;
+    return ovoid_robot_path_verify(m->cell, x, &(ovoid_robot_path_basis){{&m->path, &o}, with}, &error) != OVOID_OK;
 }
 
 #define OF_ANSWER(member, type, tolerance) ALTER_FIELD(ovoid_robot_path_answer, member, type, tolerance)
@@ -248,12 +248,12 @@ static void test_random(uint64_t seed, int cases) {
         make_random_arm(&s, &m);
         ovoid_robot_path_options o = {
             .query = {.margin = m.margin}, .states = 400, .steps = steps, .capacity = STEPS, .any_hit = i % 4 == 0};
-        CHECK_EQ(ovoid_robot_path_find_hit(m.checker, &m.path, &o, &x, &error), OVOID_OK);
+        CHECK_EQ(ovoid_robot_path_find_hit(m.checker, &(ovoid_robot_path_query){&m.path, &o}, &x, &error), OVOID_OK);
         if (x.step_count < STEPS && x.status < OVOID_ROBOT_REFUSED) {
             CHECK(!answer_is_false(&m, &x) && !is_refused(&m, &x, steps));
             ovoid_robot_path_options again = o;
             again.any_hit = !o.any_hit, again.steps = other_steps;
-            (void)ovoid_robot_path_find_hit(m.checker, &m.path, &again, &other, &error);
+            (void)ovoid_robot_path_find_hit(m.checker, &(ovoid_robot_path_query){&m.path, &again}, &other, &error);
             lie_about_answer(&m, &x, &other);
             for (int k = 0; k < 6 && x.step_count; k++) lie_about_step(&m, &x, random_next(&s) % x.step_count);
         }

@@ -354,7 +354,7 @@ static void test_sweeps(int rounds) {
         ovoid_robot_path path = {states, 2};
         ovoid_robot_path_options o = {.query = {.limit_slack = INFINITY, .without_self = 1}, .states = 20000};
         ovoid_robot_path_answer is;
-        CHECK_EQ(ovoid_robot_path_find_hit(x, &path, &o, &is, &error), OVOID_OK);
+        CHECK_EQ(ovoid_robot_path_find_hit(x, &(ovoid_robot_path_query){&path, &o}, &is, &error), OVOID_OK);
         frees += is.status == OVOID_ROBOT_FREE, hits += is.status == OVOID_ROBOT_HIT;
         // Most of them where a hit would be first missed: at the end of what is free.
         for (int k = 0; k < SWEEP * rounds && is.free_until > 0; k++)

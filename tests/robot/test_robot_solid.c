@@ -374,7 +374,7 @@ static long found[4], solid_steps;
 static void check_proof(const scene *c, const ovoid_robot_path *path, const ovoid_robot_path_options *o,
                         const ovoid_robot_path_answer *is, ovoid_robot_step *steps) {
     if (!CHECK(is->step_count <= o->capacity)) return;
-    if (!CHECK_EQ(ovoid_robot_path_verify(c->cell, path, o, is, steps, &error), OVOID_OK))
+    if (!CHECK_EQ(ovoid_robot_path_verify(c->cell, is, &(ovoid_robot_path_basis){{path, o}, steps}, &error), OVOID_OK))
         printf("  %s\n", error.message);
     size_t last = 0, of_solids = 0;
     for (size_t i = 0; i < is->step_count; i++)
@@ -384,7 +384,8 @@ static void check_proof(const scene *c, const ovoid_robot_path *path, const ovoi
     ovoid_robot_step kept = steps[last];
     steps[last].end = kept.begin + 0.5;
     if (kept.begin < 0.4 && is->hit_at < 0.6)
-        CHECK_EQ(ovoid_robot_path_verify(c->cell, path, o, is, steps, &error), OVOID_ERROR_PROOF);
+        CHECK_EQ(ovoid_robot_path_verify(c->cell, is, &(ovoid_robot_path_basis){{path, o}, steps}, &error),
+                 OVOID_ERROR_PROOF);
     steps[last] = kept;
 }
 
@@ -402,7 +403,7 @@ static void test_paths(void) {
         const ovoid_robot_path path = {states, 2};
         const ovoid_robot_path_options o = {.query = {.margin = margin}, .steps = steps, .capacity = ROOM};
         ovoid_robot_path_answer is;
-        CHECK_EQ(ovoid_robot_path_find_hit(c.x, &path, &o, &is, &error), OVOID_OK);
+        CHECK_EQ(ovoid_robot_path_find_hit(c.x, &(ovoid_robot_path_query){&path, &o}, &is, &error), OVOID_OK);
         found[is.status]++;
         compare_path(&c, states, margin, &is);
         check_proof(&c, &path, &o, &is, steps);
@@ -410,11 +411,12 @@ static void test_paths(void) {
         ovoid_robot_path_answer again;
         const ovoid_robot_path_options alone = {.query = {.margin = margin}};
         ovoid_robot_checker_reset(c.x);
-        CHECK_EQ(ovoid_robot_path_find_hit(c.x, &path, &alone, &again, &error), OVOID_OK);
+        CHECK_EQ(ovoid_robot_path_find_hit(c.x, &(ovoid_robot_path_query){&path, &alone}, &again, &error), OVOID_OK);
         CHECK(again.status == is.status && again.free_until == is.free_until);
-        ovoid_robot_clearance_options far = {.tolerance = 0.01};
+        ovoid_robot_path_options far = {.tolerance = 0.01};
         ovoid_robot_clearance near;
-        CHECK_EQ(ovoid_robot_path_compute_clearance(c.x, &path, &far, &near, &error), OVOID_OK);
+        CHECK_EQ(ovoid_robot_path_compute_clearance(c.x, &(ovoid_robot_path_query){&path, &far}, &near, &error),
+                 OVOID_OK);
         double q[JOINTS], least = INFINITY;
         for (int k = 0; k <= SAMPLES; k++) {
             get_state(states, (double)k / SAMPLES, q);
@@ -479,22 +481,23 @@ static void test_peg(void) {
     static ovoid_robot_step steps[4096];
     ovoid_robot_path_options o = {.steps = steps, .capacity = 4096};
     ovoid_robot_path_answer is;
-    CHECK_EQ(ovoid_robot_path_find_hit(c.x, &path, &o, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_path_find_hit(c.x, &(ovoid_robot_path_query){&path, &o}, &is, &error), OVOID_OK);
     CHECK_EQ(is.status, OVOID_ROBOT_FREE);
-    CHECK_EQ(ovoid_robot_path_verify(c.cell, &path, &o, &is, steps, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_path_verify(c.cell, &is, &(ovoid_robot_path_basis){{&path, &o}, steps}, &error), OVOID_OK);
     // A step of solids whose half is longer than the clearance proves nothing.
     size_t at = 0;
     while (at < is.step_count && steps[at].kind != OVOID_ROBOT_STEP_SOLID) at++;
     if (CHECK(at < is.step_count)) {
         ovoid_robot_step kept = steps[at];
         steps[at].begin = 0;
-        CHECK_EQ(ovoid_robot_path_verify(c.cell, &path, &o, &is, steps, &error), OVOID_ERROR_PROOF);
+        CHECK_EQ(ovoid_robot_path_verify(c.cell, &is, &(ovoid_robot_path_basis){{&path, &o}, steps}, &error),
+                 OVOID_ERROR_PROOF);
         CHECK(strstr(error.message, "solids") != NULL);
         steps[at] = kept;
     }
     ovoid_robot_clearance near;
-    const ovoid_robot_clearance_options fine = {.tolerance = 1e-5};
-    CHECK_EQ(ovoid_robot_path_compute_clearance(c.x, &path, &fine, &near, &error), OVOID_OK);
+    const ovoid_robot_path_options fine = {.tolerance = 1e-5};
+    CHECK_EQ(ovoid_robot_path_compute_clearance(c.x, &(ovoid_robot_path_query){&path, &fine}, &near, &error), OVOID_OK);
     double q0[JOINTS] = {0};
     true_pair middle[PAIRS];
     ovoid_pose poses[LINKS];
@@ -511,7 +514,8 @@ static void test_peg(void) {
     // Deeper in the tube by less than it has to spare: the depth of solids may jump, so no state tells more than the
     // first.
     double within[2 * JOINTS] = {1, 0, 0, 0, 0, 1, 0, 0.02, 0, 0};
-    CHECK_EQ(ovoid_robot_path_compute_clearance(c.x, &(const ovoid_robot_path){within, 2}, &fine, &near, &error),
+    CHECK_EQ(ovoid_robot_path_compute_clearance(
+                 c.x, &(ovoid_robot_path_query){&(const ovoid_robot_path){within, 2}, &fine}, &near, &error),
              OVOID_OK);
     CHECK(near.upper < 0 && near.states < 40);
     // Along the axis they never touch, with its tip in the tube always; from there to the middle sometimes.
@@ -520,21 +524,22 @@ static void test_peg(void) {
     CHECK_EQ(find_touch(&c, 0.3, 0.3), OVOID_ROBOT_TOUCH_SOMETIMES);
     // The same by shapes alone is a hit, as hulls are: what solids are for.
     o.query.margin = 0.6;
-    CHECK_EQ(ovoid_robot_path_find_hit(c.x, &path, &o, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_path_find_hit(c.x, &(ovoid_robot_path_query){&path, &o}, &is, &error), OVOID_OK);
     CHECK_EQ(is.status, OVOID_ROBOT_HIT);
-    CHECK_EQ(ovoid_robot_path_verify(c.cell, &path, &o, &is, steps, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_path_verify(c.cell, &is, &(ovoid_robot_path_basis){{&path, &o}, steps}, &error), OVOID_OK);
     o.query.margin = 0;
     q[0] = q[JOINTS] = 0.6;
-    CHECK_EQ(ovoid_robot_path_find_hit(c.x, &path, &o, &is, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_path_find_hit(c.x, &(ovoid_robot_path_query){&path, &o}, &is, &error), OVOID_OK);
     CHECK_EQ(is.status, OVOID_ROBOT_HIT);
-    CHECK_EQ(ovoid_robot_path_verify(c.cell, &path, &o, &is, steps, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_path_verify(c.cell, &is, &(ovoid_robot_path_basis){{&path, &o}, steps}, &error), OVOID_OK);
     // Any hit is one of the solids, too: a tenth towards the axis parts them, where their hulls are half a length deep.
     const ovoid_robot_path_options any = {.any_hit = 1};
     ovoid_robot_path_answer some;
-    CHECK_EQ(ovoid_robot_path_find_hit(c.x, &path, &any, &some, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_path_find_hit(c.x, &(ovoid_robot_path_query){&path, &any}, &some, &error), OVOID_OK);
     CHECK(some.status == OVOID_ROBOT_HIT && some.hit.upper >= -0.15);
     is.hit.upper = -5, is.hit.lower = -6; // deeper than it is
-    CHECK_EQ(ovoid_robot_path_verify(c.cell, &path, &o, &is, steps, &error), OVOID_ERROR_PROOF);
+    CHECK_EQ(ovoid_robot_path_verify(c.cell, &is, &(ovoid_robot_path_basis){{&path, &o}, steps}, &error),
+             OVOID_ERROR_PROOF);
     ovoid_robot_checker_destroy(c.x);
     ovoid_robot_cell_destroy(c.cell);
     ovoid_robot_destroy(c.r);

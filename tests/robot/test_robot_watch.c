@@ -82,8 +82,11 @@ static void check_path(scene *s) {
         ovoid_robot_path_options o = {.steps = steps, .capacity = STEPS, .watch = make_watch(&p, most)};
         ovoid_robot_path_answer is;
         ovoid_robot_checker_reset(s->checker);
-        if (!CHECK_EQ(ovoid_robot_path_find_hit(s->checker, &path, &o, &is, &error), OVOID_OK)) return;
-        CHECK_EQ(ovoid_robot_path_verify(s->cell, &path, &o, &is, steps, &error), OVOID_OK);
+        if (!CHECK_EQ(ovoid_robot_path_find_hit(s->checker, &(ovoid_robot_path_query){&path, &o}, &is, &error),
+                      OVOID_OK))
+            return;
+        CHECK_EQ(ovoid_robot_path_verify(s->cell, &is, &(ovoid_robot_path_basis){{&path, &o}, steps}, &error),
+                 OVOID_OK);
         CHECK(is.free_until >= before);
         CHECK(is.states <= most);
         before = is.free_until;
@@ -96,13 +99,16 @@ static void check_path(scene *s) {
 static void check_clearance(scene *s) {
     patience p;
     ovoid_robot_clearance true_one, is;
-    CHECK_EQ(ovoid_robot_path_compute_clearance(s->checker, &path, NULL, &true_one, &error), OVOID_OK);
+    CHECK_EQ(ovoid_robot_path_compute_clearance(s->checker, &(ovoid_robot_path_query){&path, NULL}, &true_one, &error),
+             OVOID_OK);
     CHECK_EQ(true_one.status, OVOID_ROBOT_FREE);
     size_t whole = SIZE_MAX;
     for (size_t most = 0; most < whole; most++) {
-        ovoid_robot_clearance_options o = {.watch = make_watch(&p, most)};
+        ovoid_robot_path_options o = {.watch = make_watch(&p, most)};
         ovoid_robot_checker_reset(s->checker);
-        if (!CHECK_EQ(ovoid_robot_path_compute_clearance(s->checker, &path, &o, &is, &error), OVOID_OK)) return;
+        if (!CHECK_EQ(ovoid_robot_path_compute_clearance(s->checker, &(ovoid_robot_path_query){&path, &o}, &is, &error),
+                      OVOID_OK))
+            return;
         CHECK(is.lower <= true_one.upper && true_one.lower <= is.upper);
         CHECK(is.states <= most);
         if (p.asked <= most) whole = most;

@@ -289,14 +289,18 @@ static void test_nothing(void) {
     ovoid_robot_path_answer answer;
     for (int any = 0; any < 2; any++) {
         const ovoid_robot_path_options options = {.any_hit = any};
-        CHECK_EQ(ovoid_robot_path_find_hit(s.checker, &path, &options, &answer, NULL), OVOID_OK);
+        CHECK_EQ(ovoid_robot_path_find_hit(s.checker, &(ovoid_robot_path_query){&path, &options}, &answer, NULL),
+                 OVOID_OK);
         CHECK(answer.status == OVOID_ROBOT_UNDECIDED && answer.hit.code == OVOID_ERROR_EMPTY && answer.free_until == 0);
-        CHECK_EQ(ovoid_robot_path_verify(s.cell, &path, &options, &answer, NULL, NULL), OVOID_OK);
+        CHECK_EQ(ovoid_robot_path_verify(s.cell, &answer, &(ovoid_robot_path_basis){{&path, &options}, NULL}, NULL),
+                 OVOID_OK);
     }
     answer.status = OVOID_ROBOT_FREE, answer.free_until = 1;
-    CHECK_EQ(ovoid_robot_path_verify(s.cell, &path, NULL, &answer, NULL, NULL), OVOID_ERROR_PROOF);
+    CHECK_EQ(ovoid_robot_path_verify(s.cell, &answer, &(ovoid_robot_path_basis){{&path, NULL}, NULL}, NULL),
+             OVOID_ERROR_PROOF);
     ovoid_robot_clearance clearance;
-    CHECK_EQ(ovoid_robot_path_compute_clearance(s.checker, &path, NULL, &clearance, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_robot_path_compute_clearance(s.checker, &(ovoid_robot_path_query){&path, NULL}, &clearance, NULL),
+             OVOID_OK);
     CHECK(clearance.status == OVOID_ROBOT_UNDECIDED && clearance.code == OVOID_ERROR_EMPTY);
     close_setup(&s);
     ovoid_robot_read_options options = make_read_options();

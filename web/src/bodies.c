@@ -63,10 +63,18 @@ typedef struct question {
 static ovoid_body_answer ask(const question *q) {
     const ovoid_body_proof *earlier = q->is_warm ? &q->earlier : NULL;
     switch (q->kind) {
-    case 0: return ovoid_body_collide(&q->pair, &q->options, earlier, &exclusions);
-    case 1: return ovoid_body_within(&q->pair, q->margin, &q->options, earlier, &exclusions);
-    case 2: return ovoid_body_distance(&q->pair, &q->options, earlier, &exclusions);
-    default: return ovoid_body_depth(&q->pair, &q->options, earlier, &exclusions);
+    case 0:
+        return ovoid_body_collide(&q->pair, &q->options,
+                                  &(ovoid_body_evidence){.earlier = earlier, .exclusions = &exclusions});
+    case 1:
+        return ovoid_body_within(&q->pair, q->margin, &q->options,
+                                 &(ovoid_body_evidence){.earlier = earlier, .exclusions = &exclusions});
+    case 2:
+        return ovoid_body_distance(&q->pair, &q->options,
+                                   &(ovoid_body_evidence){.earlier = earlier, .exclusions = &exclusions});
+    default:
+        return ovoid_body_depth(&q->pair, &q->options,
+                                &(ovoid_body_evidence){.earlier = earlier, .exclusions = &exclusions});
     }
 }
 
@@ -101,7 +109,8 @@ void EXPORT(body_query)(int kind, unsigned kinds, const void *a, const void *b, 
 static int verify_compounds(const ovoid_body_pair *pair, const ovoid_body_answer *s, const ovoid_options *options) {
     exclusions.cover = cover.point_count ? &cover : NULL;
     ovoid_body_answer c = ovoid_body_answer_make(&s->deciding, s->part_a, s->part_b);
-    return (int)ovoid_body_verify(pair, &c, options, &exclusions, &exchange_error);
+    return (int)ovoid_body_verify(pair, &c, &(ovoid_body_basis){.options = options, .exclusions = &exclusions},
+                                  &exchange_error);
 }
 
 /// Reads both poses, the four options of the query and what body_query wrote; the exclusions are those of
@@ -123,5 +132,6 @@ int EXPORT(body_verify)(unsigned kinds, const void *a, const void *b) {
     s.deciding.status = (ovoid_status)(read_index(surfaces[0]) & 0xff);
     s.deciding.limit = (ovoid_limit)(read_index(surfaces[1]) & 0xff);
     s.deciding.lower = surfaces[2], s.deciding.upper = surfaces[3];
-    return (int)ovoid_body_verify(&pair, &s, &options, &exclusions, &exchange_error);
+    return (int)ovoid_body_verify(&pair, &s, &(ovoid_body_basis){.options = &options, .exclusions = &exclusions},
+                                  &exchange_error);
 }

@@ -23,7 +23,7 @@ void EXPORT(impact)(const ovoid_shape *a, const ovoid_shape *b) {
     ovoid_motion_options options;
     double margin = exchange[1], *to = exchange;
     read_both(a, b, &moving_a, &moving_b, &options);
-    ovoid_impact i = ovoid_impact_find(&moving_a, &moving_b, margin, &options);
+    ovoid_impact i = ovoid_impact_find(&(ovoid_moving_pair){moving_a, moving_b, margin}, &options);
     *to++ = i.status, *to++ = i.limit, *to++ = i.iterations, *to++ = i.begin, *to++ = i.end;
     *to++ = i.free_until, *to++ = i.hit_at, *to++ = (double)i.step_count;
     write_answer(write_answer(to, &i.free), &i.hit);
@@ -35,7 +35,7 @@ void EXPORT(approach)(const ovoid_shape *a, const ovoid_shape *b) {
     ovoid_motion_options options;
     double *to = exchange;
     read_both(a, b, &moving_a, &moving_b, &options);
-    ovoid_approach p = ovoid_approach_find(&moving_a, &moving_b, &options);
+    ovoid_approach p = ovoid_approach_find(&(ovoid_moving_pair){moving_a, moving_b, 0}, &options);
     *to++ = p.status, *to++ = p.limit, *to++ = p.iterations, *to++ = p.begin, *to++ = p.end;
     *to++ = p.lower, *to++ = p.upper, *to++ = p.time;
     write_answer(to, &p.answer);

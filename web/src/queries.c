@@ -43,7 +43,8 @@ int EXPORT(verify)(const ovoid_shape *a, const ovoid_shape *b) {
     ovoid_answer answer;
     read_proof(read_answer(read_options(read_pair(a, b, &pair), &options), &answer), &answer.proof);
     const ovoid_cover *given = cover.point_count ? &cover : NULL;
-    return (int)ovoid_answer_verify(&pair, &answer, &options, given, &exchange_error);
+    return (int)ovoid_answer_verify(&pair, &answer, &(ovoid_answer_basis){.options = &options, .cover = given},
+                                    &exchange_error);
 }
 
 static ovoid_code run_batch(int kind, const ovoid_batch *batch, double margin) {

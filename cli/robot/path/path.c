@@ -64,7 +64,7 @@ static int find_answer(path_report *r, ovoid_robot_checker *checker, const ovoid
         o->steps = r->steps;
         o->capacity = room;
         ovoid_robot_checker_reset(checker);
-        if (ovoid_robot_path_find_hit(checker, path, o, &r->answer, &error) != OVOID_OK)
+        if (ovoid_robot_path_find_hit(checker, &(ovoid_robot_path_query){path, o}, &r->answer, &error) != OVOID_OK)
             return message_error("%s", error.message), EXIT_INPUT;
         if (!r->steps || r->answer.step_count <= room) return 0;
         room = r->answer.step_count;
@@ -82,7 +82,8 @@ static int check_proofs(const path_report *r, const ovoid_robot_path *path, cons
         if (!r->is_edge) message_note("nothing is proven of a path that is refused");
         return 0;
     }
-    if (ovoid_robot_path_verify(r->cell->cell, path, o, &r->answer, r->steps, &error) != OVOID_OK) {
+    if (ovoid_robot_path_verify(r->cell->cell, &r->answer, &(ovoid_robot_path_basis){{path, o}, r->steps}, &error) !=
+        OVOID_OK) {
         message_error("path %zu: of %zu proofs not all hold: %s", r->number, count, error.message);
         return EXIT_NOT_PROVEN;
     }
@@ -97,10 +98,10 @@ static int check_proofs(const path_report *r, const ovoid_robot_path *path, cons
 static int find_clearance(const settings *s, path_report *r, ovoid_robot_checker *checker, const ovoid_robot_path *path,
                           ovoid_robot_clearance *clearance) {
     ovoid_error error;
-    const ovoid_robot_clearance_options o = {
+    const ovoid_robot_path_options o = {
         .query = cell_make_options(&s->cell), .tolerance = s->clearance_tolerance, .states = s->most};
     ovoid_robot_checker_reset(checker);
-    if (ovoid_robot_path_compute_clearance(checker, path, &o, clearance, &error) != OVOID_OK)
+    if (ovoid_robot_path_compute_clearance(checker, &(ovoid_robot_path_query){path, &o}, clearance, &error) != OVOID_OK)
         return message_error("%s", error.message), EXIT_INPUT;
     r->clearance = clearance;
     return 0;

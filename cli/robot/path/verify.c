@@ -146,7 +146,9 @@ static const char *find_fault(verify *v, const ovoid_robot_proof *p, int64_t *li
         answer.hit.a = sides.a;
         answer.hit.b = sides.b;
     }
-    if (ovoid_robot_path_verify(v->cell.cell, &path, &o, &answer, p->steps, error) == OVOID_OK) return NULL;
+    if (ovoid_robot_path_verify(v->cell.cell, &answer, &(ovoid_robot_path_basis){{&path, &o}, p->steps}, error) ==
+        OVOID_OK)
+        return NULL;
     if (error->code == OVOID_ERROR_PROOF && error->place >= 0) *line += 1 + error->place;
     return error->message;
 }

@@ -54,22 +54,26 @@ class exclusions : public ovoid_exclusions {
 /** Do the bodies touch? e: receives what proves it, or nullptr. */
 inline body_answer collide(const body_pair &p, const ovoid_options &o = options(),
                            const ovoid_body_proof *earlier = nullptr, ovoid_exclusions *e = nullptr) noexcept {
-    return ovoid_body_collide(&p, &o, earlier, e);
+    const ovoid_body_evidence known = {earlier, e};
+    return ovoid_body_collide(&p, &o, &known);
 }
 /** Are the bodies within margin (>= 0) of each other? */
 inline body_answer within(const body_pair &p, double margin, const ovoid_options &o = options(),
                           const ovoid_body_proof *earlier = nullptr, ovoid_exclusions *e = nullptr) noexcept {
-    return ovoid_body_within(&p, margin, &o, earlier, e);
+    const ovoid_body_evidence known = {earlier, e};
+    return ovoid_body_within(&p, margin, &o, &known);
 }
 /** The distance to the tolerance and the nearest parts. */
 inline body_answer distance(const body_pair &p, const ovoid_options &o = options(),
                             const ovoid_body_proof *earlier = nullptr, ovoid_exclusions *e = nullptr) noexcept {
-    return ovoid_body_distance(&p, &o, earlier, e);
+    const ovoid_body_evidence known = {earlier, e};
+    return ovoid_body_distance(&p, &o, &known);
 }
 /** The signed distance to the tolerance; with a solid as distance. */
 inline body_answer depth(const body_pair &p, const ovoid_options &o = options(),
                          const ovoid_body_proof *earlier = nullptr, ovoid_exclusions *e = nullptr) noexcept {
-    return ovoid_body_depth(&p, &o, earlier, e);
+    const ovoid_body_evidence known = {earlier, e};
+    return ovoid_body_depth(&p, &o, &known);
 }
 
 /** 1: proven within the margin; 0: proven farther; -1: the bracket straddles it. */
@@ -86,13 +90,15 @@ inline body_answer make_body_answer(const ovoid_answer &deciding, std::uint32_t 
  *  options. */
 inline bool is_proven(const body_pair &p, const ovoid_body_answer &a, const ovoid_options &o = options(),
                       const ovoid_exclusions *e = nullptr) noexcept {
-    return ovoid_body_verify(&p, &a, &o, e, nullptr) == OVOID_OK;
+    const ovoid_body_basis basis = {&o, e};
+    return ovoid_body_verify(&p, &a, &basis, nullptr) == OVOID_OK;
 }
 /** Throws PROOF (place: the exclusion), with a sentence, where is_proven is false. */
 inline void verify(const body_pair &p, const ovoid_body_answer &a, const ovoid_options &o = options(),
                    const ovoid_exclusions *e = nullptr) {
     ovoid_error error;
-    detail::require(ovoid_body_verify(&p, &a, &o, e, &error), error);
+    const ovoid_body_basis basis = {&o, e};
+    detail::require(ovoid_body_verify(&p, &a, &basis, &error), error);
 }
 
 } // namespace ovoid

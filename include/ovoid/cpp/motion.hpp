@@ -110,12 +110,14 @@ struct motion_options : zeroed<ovoid_motion_options> {
 /** When do two moving shapes first come within margin (>= 0) of each other? */
 inline impact find_impact(const moving_shape &a, const moving_shape &b, double margin = 0,
                           const ovoid_motion_options &o = motion_options()) noexcept {
-    return ovoid_impact_find(&a, &b, margin, &o);
+    const ovoid_moving_pair both = {a, b, margin};
+    return ovoid_impact_find(&both, &o);
 }
 /** When do two moving bodies, of which each may be a solid? */
 inline body_impact find_impact(const moving_body &a, const moving_body &b, double margin = 0,
                                const ovoid_motion_options &o = motion_options()) noexcept {
-    return ovoid_body_impact_find(&a, &b, margin, &o);
+    const ovoid_moving_body_pair both = {a, b, margin};
+    return ovoid_body_impact_find(&both, &o);
 }
 /**
  * Throws PROOF (place: the step) where an impact does not follow from its steps: all step_count of them. asked: the
@@ -127,7 +129,9 @@ void verify(const moving_shape &a, const moving_shape &b, double margin, const o
     ovoid_error e;
     if (std::size(steps) < found.step_count)
         detail::fail(OVOID_ERROR_ARGUMENT, "the proof has more steps than were kept");
-    detail::require(ovoid_impact_verify(&a, &b, margin, &found, asked, std::data(steps), &e), e);
+    const ovoid_moving_pair both = {a, b, margin};
+    const ovoid_motion_basis basis = {asked, std::data(steps), nullptr};
+    detail::require(ovoid_impact_verify(&both, &found, &basis, &e), e);
 }
 /** Throws PROOF (place: the group) where an impact of bodies does not follow from its steps and groups. */
 template <class Steps, class Groups>
@@ -136,8 +140,9 @@ void verify(const moving_body &a, const moving_body &b, double margin, const ovo
     ovoid_error e;
     if (std::size(steps) < found.impact.step_count || std::size(groups) < found.group_count)
         detail::fail(OVOID_ERROR_ARGUMENT, "the proof has more steps or groups than were kept");
-    detail::require(ovoid_body_impact_verify(&a, &b, margin, &found, asked, std::data(steps), std::data(groups), &e),
-                    e);
+    const ovoid_moving_body_pair both = {a, b, margin};
+    const ovoid_motion_basis basis = {asked, std::data(steps), std::data(groups)};
+    detail::require(ovoid_body_impact_verify(&both, &found, &basis, &e), e);
 }
 
 /** The first time at which b, moved along displacement without turning, is within margin of a. */
@@ -162,7 +167,8 @@ inline ray_hit cast_ray(const posed_shape &target, const ray &r) noexcept { retu
 /** The smallest distance of two moving shapes over a time, and when. */
 inline approach find_approach(const moving_shape &a, const moving_shape &b,
                               const ovoid_motion_options &o = motion_options()) noexcept {
-    return ovoid_approach_find(&a, &b, &o);
+    const ovoid_moving_pair both = {a, b, 0};
+    return ovoid_approach_find(&both, &o);
 }
 /** Throws PROOF where an approach does not follow from its steps: all step_count of them. */
 template <class Steps>
@@ -171,7 +177,9 @@ void verify(const moving_shape &a, const moving_shape &b, const ovoid_approach &
     ovoid_error e;
     if (std::size(steps) < found.step_count)
         detail::fail(OVOID_ERROR_ARGUMENT, "the proof has more steps than were kept");
-    detail::require(ovoid_approach_verify(&a, &b, &found, asked, std::data(steps), &e), e);
+    const ovoid_moving_pair both = {a, b, 0};
+    const ovoid_motion_basis basis = {asked, std::data(steps), nullptr};
+    detail::require(ovoid_approach_verify(&both, &found, &basis, &e), e);
 }
 
 /** The word for results, for example "hit". */

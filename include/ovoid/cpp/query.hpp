@@ -87,13 +87,15 @@ inline int is_within(const ovoid_answer &a, double margin) noexcept { return ovo
  *  nothing trusted. o: the options of the query. c: the cover of depth, or nullptr. */
 inline bool is_proven(const pair &p, const ovoid_answer &a, const ovoid_options &o = options(),
                       const ovoid_cover *c = nullptr) noexcept {
-    return ovoid_answer_verify(&p, &a, &o, c, nullptr) == OVOID_OK;
+    const ovoid_answer_basis basis = {&o, c};
+    return ovoid_answer_verify(&p, &a, &basis, nullptr) == OVOID_OK;
 }
 /** Throws PROOF, with a sentence, where is_proven is false. */
 inline void verify(const pair &p, const ovoid_answer &a, const ovoid_options &o = options(),
                    const ovoid_cover *c = nullptr) {
     ovoid_error e;
-    detail::require(ovoid_answer_verify(&p, &a, &o, c, &e), e);
+    const ovoid_answer_basis basis = {&o, c};
+    detail::require(ovoid_answer_verify(&p, &a, &basis, &e), e);
 }
 
 /** What a query of prepared shapes writes beside its verdict. */

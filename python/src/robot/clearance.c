@@ -25,7 +25,7 @@ static PyObject *clearance(PyObject *object, PyObject *arguments, PyObject *keyw
     ovoid_robot_checker *checker;
     if (path_arguments_read(self, arguments, keywords, "O|$" ROBOT_QUERY_FORMAT "dK:clearance", names, &in))
         return NULL;
-    ovoid_robot_clearance_options o = {.query = in.query, .tolerance = in.tolerance, .states = in.most_states};
+    ovoid_robot_path_options o = {.query = in.query, .tolerance = in.tolerance, .states = in.most_states};
     if (checkers_borrow(self, &checker, 1)) {
         free(in.states.data);
         return NULL;
@@ -35,7 +35,7 @@ static PyObject *clearance(PyObject *object, PyObject *arguments, PyObject *keyw
     ovoid_error error;
     interrupt signals;
     o.watch = interrupt_begin(&signals);
-    ovoid_code code = ovoid_robot_path_compute_clearance(checker, &path, &o, &found, &error);
+    ovoid_code code = ovoid_robot_path_compute_clearance(checker, &(ovoid_robot_path_query){&path, &o}, &found, &error);
     int is_raised = interrupt_end(&signals);
     checkers_return(self, &checker, 1);
     free(in.states.data);

@@ -57,7 +57,7 @@ static ovoid_code find_steps(path_object *self, ovoid_robot_checker *checker, ov
         self->steps = o.steps;
         // From the same memory of earlier states, so that the second time has as many steps.
         ovoid_robot_checker_reset(checker);
-        ovoid_code code = ovoid_robot_path_find_hit(checker, &path, &o, &self->of, error);
+        ovoid_code code = ovoid_robot_path_find_hit(checker, &(ovoid_robot_path_query){&path, &o}, &self->of, error);
         if (code != OVOID_OK || self->of.step_count <= o.capacity) return code;
     }
 }
@@ -123,7 +123,8 @@ ovoid_code path_verify(PyObject *object, ovoid_error *error) {
     ovoid_code code;
     self->cell->readers++;
     Py_BEGIN_ALLOW_THREADS;
-    code = ovoid_robot_path_verify(self->cell->cell, &path, &self->options, &self->of, self->steps, to);
+    code = ovoid_robot_path_verify(self->cell->cell, &self->of,
+                                   &(ovoid_robot_path_basis){{&path, &self->options}, self->steps}, to);
     Py_END_ALLOW_THREADS;
     self->cell->readers--;
     return code;

@@ -17,13 +17,13 @@ static ovoid_answer make_answer(const ovoid_body_answer *found, const ovoid_answ
 ovoid_answer solid_pair_within(const ovoid_pair *hulls, const solid_sides *solids, double margin,
                                const ovoid_answer *of_hulls, double clear) {
     ovoid_body_pair pair = get_bodies(hulls, solids);
-    ovoid_body_answer found = ovoid_body_within(&pair, margin, NULL, NULL, NULL);
+    ovoid_body_answer found = ovoid_body_within(&pair, margin, NULL, NULL);
     return make_answer(&found, of_hulls, clear);
 }
 
 ovoid_answer solid_pair_distance(const ovoid_pair *hulls, const solid_sides *solids, const ovoid_options *options,
                                  const ovoid_answer *of_hulls, double clear) {
     ovoid_body_pair pair = get_bodies(hulls, solids);
-    ovoid_body_answer found = ovoid_body_distance(&pair, options, NULL, NULL);
+    ovoid_body_answer found = ovoid_body_distance(&pair, options, NULL);
     return make_answer(&found, of_hulls, clear);
 }

@@ -74,7 +74,7 @@ static double prove_in_solid(const ball_search *search, vec3 center) {
     ovoid_body_pair pair = {{.shape = search->point, .pose = ovoid_pose_make_identity()},
                             {.solid = search->solid, .pose = ovoid_pose_make_identity()}};
     pair.a.pose.position = center;
-    ovoid_body_answer found = ovoid_body_distance(&pair, NULL, NULL, NULL);
+    ovoid_body_answer found = ovoid_body_distance(&pair, NULL, NULL);
     return found.inside == OVOID_BODY_A_INSIDE && found.deciding.lower > 0 ? found.deciding.lower : 0;
 }
 

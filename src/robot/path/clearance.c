@@ -301,7 +301,7 @@ static ovoid_code allocate(clearance_search *s, ovoid_error *error) {
     return OVOID_OK;
 }
 
-static ovoid_code validate_options(const ovoid_robot_path *path, const ovoid_robot_clearance_options *o,
+static ovoid_code validate_options(const ovoid_robot_path *path, const ovoid_robot_path_options *o,
                                    ovoid_error *error) {
     ovoid_code code = query_options_validate(&o->query, error);
     if (code != OVOID_OK) return code;
@@ -312,10 +312,11 @@ static ovoid_code validate_options(const ovoid_robot_path *path, const ovoid_rob
     return OVOID_OK;
 }
 
-static ovoid_code compute(ovoid_robot_checker *checker, const ovoid_robot_path *path,
-                          const ovoid_robot_clearance_options *o, ovoid_robot_clearance *out, ovoid_error *error) {
-    static const ovoid_robot_clearance_options none;
-    if (!o) o = &none;
+static ovoid_code compute(ovoid_robot_checker *checker, const ovoid_robot_path_query *query, ovoid_robot_clearance *out,
+                          ovoid_error *error) {
+    static const ovoid_robot_path_options none;
+    const ovoid_robot_path *path = query->path;
+    const ovoid_robot_path_options *o = query->options ? query->options : &none;
     *out = (ovoid_robot_clearance){.lower = -INFINITY, .upper = INFINITY};
     ovoid_code code = validate_options(path, o, error);
     if (code == OVOID_OK) code = checker_renew(checker, error);
@@ -339,8 +340,7 @@ static ovoid_code compute(ovoid_robot_checker *checker, const ovoid_robot_path *
     return code;
 }
 
-ovoid_code ovoid_robot_path_compute_clearance(ovoid_robot_checker *checker, const ovoid_robot_path *path,
-                                              const ovoid_robot_clearance_options *options,
+ovoid_code ovoid_robot_path_compute_clearance(ovoid_robot_checker *checker, const ovoid_robot_path_query *query,
                                               ovoid_robot_clearance *clearance, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, checker, compute(checker, path, options, clearance, error));
+    ENVIRONMENT_RETURN(ovoid_code, checker, compute(checker, query, clearance, error));
 }

@@ -495,11 +495,11 @@ static void search(path_search *s, const ovoid_robot_path *path) {
     s->answer->hit = answer_make_empty();
 }
 
-static ovoid_code find_hit(ovoid_robot_checker *checker, const ovoid_robot_path *path,
-                           const ovoid_robot_path_options *options, ovoid_robot_path_answer *answer,
-                           ovoid_error *error) {
+static ovoid_code find_hit(ovoid_robot_checker *checker, const ovoid_robot_path_query *query,
+                           ovoid_robot_path_answer *answer, ovoid_error *error) {
     static const ovoid_robot_path_options none;
-    if (!options) options = &none;
+    const ovoid_robot_path *path = query->path;
+    const ovoid_robot_path_options *options = query->options ? query->options : &none;
     *answer = (ovoid_robot_path_answer){.hit_at = INFINITY, .hit = {.lower = -INFINITY, .upper = INFINITY}};
     ovoid_code code = validate_options(path, options, error);
     if (code == OVOID_OK) code = checker_renew(checker, error);
@@ -518,8 +518,7 @@ static ovoid_code find_hit(ovoid_robot_checker *checker, const ovoid_robot_path 
     return OVOID_OK;
 }
 
-ovoid_code ovoid_robot_path_find_hit(ovoid_robot_checker *checker, const ovoid_robot_path *path,
-                                     const ovoid_robot_path_options *options, ovoid_robot_path_answer *answer,
-                                     ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, checker, find_hit(checker, path, options, answer, error));
+ovoid_code ovoid_robot_path_find_hit(ovoid_robot_checker *checker, const ovoid_robot_path_query *query,
+                                     ovoid_robot_path_answer *answer, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, checker, find_hit(checker, query, answer, error));
 }

@@ -211,10 +211,12 @@ static ovoid_code verify(path_checker *state, const ovoid_robot_path_answer *ans
     return code;
 }
 
-static ovoid_code run(const ovoid_robot_cell *cell, const ovoid_robot_path *path,
-                      const ovoid_robot_path_options *options, const ovoid_robot_path_answer *answer,
-                      const ovoid_robot_step *steps, ovoid_error *error) {
+static ovoid_code run(const ovoid_robot_cell *cell, const ovoid_robot_path_answer *answer,
+                      const ovoid_robot_path_basis *basis, ovoid_error *error) {
     static const ovoid_robot_path_options none;
+    const ovoid_robot_path *path = basis->query.path;
+    const ovoid_robot_path_options *options = basis->query.options;
+    const ovoid_robot_step *steps = basis->steps;
     path_checker state = {
         .path = path, .options = options ? options : &none, .segment = SIZE_MAX, .begin = -1, .end = -1};
     if (!path->states || path->count < 1 || path->count > OVOID_ROBOT_PATH_STATES_MAX || (answer->step_count && !steps))
@@ -232,10 +234,9 @@ static ovoid_code run(const ovoid_robot_cell *cell, const ovoid_robot_path *path
     return code;
 }
 
-ovoid_code ovoid_robot_path_verify(const ovoid_robot_cell *cell, const ovoid_robot_path *path,
-                                   const ovoid_robot_path_options *options, const ovoid_robot_path_answer *answer,
-                                   const ovoid_robot_step *steps, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, cell, run(cell, path, options, answer, steps, error));
+ovoid_code ovoid_robot_path_verify(const ovoid_robot_cell *cell, const ovoid_robot_path_answer *answer,
+                                   const ovoid_robot_path_basis *basis, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, cell, run(cell, answer, basis, error));
 }
 
 // ---- pairs by number

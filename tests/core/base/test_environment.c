@@ -128,10 +128,10 @@ static void ask_depth(void) {
         add_answer(&x);
         add(cover.a, cover.point_count * sizeof *cover.a);
         add(cover.triangles, cover.triangle_count * sizeof *cover.triangles);
-        ovoid_code code = ovoid_answer_verify(&pairs[i], &x, NULL, &cover, NULL);
+        ovoid_code code = ovoid_answer_verify(&pairs[i], &x, &(ovoid_answer_basis){.cover = &cover}, NULL);
         ADD(code);
         x.lower = x.upper;
-        code = ovoid_answer_verify(&pairs[i], &x, NULL, &cover, NULL);
+        code = ovoid_answer_verify(&pairs[i], &x, &(ovoid_answer_basis){.cover = &cover}, NULL);
         ADD(code);
     }
 }
@@ -194,16 +194,16 @@ static void ask_compounds(void) {
         ovoid_exclusions all = {.items = items, .capacity = 256};
         ovoid_body_pair p = {{.compound = compound, .pose = pairs[i].pose_b},
                              {.compound = compound, .pose = {{2.5 * i, third, 0}, {1, 0, 0, 1}}}};
-        ovoid_body_answer x[4] = {ovoid_body_collide(&p, NULL, NULL, NULL),
-                                  ovoid_body_within(&p, third, NULL, NULL, NULL),
-                                  ovoid_body_distance(&p, NULL, NULL, NULL), ovoid_body_depth(&p, NULL, NULL, &all)};
+        ovoid_body_answer x[4] = {ovoid_body_collide(&p, NULL, NULL), ovoid_body_within(&p, third, NULL, NULL),
+                                  ovoid_body_distance(&p, NULL, NULL),
+                                  ovoid_body_depth(&p, NULL, &(ovoid_body_evidence){.exclusions = &all})};
         for (int k = 0; k < 4; k++) {
             add_answer(&x[k].deciding);
             ADD(x[k].part_a);
             ADD(x[k].visited);
         }
         for (size_t k = 0; k < all.count && k < 256; k++) ADD(items[k].lower);
-        ovoid_code code = ovoid_body_verify(&p, &x[3], NULL, &all, NULL);
+        ovoid_code code = ovoid_body_verify(&p, &x[3], &(ovoid_body_basis){.exclusions = &all}, NULL);
         ADD(code);
     }
     ovoid_compound_destroy(compound);
@@ -235,27 +235,28 @@ static void ask_motions(void) {
     ADD(box);
     static ovoid_step steps[1000];
     ovoid_motion_options o = {.begin = 0.01, .end = 0.99, .steps = steps, .capacity = 1000};
-    ovoid_impact x = ovoid_impact_find(&a, &b, 0.01, &o);
+    ovoid_impact x = ovoid_impact_find(&(ovoid_moving_pair){a, b, 0.01}, &o);
     add_impact(&x);
-    code = ovoid_impact_verify(&a, &b, 0.01, &x, NULL, steps, NULL);
+    code = ovoid_impact_verify(&(ovoid_moving_pair){a, b, 0.01}, &x, &(ovoid_motion_basis){.steps = steps}, NULL);
     ADD(code);
-    ovoid_approach y = ovoid_approach_find(&a, &b, &o);
+    ovoid_approach y = ovoid_approach_find(&(ovoid_moving_pair){a, b, 0}, &o);
     ADD(y.lower);
     ADD(y.upper);
     ADD(y.time);
-    code = ovoid_approach_verify(&a, &b, &y, NULL, steps, NULL);
+    code = ovoid_approach_verify(&(ovoid_moving_pair){a, b, 0}, &y, &(ovoid_motion_basis){.steps = steps}, NULL);
     ADD(code);
     x = ovoid_shape_cast(&pairs[0], linear, third, NULL);
     add_impact(&x);
     ovoid_moving_body bodies[2] = {{.shape = hull_shape, .motion = a.motion}, {.shape = box_shape, .motion = b.motion}};
-    ovoid_body_impact z = ovoid_body_impact_find(&bodies[0], &bodies[1], 0.01, &o);
+    ovoid_body_impact z = ovoid_body_impact_find(&(ovoid_moving_body_pair){bodies[0], bodies[1], 0.01}, &o);
     add_impact(&z.impact);
     static ovoid_step_group groups[8];
     o.groups = groups;
     o.group_capacity = 8;
-    z = ovoid_body_impact_find(&bodies[0], &bodies[1], 0.01, &o);
+    z = ovoid_body_impact_find(&(ovoid_moving_body_pair){bodies[0], bodies[1], 0.01}, &o);
     ADD(z.group_count);
-    code = ovoid_body_impact_verify(&bodies[0], &bodies[1], 0.01, &z, NULL, steps, groups, NULL);
+    code = ovoid_body_impact_verify(&(ovoid_moving_body_pair){bodies[0], bodies[1], 0.01}, &z,
+                                    &(ovoid_motion_basis){.steps = steps, .groups = groups}, NULL);
     ADD(code);
     box = ovoid_moving_body_compute_box(&bodies[1], 0, third);
     ADD(box);

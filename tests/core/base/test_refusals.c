@@ -51,12 +51,12 @@ static void ask_pair(wrong w) {
         asked = names[i];
         expect_refused(&x[i], get_limit(w));
         asked = "answer_check";
-        EXPECT(ovoid_answer_verify(&p, &x[i], NULL, NULL, NULL) == OVOID_OK);
+        EXPECT(ovoid_answer_verify(&p, &x[i], NULL, NULL) == OVOID_OK);
     }
     // An answer to what must be refused.
     ovoid_pair sound = {shape, shape, identity, aside};
     ovoid_answer claim = ovoid_distance(&sound, NULL, NULL);
-    EXPECT(ovoid_answer_verify(&p, &claim, NULL, NULL, NULL) == OVOID_ERROR_PROOF);
+    EXPECT(ovoid_answer_verify(&p, &claim, NULL, NULL) == OVOID_ERROR_PROOF);
     asked = "gradient";
     ovoid_gradient g = ovoid_answer_compute_gradient(&p, &claim, NULL);
     EXPECT(!g.has_translation && !g.has_rotation);
@@ -104,17 +104,17 @@ static void ask_motions(wrong w) {
     ovoid_moving_shape a = make_moving(w, 0), b = make_moving(w, 1);
     ovoid_pair p = make_pair(w);
     asked = "impact";
-    ovoid_impact x = ovoid_impact_find(&a, &b, 0, NULL);
+    ovoid_impact x = ovoid_impact_find(&(ovoid_moving_pair){a, b, 0}, NULL);
     EXPECT(x.limit == get_limit(w) && x.status == OVOID_IMPACT_UNDECIDED && x.hit_at == INFINITY);
-    EXPECT(ovoid_impact_verify(&a, &b, 0, &x, NULL, NULL, NULL) == OVOID_OK);
+    EXPECT(ovoid_impact_verify(&(ovoid_moving_pair){a, b, 0}, &x, NULL, NULL) == OVOID_OK);
     x.limit = OVOID_LIMIT_NONE;
-    EXPECT(ovoid_impact_verify(&a, &b, 0, &x, NULL, NULL, NULL) != OVOID_OK);
+    EXPECT(ovoid_impact_verify(&(ovoid_moving_pair){a, b, 0}, &x, NULL, NULL) != OVOID_OK);
     asked = "approach";
-    ovoid_approach y = ovoid_approach_find(&a, &b, NULL);
+    ovoid_approach y = ovoid_approach_find(&(ovoid_moving_pair){a, b, 0}, NULL);
     EXPECT(y.limit == get_limit(w) && y.lower == -INFINITY && y.upper == INFINITY);
-    EXPECT(ovoid_approach_verify(&a, &b, &y, NULL, NULL, NULL) == OVOID_OK);
+    EXPECT(ovoid_approach_verify(&(ovoid_moving_pair){a, b, 0}, &y, NULL, NULL) == OVOID_OK);
     y.limit = OVOID_LIMIT_NONE;
-    EXPECT(ovoid_approach_verify(&a, &b, &y, NULL, NULL, NULL) != OVOID_OK);
+    EXPECT(ovoid_approach_verify(&(ovoid_moving_pair){a, b, 0}, &y, NULL, NULL) != OVOID_OK);
     asked = "translation_cast";
     EXPECT(ovoid_shape_cast(&p, (ovoid_vec3){1, 0, 0}, 0, NULL).limit == get_limit(w));
     asked = "box";
@@ -132,25 +132,25 @@ static void ask_solids(wrong w, int both) {
     ovoid_body_pair s = {{.compound = compound, .pose = p.pose_a}, {.shape = shape, .pose = p.pose_b}};
     ovoid_body *bad = w.b ? &s.b : &s.a;
     if (w.is == NO_SHAPE) bad->shape = both ? shape : NULL, bad->compound = both ? compound : NULL;
-    ovoid_body_answer x[4] = {ovoid_body_collide(&s, NULL, NULL, NULL), ovoid_body_within(&s, 1, NULL, NULL, NULL),
-                              ovoid_body_distance(&s, NULL, NULL, NULL), ovoid_body_depth(&s, NULL, NULL, NULL)};
+    ovoid_body_answer x[4] = {ovoid_body_collide(&s, NULL, NULL), ovoid_body_within(&s, 1, NULL, NULL),
+                              ovoid_body_distance(&s, NULL, NULL), ovoid_body_depth(&s, NULL, NULL)};
     static const char *const names[4] = {"compound_collide", "compound_within", "compound_distance", "compound_depth"};
     for (int i = 0; i < 4; i++) {
         asked = names[i];
         expect_refused(&x[i].deciding, get_limit(w));
         asked = "compound_answer_check";
-        EXPECT(ovoid_body_verify(&s, &x[i], NULL, NULL, NULL) == OVOID_OK);
+        EXPECT(ovoid_body_verify(&s, &x[i], NULL, NULL) == OVOID_OK);
         x[i].lower = 0;
-        EXPECT(ovoid_body_verify(&s, &x[i], NULL, NULL, NULL) == OVOID_ERROR_PROOF);
+        EXPECT(ovoid_body_verify(&s, &x[i], NULL, NULL) == OVOID_ERROR_PROOF);
     }
     asked = "compound_impact";
     ovoid_moving_body a = {.shape = s.a.shape, .compound = s.a.compound, .motion = ovoid_motion_make_still(s.a.pose)};
     ovoid_moving_body b = {.shape = s.b.shape, .compound = s.b.compound, .motion = ovoid_motion_make_still(s.b.pose)};
-    ovoid_body_impact hit = ovoid_body_impact_find(&a, &b, 0, NULL);
+    ovoid_body_impact hit = ovoid_body_impact_find(&(ovoid_moving_body_pair){a, b, 0}, NULL);
     EXPECT(hit.impact.limit == get_limit(w) && hit.impact.status == OVOID_IMPACT_UNDECIDED);
-    EXPECT(ovoid_body_impact_verify(&a, &b, 0, &hit, NULL, NULL, NULL, NULL) == OVOID_OK);
+    EXPECT(ovoid_body_impact_verify(&(ovoid_moving_body_pair){a, b, 0}, &hit, NULL, NULL) == OVOID_OK);
     hit.impact.limit = OVOID_LIMIT_NONE;
-    EXPECT(ovoid_body_impact_verify(&a, &b, 0, &hit, NULL, NULL, NULL, NULL) != OVOID_OK);
+    EXPECT(ovoid_body_impact_verify(&(ovoid_moving_body_pair){a, b, 0}, &hit, NULL, NULL) != OVOID_OK);
     asked = "compound box";
     EXPECT(isnan(ovoid_moving_body_compute_box(w.b ? &b : &a, 0, 1).min.x));
 }

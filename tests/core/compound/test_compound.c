@@ -11,7 +11,7 @@ static ovoid_cover cover;
 static void check_answer(const ovoid_body_pair *pair, const ovoid_body_answer *x, const ovoid_exclusions *all,
                          bracket truth) {
     ovoid_error error = {.message = ""};
-    ovoid_code code = ovoid_body_verify(pair, x, NULL, all, &error);
+    ovoid_code code = ovoid_body_verify(pair, x, &(ovoid_body_basis){.exclusions = all}, &error);
     if (!CHECK_EQ(code, OVOID_OK)) printf("  %s\n", error.message);
     CHECK_LE(x->lower, truth.upper);
     CHECK_LE(truth.lower, x->upper);
@@ -48,25 +48,25 @@ static void check_pair(const ovoid_body_pair *pair, uint64_t *s) {
     double tolerance = 1.001e-9 * get_size(pair);
     ovoid_exclusions all = {.items = items, .capacity = CAPACITY, .cover = &cover};
 
-    ovoid_body_answer depth = ovoid_body_depth(pair, NULL, NULL, &all);
+    ovoid_body_answer depth = ovoid_body_depth(pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
     check_answer(pair, &depth, &all, truth);
     if (depth.limit == OVOID_LIMIT_NONE) CHECK_LE(depth.upper - depth.lower, tolerance);
     CHECK(depth.limit == OVOID_LIMIT_NONE || truth.upper - truth.lower > 1e-12);
     CHECK(all.count <= CAPACITY);
 
-    ovoid_body_answer distance = ovoid_body_distance(pair, NULL, NULL, &all);
+    ovoid_body_answer distance = ovoid_body_distance(pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
     check_answer(pair, &distance, &all, truth);
     if (truth.lower > 0) CHECK_LE(distance.upper - distance.lower, tolerance);
     if (truth.lower > 0) CHECK_EQ(distance.status, OVOID_SEPARATED);
     if (truth.upper < 0) CHECK(distance.status == OVOID_OVERLAPPING || truth.upper > -tolerance);
 
-    ovoid_body_answer collide = ovoid_body_collide(pair, NULL, NULL, &all);
+    ovoid_body_answer collide = ovoid_body_collide(pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
     check_answer(pair, &collide, &all, truth);
     if (truth.lower > 0) CHECK_EQ(collide.status, OVOID_SEPARATED);
     if (truth.upper < 0) CHECK_EQ(collide.status, OVOID_OVERLAPPING);
 
     double margin = fmax(truth.lower, 0) * random_uniform(s, 0.5, 2) + tolerance;
-    ovoid_body_answer within = ovoid_body_within(pair, margin, NULL, NULL, &all);
+    ovoid_body_answer within = ovoid_body_within(pair, margin, NULL, &(ovoid_body_evidence){.exclusions = &all});
     check_answer(pair, &within, &all, truth);
     int is = ovoid_answer_is_within(&within.deciding, margin);
     if (truth.upper <= margin) CHECK(is == 1 || (is == -1 && truth.upper > margin - tolerance));
@@ -75,18 +75,19 @@ static void check_pair(const ovoid_body_pair *pair, uint64_t *s) {
 
     // Again, from what is known; and from nonsense.
     ovoid_body_proof known = {depth.part_a, depth.part_b, depth.deciding.proof};
-    ovoid_body_answer again = ovoid_body_depth(pair, NULL, &known, &all);
+    ovoid_body_answer again =
+        ovoid_body_depth(pair, NULL, &(ovoid_body_evidence){.earlier = &known, .exclusions = &all});
     check_answer(pair, &again, &all, truth);
     CHECK_LE(again.visited, depth.visited);
     known.part_a = (uint32_t)(random_next(s) % (2 * get_count(&pair->a)));
     known.part_b = (uint32_t)random_next(s) % 3;
-    again = ovoid_body_distance(pair, NULL, &known, &all);
+    again = ovoid_body_distance(pair, NULL, &(ovoid_body_evidence){.earlier = &known, .exclusions = &all});
     check_answer(pair, &again, &all, truth);
 
     // A cap below the distance: proven farther.
     ovoid_options options = {.cap = 0.5 * truth.lower};
     if (truth.lower > tolerance) {
-        again = ovoid_body_distance(pair, &options, NULL, &all);
+        again = ovoid_body_distance(pair, &options, &(ovoid_body_evidence){.exclusions = &all});
         check_answer(pair, &again, &all, truth);
         CHECK_LE(options.cap, again.lower);
         CHECK(again.limit == OVOID_LIMIT_CAP || again.limit == OVOID_LIMIT_NONE);
@@ -145,12 +146,12 @@ static void check_grid(void) {
         ovoid_body_pair pair = {{.compound = grid, .pose = {{0, 0, 0}, {1, 0, 0, 0}}},
                                 {.shape = ball, .pose = {at, {0, 3, 4, 0}}}};
         ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
-        ovoid_body_answer x = ovoid_body_distance(&pair, NULL, NULL, &all);
+        ovoid_body_answer x = ovoid_body_distance(&pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
         // With its centre in a cube the ball is deeper than this formula says.
         bracket known = {truth > -0.25 ? truth - 1e-12 : -INFINITY, truth + 1e-12};
         check_answer(&pair, &x, &all, known);
         CHECK_LE(x.visited, 2000);
-        x = ovoid_body_collide(&pair, NULL, NULL, &all);
+        x = ovoid_body_collide(&pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
         check_answer(&pair, &x, &all, known);
         CHECK_EQ(x.status, truth > 0 ? OVOID_SEPARATED : OVOID_OVERLAPPING);
     }
@@ -185,13 +186,13 @@ static void check_cup(void) {
                                     {.compound = one, .pose = {{moves[i][0], 0, 0}, none}}};
             if (as_shape) pair.b.shape = ball, pair.b.compound = NULL;
             ovoid_exclusions all = {.items = items, .capacity = CAPACITY, .cover = &cover};
-            ovoid_body_answer x = ovoid_body_depth(&pair, NULL, NULL, &all);
+            ovoid_body_answer x = ovoid_body_depth(&pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
             double gap = moves[i][1];
             check_answer(&pair, &x, &all, (bracket){gap, gap});
             CHECK_NEAR(x.upper, gap, 1e-8);
             CHECK_EQ(x.status, gap > 0 ? OVOID_SEPARATED : gap < 0 ? OVOID_OVERLAPPING : OVOID_TOUCHING);
             if (i) CHECK_EQ(x.part_a, moves[i][0] > 0 ? 0 : 1);
-            x = ovoid_body_collide(&pair, NULL, NULL, &all);
+            x = ovoid_body_collide(&pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
             check_answer(&pair, &x, &all, (bracket){gap, gap});
             CHECK_EQ(x.status, gap > 0 ? OVOID_SEPARATED : gap < 0 ? OVOID_OVERLAPPING : OVOID_TOUCHING);
         }
@@ -214,22 +215,23 @@ static void check_touching(void) {
     const ovoid_body_pair pair = {{.compound = c, .pose = parts[0].pose},
                                   {.shape = box, .pose = {{3, 0, 0}, {1, 0, 0, 0}}}};
     ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
-    ovoid_body_answer x = ovoid_body_distance(&pair, NULL, NULL, &all);
+    ovoid_body_answer x = ovoid_body_distance(&pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
     CHECK_EQ(x.status, OVOID_SEPARATED);
     x.deciding.proof.normal = x.deciding.normal = (ovoid_vec3){0.8, 0.6, 0};
     x.deciding.lower = -0.5;
     x.deciding.limit = OVOID_LIMIT_PRECISION;
     x.deciding.status = OVOID_UNDECIDED;
     x = ovoid_body_answer_make(&x.deciding, x.part_a, x.part_b);
-    CHECK_EQ(ovoid_body_verify(&pair, &x, NULL, &all, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_body_verify(&pair, &x, &(ovoid_body_basis){.exclusions = &all}, NULL), OVOID_OK);
     x.deciding.status = x.status = OVOID_TOUCHING;
-    CHECK_EQ(ovoid_body_verify(&pair, &x, NULL, &all, NULL), OVOID_ERROR_PROOF);
+    CHECK_EQ(ovoid_body_verify(&pair, &x, &(ovoid_body_basis){.exclusions = &all}, NULL), OVOID_ERROR_PROOF);
     double width = x.upper - x.lower, size = 100 + 2 * sqrt(3) + 3;
     for (int i = 0; i < 4; i++) {
         double share = i % 2 ? 1 + 1e-9 : 1 - 1e-9;
         ovoid_options o = {0};
         *(i / 2 ? &o.relative_tolerance : &o.absolute_tolerance) = share * (i / 2 ? width / size : width);
-        CHECK_EQ(ovoid_body_verify(&pair, &x, &o, &all, NULL) == OVOID_OK, i % 2);
+        CHECK_EQ(ovoid_body_verify(&pair, &x, &(ovoid_body_basis){.options = &o, .exclusions = &all}, NULL) == OVOID_OK,
+                 i % 2);
     }
     ovoid_compound_destroy(c);
     ovoid_shape_destroy(box);
@@ -239,15 +241,15 @@ static void check_touching(void) {
 
 static void expect_refused(const ovoid_body_pair *pair, const ovoid_options *options, ovoid_limit limit) {
     ovoid_exclusions all = {.items = items, .capacity = CAPACITY, .count = 7};
-    ovoid_body_answer x = ovoid_body_distance(pair, options, NULL, &all);
+    ovoid_body_answer x = ovoid_body_distance(pair, options, &(ovoid_body_evidence){.exclusions = &all});
     CHECK_EQ(x.limit, limit);
     CHECK(x.status == OVOID_UNDECIDED && x.lower == -INFINITY && x.upper == INFINITY);
     CHECK_EQ(all.count, 0);
-    CHECK_EQ(ovoid_body_verify(pair, &x, NULL, &all, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_body_verify(pair, &x, &(ovoid_body_basis){.exclusions = &all}, NULL), OVOID_OK);
     // An answer where there can be none.
     x.lower = 1;
     x.status = OVOID_SEPARATED;
-    CHECK_EQ(ovoid_body_verify(pair, &x, NULL, &all, NULL), OVOID_ERROR_PROOF);
+    CHECK_EQ(ovoid_body_verify(pair, &x, &(ovoid_body_basis){.exclusions = &all}, NULL), OVOID_ERROR_PROOF);
 }
 
 static void check_refused(void) {
@@ -273,13 +275,13 @@ static void check_refused(void) {
     static const ovoid_options wrong[4] = {
         {.absolute_tolerance = -1}, {.relative_tolerance = NAN}, {.cap = -1}, {.cap = NAN}};
     for (int i = 0; i < 4; i++) expect_refused(&sound, &wrong[i], OVOID_LIMIT_OPTIONS);
-    ovoid_body_answer x = ovoid_body_within(&sound, -1, NULL, NULL, NULL);
+    ovoid_body_answer x = ovoid_body_within(&sound, -1, NULL, NULL);
     CHECK_EQ(x.limit, OVOID_LIMIT_OPTIONS);
-    x = ovoid_body_within(&sound, NAN, NULL, NULL, NULL);
+    x = ovoid_body_within(&sound, NAN, NULL, NULL);
     CHECK_EQ(x.limit, OVOID_LIMIT_OPTIONS);
     // A warm start made of nonsense.
     ovoid_body_proof nonsense = {1, 0, {.kind = OVOID_PROOF_POINTS, .count = 77, .normal = {NAN, 1e300, 0}}};
-    x = ovoid_body_distance(&sound, NULL, &nonsense, NULL);
+    x = ovoid_body_distance(&sound, NULL, &(ovoid_body_evidence){.earlier = &nonsense});
     CHECK_NEAR(x.upper, 2, 1e-8);
     ovoid_compound_destroy(c);
     ovoid_shape_destroy(box);

@@ -126,7 +126,7 @@ static long double find_gap(const ovoid_body_pair *pair, const ovoid_exclusion *
 }
 
 static int is_accepted(const ovoid_body_pair *pair, const ovoid_body_answer *x, const ovoid_exclusions *all) {
-    return ovoid_body_verify(pair, x, NULL, all, NULL) == OVOID_OK;
+    return ovoid_body_verify(pair, x, &(ovoid_body_basis){.exclusions = all}, NULL) == OVOID_OK;
 }
 
 // The largest lower bound of an exclusion that passes, by halving from what it claims.
@@ -154,10 +154,11 @@ static void check_proofs(ovoid_shape *const shapes[SHAPES], uint64_t seed) {
                             {.compound = c[1], .pose = {vec3_add(at, way), random_quat(&s)}}};
     ovoid_exclusions all = {items, CAPACITY, 0, NULL};
     ovoid_error error = {.message = ""};
-    ovoid_body_answer x = ovoid_body_distance(&pair, NULL, NULL, &all);
+    ovoid_body_answer x = ovoid_body_distance(&pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
     double size = c[0]->extent + c[1]->extent + vec3_norm(way);
     CHECK_LE(all.count, CAPACITY);
-    if (!CHECK(ovoid_body_verify(&pair, &x, NULL, &all, &error) == OVOID_OK)) printf("  %s\n", error.message);
+    if (!CHECK(ovoid_body_verify(&pair, &x, &(ovoid_body_basis){.exclusions = &all}, &error) == OVOID_OK))
+        printf("  %s\n", error.message);
     for (size_t i = 0; i < all.count && i < 8 && far < 1e3; i++) check_largest(&pair, &x, &all, i, size);
     ovoid_compound_destroy(c[0]);
     ovoid_compound_destroy(c[1]);
@@ -178,9 +179,11 @@ static void check_far_balls(uint64_t seed) {
     ovoid_error error = {.message = ""};
     for (int k = 0; k < 3; k++) {
         ovoid_options o = {.cap = k ? random_uniform(&s, 0, 20) : 0};
-        ovoid_body_answer x = k < 2 ? ovoid_body_distance(&pair, &o, NULL, &all)
-                                    : ovoid_body_within(&pair, random_uniform(&s, 0, 10), NULL, NULL, &all);
-        if (!CHECK(ovoid_body_verify(&pair, &x, NULL, &all, &error) == OVOID_OK)) printf("  %s\n", error.message);
+        ovoid_body_answer x = k < 2 ? ovoid_body_distance(&pair, &o, &(ovoid_body_evidence){.exclusions = &all})
+                                    : ovoid_body_within(&pair, random_uniform(&s, 0, 10), NULL,
+                                                        &(ovoid_body_evidence){.exclusions = &all});
+        if (!CHECK(ovoid_body_verify(&pair, &x, &(ovoid_body_basis){.exclusions = &all}, &error) == OVOID_OK))
+            printf("  %s\n", error.message);
     }
     for (int i = 0; i < 2; i++) ovoid_compound_destroy(c[i]);
     ovoid_shape_destroy(ball);

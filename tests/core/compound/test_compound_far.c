@@ -7,13 +7,13 @@ typedef ovoid_body_answer ask(const ovoid_body_pair *pair, double margin, ovoid_
 
 static ovoid_body_answer ask_collide(const ovoid_body_pair *pair, double margin, ovoid_exclusions *all) {
     (void)margin;
-    return ovoid_body_collide(pair, NULL, NULL, all);
+    return ovoid_body_collide(pair, NULL, &(ovoid_body_evidence){.exclusions = all});
 }
 static ovoid_body_answer ask_within(const ovoid_body_pair *pair, double margin, ovoid_exclusions *all) {
-    return ovoid_body_within(pair, margin, NULL, NULL, all);
+    return ovoid_body_within(pair, margin, NULL, &(ovoid_body_evidence){.exclusions = all});
 }
 static ovoid_body_answer ask_capped(const ovoid_body_pair *pair, double margin, ovoid_exclusions *all) {
-    return ovoid_body_distance(pair, &(ovoid_options){.cap = margin}, NULL, all);
+    return ovoid_body_distance(pair, &(ovoid_options){.cap = margin}, &(ovoid_body_evidence){.exclusions = all});
 }
 static ask *const asks[] = {ask_collide, ask_within, ask_capped};
 
@@ -25,7 +25,8 @@ static void check_answer(const ovoid_body_pair *pair, ask *how, double margin, d
     ovoid_exclusions all = {items, 512, 0, NULL};
     ovoid_body_answer x = how(pair, margin, &all), same = how(pair, margin, NULL);
     ovoid_error error = {0};
-    if (!CHECK(ovoid_body_verify(pair, &x, NULL, &all, &error) == OVOID_OK)) printf("  %s\n", error.message);
+    if (!CHECK(ovoid_body_verify(pair, &x, &(ovoid_body_basis){.exclusions = &all}, &error) == OVOID_OK))
+        printf("  %s\n", error.message);
     CHECK(x.lower <= upper && lower <= x.upper);
     CHECK(same.lower == x.lower && same.upper == x.upper);
     if (x.tested) return;
@@ -57,7 +58,7 @@ static void test_compounds(uint64_t seed) {
         ovoid_body_pair pair = {{.compound = c[0], .pose = at_a}, {.compound = c[1], .pose = at_b}};
         if (k % 3 == 1) pair.a = (ovoid_body){.shape = shapes[k % WORLD_SHAPES], .pose = at_a};
         if (k % 3 == 2) pair.b = (ovoid_body){.shape = shapes[k % WORLD_SHAPES], .pose = at_b};
-        ovoid_answer truth = ovoid_body_distance(&pair, NULL, NULL, NULL).deciding;
+        ovoid_answer truth = ovoid_body_distance(&pair, NULL, NULL).deciding;
         double margin = fmax(truth.lower, 0.1) * random_uniform(&s, 0.2, 1.1);
         for (int i = 0; i < 3; i++) check_answer(&pair, asks[i], margin, truth.lower, truth.upper);
     }
@@ -82,11 +83,11 @@ static void test_balls(uint64_t seed) {
     long double truth = extended3_norm(d) - ra - rb;
     ovoid_body_pair pair = {{.compound = c[0], .pose = {at, random_quat(&s)}},
                             {.compound = c[1], .pose = {to, random_quat(&s)}}};
-    ovoid_body_answer x = ovoid_body_collide(&pair, NULL, NULL, NULL);
+    ovoid_body_answer x = ovoid_body_collide(&pair, NULL, NULL);
     CHECK(x.lower <= truth && truth <= x.upper);
     CHECK(x.tested == 0 || gap < 1e-6);
     // A margin that is more than the gap is met, one that is less is not.
-    CHECK(ovoid_body_within(&pair, gap * (1 + 1e-6) + 1e-12, NULL, NULL, NULL).lower <= gap * (1 + 1e-6));
+    CHECK(ovoid_body_within(&pair, gap * (1 + 1e-6) + 1e-12, NULL, NULL).lower <= gap * (1 + 1e-6));
     for (int i = 0; i < 3; i++) check_answer(&pair, asks[i], 0.5 * gap, (double)truth - 1e-14, (double)truth + 1e-14);
     for (int i = 0; i < 2; i++) ovoid_compound_destroy(c[i]), ovoid_shape_destroy(balls[i]);
 }

@@ -47,7 +47,7 @@ static ovoid_impact find_all(const ovoid_moving_body *a, const ovoid_moving_body
     for (size_t i = 0; i < count_a; i++)
         for (size_t j = 0; j < count_b; j++) {
             ovoid_moving_shape x = ovoid_moving_body_get_part(a, i), y = ovoid_moving_body_get_part(b, j);
-            ovoid_impact one = ovoid_impact_find(&x, &y, margin, NULL);
+            ovoid_impact one = ovoid_impact_find(&(ovoid_moving_pair){x, y, margin}, NULL);
             best.free_until = fmin(best.free_until, one.free_until);
             best.hit_at = fmin(best.hit_at, one.hit_at);
             if (one.status == OVOID_IMPACT_HIT) best.status = OVOID_IMPACT_HIT;
@@ -63,13 +63,13 @@ static void check_samples(const ovoid_moving_body *a, const ovoid_moving_body *b
         ovoid_body_pair pair = {
             {.shape = a->shape, .compound = a->compound, .pose = ovoid_motion_compute_pose(&a->motion, t)},
             {.shape = b->shape, .compound = b->compound, .pose = ovoid_motion_compute_pose(&b->motion, t)}};
-        if (t < x->free_until) CHECK_LE(margin - 1e-10, ovoid_body_distance(&pair, NULL, NULL, NULL).upper);
+        if (t < x->free_until) CHECK_LE(margin - 1e-10, ovoid_body_distance(&pair, NULL, NULL).upper);
     }
 }
 
 static void check_pair(const ovoid_moving_body *a, const ovoid_moving_body *b, double margin, uint64_t *s) {
     ovoid_motion_options o = {.steps = steps, .capacity = CAPACITY};
-    ovoid_body_impact found = ovoid_body_impact_find(a, b, margin, &o);
+    ovoid_body_impact found = ovoid_body_impact_find(&(ovoid_moving_body_pair){*a, *b, margin}, &o);
     const ovoid_impact *x = &found.impact;
     ovoid_impact all = find_all(a, b, margin);
     CHECK_EQ(x->status, all.status);
@@ -81,7 +81,9 @@ static void check_pair(const ovoid_moving_body *a, const ovoid_moving_body *b, d
     ovoid_moving_shape part_a = ovoid_moving_body_get_part(a, found.part_a);
     ovoid_moving_shape part_b = ovoid_moving_body_get_part(b, found.part_b);
     ovoid_error error;
-    if (!CHECK_EQ(ovoid_impact_verify(&part_a, &part_b, margin, x, NULL, steps, &error), OVOID_OK))
+    if (!CHECK_EQ(ovoid_impact_verify(&(ovoid_moving_pair){part_a, part_b, margin}, x,
+                                      &(ovoid_motion_basis){.steps = steps}, &error),
+                  OVOID_OK))
         printf("  %s\n", error.message);
 }
 
@@ -90,39 +92,48 @@ static void check_proof(const ovoid_moving_body *a, const ovoid_moving_body *b, 
     static ovoid_step_group groups[CAPACITY];
     ovoid_motion_options o = {.steps = steps, .capacity = CAPACITY, .groups = groups, .group_capacity = CAPACITY};
     ovoid_error error;
-    ovoid_body_impact x = ovoid_body_impact_find(a, b, margin, &o);
-    ovoid_body_impact y = ovoid_body_impact_find(a, b, margin, NULL);
+    ovoid_body_impact x = ovoid_body_impact_find(&(ovoid_moving_body_pair){*a, *b, margin}, &o);
+    ovoid_body_impact y = ovoid_body_impact_find(&(ovoid_moving_body_pair){*a, *b, margin}, NULL);
     CHECK_EQ(x.impact.status, y.impact.status);
     CHECK_NEAR(fmin(x.impact.hit_at, 2), fmin(y.impact.hit_at, 2), 2e-9);
     CHECK(x.impact.step_count <= CAPACITY && x.group_count <= CAPACITY);
-    if (!CHECK_EQ(ovoid_body_impact_verify(a, b, margin, &x, NULL, steps, groups, &error), OVOID_OK))
+    if (!CHECK_EQ(ovoid_body_impact_verify(&(ovoid_moving_body_pair){*a, *b, margin}, &x,
+                                           &(ovoid_motion_basis){.steps = steps, .groups = groups}, &error),
+                  OVOID_OK))
         printf("  group %lld: %s\n", (long long)error.place, error.message);
     most_groups = x.group_count > most_groups ? x.group_count : most_groups;
     if (x.impact.free_until <= x.impact.begin) return;
     y = x;
     y.group_count--;
-    CHECK(ovoid_body_impact_verify(a, b, margin, &y, NULL, steps, groups, NULL) != OVOID_OK);
+    CHECK(ovoid_body_impact_verify(&(ovoid_moving_body_pair){*a, *b, margin}, &y,
+                                   &(ovoid_motion_basis){.steps = steps, .groups = groups}, NULL) != OVOID_OK);
     y = x;
     y.impact.status = x.impact.status == OVOID_IMPACT_FREE ? OVOID_IMPACT_HIT : OVOID_IMPACT_FREE;
-    CHECK(ovoid_body_impact_verify(a, b, margin, &y, NULL, steps, groups, NULL) != OVOID_OK);
+    CHECK(ovoid_body_impact_verify(&(ovoid_moving_body_pair){*a, *b, margin}, &y,
+                                   &(ovoid_motion_basis){.steps = steps, .groups = groups}, NULL) != OVOID_OK);
     y = x;
     y.impact.free_until += 1e-3;
-    CHECK(ovoid_body_impact_verify(a, b, margin, &y, NULL, steps, groups, NULL) != OVOID_OK);
+    CHECK(ovoid_body_impact_verify(&(ovoid_moving_body_pair){*a, *b, margin}, &y,
+                                   &(ovoid_motion_basis){.steps = steps, .groups = groups}, NULL) != OVOID_OK);
     ovoid_step_group kept = groups[0];
     groups[0].end_a++;
-    CHECK(ovoid_body_impact_verify(a, b, margin, &x, NULL, steps, groups, NULL) != OVOID_OK);
+    CHECK(ovoid_body_impact_verify(&(ovoid_moving_body_pair){*a, *b, margin}, &x,
+                                   &(ovoid_motion_basis){.steps = steps, .groups = groups}, NULL) != OVOID_OK);
     groups[0] = kept;
     groups[0].count++;
-    CHECK(ovoid_body_impact_verify(a, b, margin, &x, NULL, steps, groups, NULL) != OVOID_OK);
+    CHECK(ovoid_body_impact_verify(&(ovoid_moving_body_pair){*a, *b, margin}, &x,
+                                   &(ovoid_motion_basis){.steps = steps, .groups = groups}, NULL) != OVOID_OK);
     groups[0] = kept;
     if (x.group_count > 1) {
         groups[0] = groups[1];
-        CHECK(ovoid_body_impact_verify(a, b, margin, &x, NULL, steps, groups, NULL) != OVOID_OK);
+        CHECK(ovoid_body_impact_verify(&(ovoid_moving_body_pair){*a, *b, margin}, &x,
+                                       &(ovoid_motion_basis){.steps = steps, .groups = groups}, NULL) != OVOID_OK);
         groups[0] = kept;
     }
     ovoid_step first = steps[0];
     steps[0].normal = (ovoid_vec3){-first.normal.x, -first.normal.y, -first.normal.z};
-    CHECK(ovoid_body_impact_verify(a, b, margin, &x, NULL, steps, groups, NULL) != OVOID_OK);
+    CHECK(ovoid_body_impact_verify(&(ovoid_moving_body_pair){*a, *b, margin}, &x,
+                                   &(ovoid_motion_basis){.steps = steps, .groups = groups}, NULL) != OVOID_OK);
     steps[0] = first;
 }
 
@@ -150,9 +161,9 @@ static void check_refusals(const ovoid_moving_body *a) {
     ovoid_moving_body bad = *a;
     bad.motion.duration = -1;
     bad.motion.kind = OVOID_MOTION_POSES;
-    CHECK_EQ(ovoid_body_impact_find(a, &bad, 0, NULL).impact.limit, OVOID_LIMIT_POSE_B);
-    CHECK_EQ(ovoid_body_impact_find(&bad, a, 0, NULL).impact.limit, OVOID_LIMIT_POSE_A);
-    CHECK_EQ(ovoid_body_impact_find(a, a, -1, NULL).impact.limit, OVOID_LIMIT_OPTIONS);
+    CHECK_EQ(ovoid_body_impact_find(&(ovoid_moving_body_pair){*a, bad, 0}, NULL).impact.limit, OVOID_LIMIT_POSE_B);
+    CHECK_EQ(ovoid_body_impact_find(&(ovoid_moving_body_pair){bad, *a, 0}, NULL).impact.limit, OVOID_LIMIT_POSE_A);
+    CHECK_EQ(ovoid_body_impact_find(&(ovoid_moving_body_pair){*a, *a, -1}, NULL).impact.limit, OVOID_LIMIT_OPTIONS);
     CHECK(isnan(ovoid_moving_body_compute_box(&bad, 0, 1).min.x));
 }
 
@@ -169,7 +180,7 @@ int main(void) {
         if (seed % 5 == 0) a.body = (ovoid_moving_body){.shape = a.shapes[2], .motion = a.body.motion};
         check_pair(&a.body, &b.body, seed % 3 ? 0 : 0.3, &s);
         check_proof(&a.body, &b.body, seed % 3 ? 0 : 0.3);
-        ovoid_body_impact x = ovoid_body_impact_find(&a.body, &b.body, 0, NULL);
+        ovoid_body_impact x = ovoid_body_impact_find(&(ovoid_moving_body_pair){a.body, b.body, 0}, NULL);
         hits += x.impact.status == OVOID_IMPACT_HIT;
         tested += x.tested;
         pairs += (a.body.shape ? 1 : 1 + (long)(seed % PARTS)) * PARTS;

@@ -29,7 +29,7 @@ static double measure(const ovoid_body_pair *pair, const ovoid_exclusion *e) {
 
 static int is_accepted(const ovoid_body_pair *pair, const ovoid_body_answer *x, const ovoid_exclusions *all) {
     ovoid_error error = {.message = ""};
-    ovoid_code code = ovoid_body_verify(pair, x, NULL, all, &error);
+    ovoid_code code = ovoid_body_verify(pair, x, &(ovoid_body_basis){.exclusions = all}, &error);
     CHECK(code == OVOID_OK || (code == OVOID_ERROR_PROOF && error.message[0]));
     return code == OVOID_OK;
 }
@@ -118,9 +118,10 @@ static void alter_answer(const ovoid_body_pair *pair, const ovoid_body_answer *x
 static void check_pair(const ovoid_body_pair *pair, double size, uint64_t *s) {
     ovoid_exclusions all = {.items = items, .capacity = CAPACITY, .cover = &cover};
     for (int question = 0; question < 3; question++) {
-        ovoid_body_answer x = question == 0   ? ovoid_body_distance(pair, NULL, NULL, &all)
-                              : question == 1 ? ovoid_body_depth(pair, NULL, NULL, &all)
-                                              : ovoid_body_within(pair, 0.1 * size, NULL, NULL, &all);
+        ovoid_body_answer x =
+            question == 0   ? ovoid_body_distance(pair, NULL, &(ovoid_body_evidence){.exclusions = &all})
+            : question == 1 ? ovoid_body_depth(pair, NULL, &(ovoid_body_evidence){.exclusions = &all})
+                            : ovoid_body_within(pair, 0.1 * size, NULL, &(ovoid_body_evidence){.exclusions = &all});
         CHECK_LE(all.count, CAPACITY);
         if (!CHECK(is_accepted(pair, &x, &all))) return;
         alter_answer(pair, &x, &all, size);
@@ -147,13 +148,13 @@ static void check_fine(void) {
         ovoid_body_pair pair = {{.compound = c, .pose = {{0, 0, 0}, {1, 0, 0, 0}}},
                                 {.compound = c, .pose = {{2, 0, 0}, {1, 0, 0, 0}}}};
         pair.b.pose.position.x += i < 20 ? 0 : ldexp(1, -i - 20);
-        ovoid_body_answer x = ovoid_body_collide(&pair, NULL, NULL, &all);
+        ovoid_body_answer x = ovoid_body_collide(&pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
         if (i >= 20)
             CHECK_EQ(x.status, OVOID_SEPARATED);
         else
             CHECK_EQ(x.status, OVOID_TOUCHING);
         CHECK(is_accepted(&pair, &x, &all));
-        x = ovoid_body_distance(&pair, NULL, NULL, &all);
+        x = ovoid_body_distance(&pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
         CHECK(is_accepted(&pair, &x, &all));
     }
     ovoid_compound_destroy(c);

@@ -18,9 +18,11 @@ static ovoid_moving_shape moving(const ovoid_shape *shape, ovoid_pose start, ovo
 
 static ovoid_impact find(const ovoid_moving_shape *a, const ovoid_moving_shape *b, double margin) {
     ovoid_motion_options o = {.steps = steps, .capacity = CAPACITY};
-    ovoid_impact x = ovoid_impact_find(a, b, margin, &o);
+    ovoid_impact x = ovoid_impact_find(&(ovoid_moving_pair){*a, *b, margin}, &o);
     ovoid_error error;
-    if (!CHECK_EQ(ovoid_impact_verify(a, b, margin, &x, NULL, steps, &error), OVOID_OK))
+    if (!CHECK_EQ(ovoid_impact_verify(&(ovoid_moving_pair){*a, *b, margin}, &x, &(ovoid_motion_basis){.steps = steps},
+                                      &error),
+                  OVOID_OK))
         printf("  %s\n", error.message);
     return x;
 }
@@ -336,15 +338,17 @@ static void check_clipped(uint64_t seed) {
 
 static void check_refused(const ovoid_moving_shape *a, const ovoid_moving_shape *b, double margin,
                           const ovoid_motion_options *o, ovoid_limit limit) {
-    ovoid_impact x = ovoid_impact_find(a, b, margin, o);
+    ovoid_impact x = ovoid_impact_find(&(ovoid_moving_pair){*a, *b, margin}, o);
     CHECK_EQ(x.status, OVOID_IMPACT_UNDECIDED);
     if (!CHECK_EQ(x.limit, limit)) printf("  %s\n", ovoid_limit_get_name(x.limit));
     CHECK(x.free_until == 0 && isinf(x.hit_at) && x.step_count == 0);
-    CHECK_EQ(ovoid_impact_verify(a, b, margin, &x, o, NULL, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_impact_verify(&(ovoid_moving_pair){*a, *b, margin}, &x, &(ovoid_motion_basis){.options = o}, NULL),
+             OVOID_OK);
     if (!(margin >= 0 && margin < INFINITY)) return;
-    ovoid_approach y = ovoid_approach_find(a, b, o);
+    ovoid_approach y = ovoid_approach_find(&(ovoid_moving_pair){*a, *b, 0}, o);
     CHECK(y.limit == limit && y.lower == -INFINITY && y.upper == INFINITY);
-    CHECK_EQ(ovoid_approach_verify(a, b, &y, o, NULL, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_approach_verify(&(ovoid_moving_pair){*a, *b, 0}, &y, &(ovoid_motion_basis){.options = o}, NULL),
+             OVOID_OK);
 }
 
 static void check_refusals(void) {

@@ -152,12 +152,14 @@ static int approach_is_false(const truth *t, const ovoid_approach *x, const ovoi
 // ---- lies
 
 static void tell_impact(const truth *t, const ovoid_impact *x, size_t checked, alter_count *n) {
-    ovoid_code code = ovoid_impact_verify(&t->c.a, &t->c.b, t->margin, x, t->told, steps, NULL);
+    ovoid_code code = ovoid_impact_verify(&(ovoid_moving_pair){t->c.a, t->c.b, t->margin}, x,
+                                          &(ovoid_motion_basis){.options = t->told, .steps = steps}, NULL);
     alter_take(n, impact_is_false(t, x, steps, checked), code != OVOID_OK);
 }
 static void tell_approach(const truth *t, const ovoid_approach *x, const ovoid_approach *right, size_t checked,
                           alter_count *n) {
-    ovoid_code code = ovoid_approach_verify(&t->c.a, &t->c.b, x, t->told, steps, NULL);
+    ovoid_code code = ovoid_approach_verify(&(ovoid_moving_pair){t->c.a, t->c.b, 0}, x,
+                                            &(ovoid_motion_basis){.options = t->told, .steps = steps}, NULL);
     alter_take(n, approach_is_false(t, x, right, steps, checked), code != OVOID_OK);
 }
 
@@ -203,7 +205,7 @@ static ovoid_motion_options get_other(const truth *t) {
 
 static void lie_about_impact(const truth *t, const ovoid_impact *right) {
     const ovoid_motion_options half = get_other(t);
-    ovoid_impact other = ovoid_impact_find(&t->c.a, &t->c.b, t->margin, &half), x = *right;
+    ovoid_impact other = ovoid_impact_find(&(ovoid_moving_pair){t->c.a, t->c.b, t->margin}, &half), x = *right;
     alter_walk w = alter_walk_make(&impact_table, &x, sizeof x, &other);
     for (alter_count *n; (n = alter_next(&w));)
         if (x.step_count <= CAPACITY) tell_impact(t, &x, right->step_count, n);
@@ -211,7 +213,7 @@ static void lie_about_impact(const truth *t, const ovoid_impact *right) {
 
 static void lie_about_approach(const truth *t, const ovoid_approach *right) {
     const ovoid_motion_options half = get_other(t);
-    ovoid_approach other = ovoid_approach_find(&t->c.a, &t->c.b, &half), x = *right;
+    ovoid_approach other = ovoid_approach_find(&(ovoid_moving_pair){t->c.a, t->c.b, 0}, &half), x = *right;
     alter_walk w = alter_walk_make(&approach_table, &x, sizeof x, &other);
     for (alter_count *n; (n = alter_next(&w));)
         if (x.step_count <= CAPACITY) tell_approach(t, &x, right, right->step_count, n);
@@ -311,30 +313,40 @@ static void forge_reasons(const truth *t) {
     broken.c.b.motion =
         ovoid_motion_make_velocity(t->c.b.motion.start, (ovoid_vec3){NAN, 0, 0}, (ovoid_vec3){0, 0, 0}, 1);
     const ovoid_moving_shape *a = &broken.c.a, *b = &broken.c.b;
-    ovoid_impact right = ovoid_impact_find(a, b, t->margin, &t->options), x;
-    ovoid_approach nearest = ovoid_approach_find(a, b, &t->options), y;
-    CHECK_EQ(ovoid_impact_verify(a, b, t->margin, &right, t->told, NULL, NULL), OVOID_OK);
-    CHECK_EQ(ovoid_approach_verify(a, b, &nearest, t->told, NULL, NULL), OVOID_OK);
+    ovoid_impact right = ovoid_impact_find(&(ovoid_moving_pair){*a, *b, t->margin}, &t->options), x;
+    ovoid_approach nearest = ovoid_approach_find(&(ovoid_moving_pair){*a, *b, 0}, &t->options), y;
+    CHECK_EQ(ovoid_impact_verify(&(ovoid_moving_pair){*a, *b, t->margin}, &right,
+                                 &(ovoid_motion_basis){.options = t->told}, NULL),
+             OVOID_OK);
+    CHECK_EQ(ovoid_approach_verify(&(ovoid_moving_pair){*a, *b, 0}, &nearest, &(ovoid_motion_basis){.options = t->told},
+                                   NULL),
+             OVOID_OK);
     for (int limit = 0; limit <= OVOID_LIMIT_ALLOWANCE; limit++) {
         if (limit == OVOID_LIMIT_POSE_B) continue;
         x = right;
         y = nearest;
         x.limit = y.limit = (ovoid_limit)limit;
-        CHECK(ovoid_impact_verify(a, b, t->margin, &x, t->told, NULL, NULL) != OVOID_OK);
-        CHECK(ovoid_approach_verify(a, b, &y, t->told, NULL, NULL) != OVOID_OK);
+        CHECK(ovoid_impact_verify(&(ovoid_moving_pair){*a, *b, t->margin}, &x,
+                                  &(ovoid_motion_basis){.options = t->told}, NULL) != OVOID_OK);
+        CHECK(ovoid_approach_verify(&(ovoid_moving_pair){*a, *b, 0}, &y, &(ovoid_motion_basis){.options = t->told},
+                                    NULL) != OVOID_OK);
     }
     x = right;
     x.free_until = 0.5;
-    CHECK(ovoid_impact_verify(a, b, t->margin, &x, t->told, NULL, NULL) != OVOID_OK);
+    CHECK(ovoid_impact_verify(&(ovoid_moving_pair){*a, *b, t->margin}, &x, &(ovoid_motion_basis){.options = t->told},
+                              NULL) != OVOID_OK);
     x.free_until = 0;
     x.status = OVOID_IMPACT_FREE;
-    CHECK(ovoid_impact_verify(a, b, t->margin, &x, t->told, NULL, NULL) != OVOID_OK);
+    CHECK(ovoid_impact_verify(&(ovoid_moving_pair){*a, *b, t->margin}, &x, &(ovoid_motion_basis){.options = t->told},
+                              NULL) != OVOID_OK);
     x = right;
     x.free_until = -1;
-    CHECK(ovoid_impact_verify(a, b, t->margin, &x, t->told, NULL, NULL) != OVOID_OK);
+    CHECK(ovoid_impact_verify(&(ovoid_moving_pair){*a, *b, t->margin}, &x, &(ovoid_motion_basis){.options = t->told},
+                              NULL) != OVOID_OK);
     y = nearest;
     y.lower = 1;
-    CHECK(ovoid_approach_verify(a, b, &y, t->told, NULL, NULL) != OVOID_OK);
+    CHECK(ovoid_approach_verify(&(ovoid_moving_pair){*a, *b, 0}, &y, &(ovoid_motion_basis){.options = t->told}, NULL) !=
+          OVOID_OK);
 }
 
 static void forge_refusals(const truth *t) {
@@ -403,10 +415,12 @@ static void set_times(truth *t, uint64_t seed) {
 }
 
 static void try_impact(truth *t, uint64_t *s) {
-    ovoid_impact right = ovoid_impact_find(&t->c.a, &t->c.b, t->margin, &t->options);
+    ovoid_impact right = ovoid_impact_find(&(ovoid_moving_pair){t->c.a, t->c.b, t->margin}, &t->options);
     make_truth(t, s, right.hit_at);
     CHECK_LE(right.step_count, CAPACITY);
-    CHECK_EQ(ovoid_impact_verify(&t->c.a, &t->c.b, t->margin, &right, t->told, steps, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_impact_verify(&(ovoid_moving_pair){t->c.a, t->c.b, t->margin}, &right,
+                                 &(ovoid_motion_basis){.options = t->told, .steps = steps}, NULL),
+             OVOID_OK);
     CHECK(!impact_is_false(t, &right, steps, CAPACITY));
     lie_about_impact(t, &right);
     lie_about_steps(t, &right);
@@ -421,8 +435,10 @@ static void try_impact(truth *t, uint64_t *s) {
 }
 
 static void try_approach(truth *t) {
-    ovoid_approach right = ovoid_approach_find(&t->c.a, &t->c.b, &t->options);
-    CHECK_EQ(ovoid_approach_verify(&t->c.a, &t->c.b, &right, t->told, steps, NULL), OVOID_OK);
+    ovoid_approach right = ovoid_approach_find(&(ovoid_moving_pair){t->c.a, t->c.b, 0}, &t->options);
+    CHECK_EQ(ovoid_approach_verify(&(ovoid_moving_pair){t->c.a, t->c.b, 0}, &right,
+                                   &(ovoid_motion_basis){.options = t->told, .steps = steps}, NULL),
+             OVOID_OK);
     CHECK(!approach_is_false(t, &right, &right, steps, CAPACITY));
     lie_about_approach(t, &right);
     forge_touching(t, &right);

@@ -34,39 +34,48 @@ static void check_altered(const moving_case *c, double margin, const ovoid_impac
     ovoid_impact y = *x;
     double span = x->end - x->begin;
     y.free_until = x->free_until + fmax(1e-3 * span, 1e-3);
-    CHECK(ovoid_impact_verify(&c->a, &c->b, margin, &y, NULL, steps, NULL) != OVOID_OK);
+    CHECK(ovoid_impact_verify(&(ovoid_moving_pair){c->a, c->b, margin}, &y, &(ovoid_motion_basis){.steps = steps},
+                              NULL) != OVOID_OK);
     y = *x;
     if (x->status == OVOID_IMPACT_HIT) {
         y.status = OVOID_IMPACT_FREE;
-        CHECK(ovoid_impact_verify(&c->a, &c->b, margin, &y, NULL, steps, NULL) != OVOID_OK);
+        CHECK(ovoid_impact_verify(&(ovoid_moving_pair){c->a, c->b, margin}, &y, &(ovoid_motion_basis){.steps = steps},
+                                  NULL) != OVOID_OK);
     }
     if (x->status == OVOID_IMPACT_FREE) {
         y.status = OVOID_IMPACT_HIT;
         y.hit_at = x->end;
-        CHECK(ovoid_impact_verify(&c->a, &c->b, margin, &y, NULL, steps, NULL) != OVOID_OK);
+        CHECK(ovoid_impact_verify(&(ovoid_moving_pair){c->a, c->b, margin}, &y, &(ovoid_motion_basis){.steps = steps},
+                                  NULL) != OVOID_OK);
     }
     if (!x->step_count) return;
     // A step left out, one that parts nothing, one that is no unit vector, one that goes back.
     y = *x;
     y.step_count--;
-    CHECK(ovoid_impact_verify(&c->a, &c->b, margin, &y, NULL, steps, NULL) != OVOID_OK);
+    CHECK(ovoid_impact_verify(&(ovoid_moving_pair){c->a, c->b, margin}, &y, &(ovoid_motion_basis){.steps = steps},
+                              NULL) != OVOID_OK);
     ovoid_step kept = steps[x->step_count - 1];
     steps[x->step_count - 1].normal = (ovoid_vec3){-kept.normal.x, -kept.normal.y, -kept.normal.z};
-    CHECK(ovoid_impact_verify(&c->a, &c->b, margin, x, NULL, steps, NULL) != OVOID_OK);
+    CHECK(ovoid_impact_verify(&(ovoid_moving_pair){c->a, c->b, margin}, x, &(ovoid_motion_basis){.steps = steps},
+                              NULL) != OVOID_OK);
     steps[x->step_count - 1].normal = moving_scaled(kept.normal, 1.001);
-    CHECK(ovoid_impact_verify(&c->a, &c->b, margin, x, NULL, steps, NULL) != OVOID_OK);
+    CHECK(ovoid_impact_verify(&(ovoid_moving_pair){c->a, c->b, margin}, x, &(ovoid_motion_basis){.steps = steps},
+                              NULL) != OVOID_OK);
     steps[x->step_count - 1] = kept;
     steps[x->step_count - 1].until = NAN;
-    CHECK(ovoid_impact_verify(&c->a, &c->b, margin, x, NULL, steps, NULL) != OVOID_OK);
+    CHECK(ovoid_impact_verify(&(ovoid_moving_pair){c->a, c->b, margin}, x, &(ovoid_motion_basis){.steps = steps},
+                              NULL) != OVOID_OK);
     steps[x->step_count - 1] = kept;
 }
 
 static void try_impact(const moving_case *c, double margin, uint64_t *s) {
     ovoid_motion_options o = {.steps = steps, .capacity = CAPACITY};
     ovoid_error error;
-    ovoid_impact x = ovoid_impact_find(&c->a, &c->b, margin, &o);
+    ovoid_impact x = ovoid_impact_find(&(ovoid_moving_pair){c->a, c->b, margin}, &o);
     CHECK_LE(x.step_count, CAPACITY);
-    if (!CHECK_EQ(ovoid_impact_verify(&c->a, &c->b, margin, &x, NULL, steps, &error), OVOID_OK))
+    if (!CHECK_EQ(ovoid_impact_verify(&(ovoid_moving_pair){c->a, c->b, margin}, &x,
+                                      &(ovoid_motion_basis){.steps = steps}, &error),
+                  OVOID_OK))
         printf("  %s\n", error.message);
     if (x.free_until > x.begin) CHECK_LE(margin - compute_slack(c), sample(c, x.begin, x.free_until, s));
     if (x.status == OVOID_IMPACT_HIT) {
@@ -82,16 +91,20 @@ static void try_impact(const moving_case *c, double margin, uint64_t *s) {
     check_altered(c, margin, &x);
     // Only a part of the time: the same truth.
     ovoid_motion_options late = {.begin = 0.4, .end = 0.9, .steps = steps, .capacity = CAPACITY};
-    ovoid_impact y = ovoid_impact_find(&c->a, &c->b, margin, &late);
-    CHECK_EQ(ovoid_impact_verify(&c->a, &c->b, margin, &y, NULL, steps, NULL), OVOID_OK);
+    ovoid_impact y = ovoid_impact_find(&(ovoid_moving_pair){c->a, c->b, margin}, &late);
+    CHECK_EQ(
+        ovoid_impact_verify(&(ovoid_moving_pair){c->a, c->b, margin}, &y, &(ovoid_motion_basis){.steps = steps}, NULL),
+        OVOID_OK);
     if (y.status == OVOID_IMPACT_HIT) CHECK_LE(x.free_until, y.hit_at);
 }
 
 static void try_approach(const moving_case *c, uint64_t *s) {
     ovoid_motion_options o = {.steps = steps, .capacity = CAPACITY};
     ovoid_error error;
-    ovoid_approach x = ovoid_approach_find(&c->a, &c->b, &o);
-    if (!CHECK_EQ(ovoid_approach_verify(&c->a, &c->b, &x, NULL, steps, &error), OVOID_OK))
+    ovoid_approach x = ovoid_approach_find(&(ovoid_moving_pair){c->a, c->b, 0}, &o);
+    if (!CHECK_EQ(ovoid_approach_verify(&(ovoid_moving_pair){c->a, c->b, 0}, &x, &(ovoid_motion_basis){.steps = steps},
+                                        &error),
+                  OVOID_OK))
         printf("  %s\n", error.message);
     double least = sample(c, x.begin, x.end, s), slack = compute_slack(c);
     CHECK_LE(x.lower - slack, least);
@@ -105,10 +118,12 @@ static void try_approach(const moving_case *c, uint64_t *s) {
     ovoid_approach y = x;
     y.lower = x.lower + 1e-3 * fabs(x.lower) + 1e-6 * c->size;
     y.upper = fmax(y.lower, y.upper);
-    CHECK(ovoid_approach_verify(&c->a, &c->b, &y, NULL, steps, NULL) != OVOID_OK);
+    CHECK(ovoid_approach_verify(&(ovoid_moving_pair){c->a, c->b, 0}, &y, &(ovoid_motion_basis){.steps = steps}, NULL) !=
+          OVOID_OK);
     y = x;
     y.upper = y.lower;
-    CHECK(ovoid_approach_verify(&c->a, &c->b, &y, NULL, steps, NULL) != OVOID_OK);
+    CHECK(ovoid_approach_verify(&(ovoid_moving_pair){c->a, c->b, 0}, &y, &(ovoid_motion_basis){.steps = steps}, NULL) !=
+          OVOID_OK);
 }
 
 int main(int count, char **arguments) {

@@ -292,7 +292,7 @@ static void check_slow(void) {
         CHECK_NEAR(end.position.x, 3, 1e-15);
         CHECK_NEAR(end.rotation.y, 0, 1e-15);
         ovoid_moving_shape still = {shape, ovoid_motion_make_still((ovoid_pose){{4, 0, 0}, {1, 0, 0, 0}}), m.part};
-        ovoid_impact x = ovoid_impact_find(&m, &still, 0, NULL);
+        ovoid_impact x = ovoid_impact_find(&(ovoid_moving_pair){m, still, 0}, NULL);
         CHECK(x.status == OVOID_IMPACT_HIT && fabs(x.hit_at - 1) < 1e-6);
     }
     ovoid_shape_destroy(shape);

@@ -43,10 +43,10 @@ static uint64_t hash_impacts(uint64_t cases) {
     for (uint64_t seed = 1; seed <= cases; seed++) {
         moving_case c;
         moving_make(&c, seed);
-        ovoid_impact x = ovoid_impact_find(&c.a, &c.b, seed % 2 ? 0 : 0.125 * c.size, NULL);
+        ovoid_impact x = ovoid_impact_find(&(ovoid_moving_pair){c.a, c.b, seed % 2 ? 0 : 0.125 * c.size}, NULL);
         hash = add_impact(hash, &x);
         if (seed % 4 == 0) {
-            ovoid_approach y = ovoid_approach_find(&c.a, &c.b, NULL);
+            ovoid_approach y = ovoid_approach_find(&(ovoid_moving_pair){c.a, c.b, 0}, NULL);
             BITS_ADD(hash, y.lower);
             BITS_ADD(hash, y.upper);
             BITS_ADD(hash, y.time);

@@ -396,7 +396,7 @@ static void check_probes(const ovoid_solid *solid, const ovoid_shape *hull, doub
         const ovoid_pair hulls = {probe, hull, pose, ovoid_pose_make_identity()};
         const ovoid_body_pair bodies = {{.shape = probe, .pose = pose},
                                         {.solid = solid, .pose = ovoid_pose_make_identity()}};
-        double least = ovoid_body_distance(&bodies, NULL, NULL, NULL).lower;
+        double least = ovoid_body_distance(&bodies, NULL, NULL).lower;
         double most = ovoid_depth(&hulls, NULL, NULL, NULL).upper + gap;
         if (!CHECK(least <= most)) printf("  probe %d: %.17g beyond %.17g\n", i, least, most);
     }

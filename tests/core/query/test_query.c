@@ -27,7 +27,7 @@ static double size_of(const ovoid_pair *p) {
 
 static int holds(const ovoid_pair *p, const ovoid_answer *x, const ovoid_cover *cover) {
     ovoid_error error = {OVOID_OK, 0, ""};
-    if (ovoid_answer_verify(p, x, NULL, cover, &error) == OVOID_OK) return 1;
+    if (ovoid_answer_verify(p, x, &(ovoid_answer_basis){.cover = cover}, &error) == OVOID_OK) return 1;
     printf("%s\n", error.message);
     return 0;
 }
@@ -240,9 +240,9 @@ static void check_refused(void) {
     ovoid_answer x = ovoid_depth(&bad, NULL, NULL, NULL);
     CHECK_EQ(x.limit, OVOID_LIMIT_POSE_B);
     CHECK(x.status == OVOID_UNDECIDED && x.lower == -INFINITY && x.upper == INFINITY);
-    CHECK_EQ(ovoid_answer_verify(&bad, &x, NULL, NULL, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_answer_verify(&bad, &x, NULL, NULL), OVOID_OK);
     x.upper = 1;
-    CHECK_EQ(ovoid_answer_verify(&bad, &x, NULL, NULL, NULL), OVOID_ERROR_PROOF);
+    CHECK_EQ(ovoid_answer_verify(&bad, &x, NULL, NULL), OVOID_ERROR_PROOF);
     bad.pose_b.rotation.x = INFINITY;
     CHECK_EQ(ovoid_pair_compute_bounds(&bad).limit, OVOID_LIMIT_POSE_B);
     bad = p;
@@ -284,7 +284,7 @@ static void check_altered(void) {
     ovoid_answer deep = ovoid_depth(&q, NULL, NULL, &cover);
     CHECK(holds(&p, &x, NULL) && holds(&q, &deep, &cover));
 #define REJECTED(pair, answer, evidence)                                                                               \
-    CHECK(ovoid_answer_verify(pair, answer, NULL, evidence, NULL) == OVOID_ERROR_PROOF)
+    CHECK(ovoid_answer_verify(pair, answer, &(ovoid_answer_basis){.cover = evidence}, NULL) == OVOID_ERROR_PROOF)
     y = x, y.lower += 1e-9, REJECTED(&p, &y, NULL);
     y = x, y.upper -= 1e-9, REJECTED(&p, &y, NULL);
     y = x, y.status = OVOID_OVERLAPPING, REJECTED(&p, &y, NULL);
@@ -332,12 +332,13 @@ static void check_touching(void) {
                  {{.relative_tolerance = width / size * (1 - 1e-9)}, 0},
                  {{.absolute_tolerance = NAN}, 0}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
-        CHECK_EQ(ovoid_answer_verify(&p, &x, &cases[i].options, NULL, NULL) == OVOID_OK, cases[i].is_touching);
-    CHECK_EQ(ovoid_answer_verify(&p, &x, NULL, NULL, NULL), OVOID_ERROR_PROOF);
+        CHECK_EQ(ovoid_answer_verify(&p, &x, &(ovoid_answer_basis){.options = &cases[i].options}, NULL) == OVOID_OK,
+                 cases[i].is_touching);
+    CHECK_EQ(ovoid_answer_verify(&p, &x, NULL, NULL), OVOID_ERROR_PROOF);
     // A sign that the bracket shows is not open.
     x = ovoid_distance(&p, NULL, NULL);
     x.status = OVOID_UNDECIDED;
-    CHECK_EQ(ovoid_answer_verify(&p, &x, NULL, NULL, NULL), OVOID_ERROR_PROOF);
+    CHECK_EQ(ovoid_answer_verify(&p, &x, NULL, NULL), OVOID_ERROR_PROOF);
     ovoid_shape_destroy(a);
 }
 

@@ -91,7 +91,7 @@ static int check_depth(const ovoid_pair *p) {
     static ovoid_cover cover;
     ovoid_answer x = ovoid_depth(p, NULL, NULL, &cover), same = ovoid_depth(p, NULL, NULL, NULL);
     ovoid_error error;
-    CHECK(ovoid_answer_verify(p, &x, NULL, &cover, &error) == OVOID_OK);
+    CHECK(ovoid_answer_verify(p, &x, &(ovoid_answer_basis){.cover = &cover}, &error) == OVOID_OK);
     const double first[] = {x.lower, x.upper, x.normal.x, x.point_a.x, x.point_b.x, x.proof.weight_a[0]};
     const double again[] = {same.lower,     same.upper,     same.normal.x,
                             same.point_a.x, same.point_b.x, same.proof.weight_a[0]};

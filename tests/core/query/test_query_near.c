@@ -85,7 +85,8 @@ static void compare(int query, const ovoid_pair *p, const ovoid_proof *earlier, 
         decided_by_proof += warm.status != OVOID_UNDECIDED;
     CHECK(is_stuck(cold) || !is_stuck(&warm));
     CHECK(warm.lower <= cold->upper && cold->lower <= warm.upper);
-    if (!CHECK(ovoid_answer_verify(p, &warm, NULL, query == 3 ? &cover : NULL, &error) == OVOID_OK))
+    if (!CHECK(ovoid_answer_verify(p, &warm, &(ovoid_answer_basis){.cover = query == 3 ? &cover : NULL}, &error) ==
+               OVOID_OK))
         puts(error.message);
 }
 
@@ -150,13 +151,14 @@ static void check_compounds(const ovoid_pair *p, const ovoid_proof *foreign) {
     static ovoid_cover cover;
     ovoid_exclusions all = {items, 64, 0, &cover};
     ovoid_body_pair pair = {{.compound = ca, .pose = p->pose_a}, {.compound = cb, .pose = p->pose_b}};
-    ovoid_body_answer cold = ovoid_body_depth(&pair, NULL, NULL, NULL);
+    ovoid_body_answer cold = ovoid_body_depth(&pair, NULL, NULL);
     for (int i = 0; i < 2; i++) {
         ovoid_body_proof earlier = {cold.part_a, cold.part_b, i ? *foreign : cold.deciding.proof};
-        ovoid_body_answer warm = ovoid_body_depth(&pair, NULL, &earlier, &all);
+        ovoid_body_answer warm =
+            ovoid_body_depth(&pair, NULL, &(ovoid_body_evidence){.earlier = &earlier, .exclusions = &all});
         if (cold.status != OVOID_UNDECIDED) CHECK_EQ(warm.status, cold.status);
         CHECK(is_stuck(&cold.deciding) || !is_stuck(&warm.deciding));
-        CHECK_EQ(ovoid_body_verify(&pair, &warm, NULL, &all, NULL), OVOID_OK);
+        CHECK_EQ(ovoid_body_verify(&pair, &warm, &(ovoid_body_basis){.exclusions = &all}, NULL), OVOID_OK);
     }
     ovoid_compound_destroy(ca);
     ovoid_compound_destroy(cb);
@@ -191,7 +193,7 @@ static void check_few_iterations(uint64_t *s) {
     for (int i = 0; i < 30 && x.limit == OVOID_LIMIT_ITERATIONS; i++) {
         x = ovoid_distance(&p, &few, &x.proof);
         CHECK(x.status == cold.status || cold.status == OVOID_UNDECIDED);
-        CHECK_EQ(ovoid_answer_verify(&p, &x, &few, NULL, NULL), OVOID_OK);
+        CHECK_EQ(ovoid_answer_verify(&p, &x, &(ovoid_answer_basis){.options = &few}, NULL), OVOID_OK);
     }
     ovoid_shape_destroy(a);
     ovoid_shape_destroy(b);
@@ -213,7 +215,7 @@ static void check_sizes(uint64_t *s) {
             ovoid_answer deep = ovoid_depth(&p, NULL, NULL, &cover), sign = ovoid_collide(&p, NULL, NULL);
             CHECK_EQ(sign.status, OVOID_OVERLAPPING);
             CHECK_EQ(deep.status, OVOID_OVERLAPPING);
-            CHECK_EQ(ovoid_answer_verify(&p, &deep, NULL, &cover, NULL), OVOID_OK);
+            CHECK_EQ(ovoid_answer_verify(&p, &deep, &(ovoid_answer_basis){.cover = &cover}, NULL), OVOID_OK);
             const ovoid_posed_shape bodies[2] = {{cube, p.pose_a}, {cube, p.pose_b}};
             ovoid_couple couple = {0, 1};
             ovoid_answer batched;

@@ -64,26 +64,28 @@ int main(void) {
         ovoid_answer x = ovoid_depth(&p, NULL, NULL, &cover);
         sum += x.lower + ovoid_collide(&p, NULL, &x.proof).upper + ovoid_within(&p, 0.1, NULL, NULL).upper;
         sum += ovoid_distance(&p, NULL, NULL).upper + ovoid_pair_compute_bounds(&p).upper;
-        sum += ovoid_answer_verify(&p, &x, NULL, &cover, NULL);
+        sum += ovoid_answer_verify(&p, &x, &(ovoid_answer_basis){.cover = &cover}, NULL);
         ovoid_moving_shape moving[2] = {{.shape = a, .motion = ovoid_motion_make_poses(p.pose_a, p.pose_b, 1)},
                                         {.shape = b, .motion = ovoid_motion_make_poses(p.pose_b, p.pose_a, 1)}};
         ovoid_moving_body whole[2] = {{.compound = compound, .motion = moving[0].motion},
                                       {.shape = b, .motion = moving[1].motion}};
         static ovoid_step steps[100];
         ovoid_motion_options o = {.steps = steps, .capacity = 100};
-        ovoid_impact hit = ovoid_impact_find(&moving[0], &moving[1], 0, &o);
-        if (hit.step_count <= 100) sum += ovoid_impact_verify(&moving[0], &moving[1], 0, &hit, NULL, steps, NULL);
+        ovoid_impact hit = ovoid_impact_find(&(ovoid_moving_pair){moving[0], moving[1], 0}, &o);
+        if (hit.step_count <= 100)
+            sum += ovoid_impact_verify(&(ovoid_moving_pair){moving[0], moving[1], 0}, &hit,
+                                       &(ovoid_motion_basis){.steps = steps}, NULL);
         if (i % 20 == 0) {
-            sum += ovoid_approach_find(&moving[0], &moving[1], NULL).upper;
-            sum += (double)ovoid_body_impact_find(&whole[0], &whole[1], 0, NULL).tested;
+            sum += ovoid_approach_find(&(ovoid_moving_pair){moving[0], moving[1], 0}, NULL).upper;
+            sum += (double)ovoid_body_impact_find(&(ovoid_moving_body_pair){whole[0], whole[1], 0}, NULL).tested;
             sum += ovoid_moving_body_compute_box(&whole[0], 0, 1).min.x;
         }
         ovoid_ray ray = {{9, 1, 0}, {-1, 0.1, 0}, INFINITY, 0};
         sum += ovoid_shape_cast_ray(&(ovoid_posed_shape){a, p.pose_b}, &ray).iterations;
         sum += ovoid_shape_cast(&p, (ovoid_vec3){1, 2, 3}, 0, NULL).free_until;
         ovoid_body_pair bodies = {{.compound = compound, .pose = p.pose_a}, {.compound = compound, .pose = p.pose_b}};
-        ovoid_body_answer y = ovoid_body_depth(&bodies, NULL, NULL, &all);
-        sum += y.upper + (double)ovoid_body_verify(&bodies, &y, NULL, &all, NULL);
+        ovoid_body_answer y = ovoid_body_depth(&bodies, NULL, &(ovoid_body_evidence){.exclusions = &all});
+        sum += y.upper + (double)ovoid_body_verify(&bodies, &y, &(ovoid_body_basis){.exclusions = &all}, NULL);
     }
     CHECK(isfinite(sum));
     CHECK_EQ(allocations - before, 0);

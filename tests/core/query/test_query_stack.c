@@ -77,7 +77,9 @@ static void ask_distance(void) { answer = ovoid_distance(&pair, NULL, NULL); }
 static void ask_bounds(void) { answer = ovoid_pair_compute_bounds(&pair); }
 static void ask_depth(void) { answer = ovoid_depth(&pair, NULL, NULL, &cover); }
 /// Of the depth's answer: the query before them.
-static void ask_check(void) { CHECK(ovoid_answer_verify(&pair, &answer, NULL, &cover, NULL) == OVOID_OK); }
+static void ask_check(void) {
+    CHECK(ovoid_answer_verify(&pair, &answer, &(ovoid_answer_basis){.cover = &cover}, NULL) == OVOID_OK);
+}
 static void ask_gradient(void) { gradient = ovoid_answer_compute_gradient(&pair, &answer, &cover); }
 static void ask_round_gradient(void) { gradient = ovoid_answer_compute_gradient(&round_pair, &round_answer, NULL); }
 static void ask_smooth(void) { smooth = ovoid_pair_compute_smooth(&pair, 2); }
@@ -102,50 +104,70 @@ static void ask_depth_batch(void) {
     CHECK(ovoid_depth_batch(&batch, NULL) == OVOID_OK);
 }
 
-static void ask_impact(void) { impact = ovoid_impact_find(&moving[0], &moving[1], 0, &recording); }
+static void ask_impact(void) { impact = ovoid_impact_find(&(ovoid_moving_pair){moving[0], moving[1], 0}, &recording); }
 static void ask_impact_check(void) {
-    CHECK(ovoid_impact_verify(&moving[0], &moving[1], 0, &impact, NULL, steps, NULL) == OVOID_OK);
+    CHECK(ovoid_impact_verify(&(ovoid_moving_pair){moving[0], moving[1], 0}, &impact,
+                              &(ovoid_motion_basis){.steps = steps}, NULL) == OVOID_OK);
 }
-static void ask_approach(void) { approach = ovoid_approach_find(&moving[0], &moving[1], &recording); }
+static void ask_approach(void) {
+    approach = ovoid_approach_find(&(ovoid_moving_pair){moving[0], moving[1], 0}, &recording);
+}
 static void ask_approach_check(void) {
-    CHECK(ovoid_approach_verify(&moving[0], &moving[1], &approach, NULL, steps, NULL) == OVOID_OK);
+    CHECK(ovoid_approach_verify(&(ovoid_moving_pair){moving[0], moving[1], 0}, &approach,
+                                &(ovoid_motion_basis){.steps = steps}, NULL) == OVOID_OK);
 }
 static void ask_cast(void) { impact = ovoid_shape_cast(&pair, (ovoid_vec3){-2, 0.1, 0}, 0, NULL); }
 static void ask_ray(void) { ray_hit = ovoid_shape_cast_ray(&posed[1], &ray); }
 static void ask_box(void) { box = ovoid_moving_shape_compute_box(&moving[0], 0, 1); }
 
-static void ask_compound_collide(void) { compound_answer = ovoid_body_collide(&body_pair, NULL, NULL, &exclusions); }
-static void ask_compound_within(void) {
-    compound_answer = ovoid_body_within(&body_pair, 0.01, NULL, NULL, &exclusions);
+static void ask_compound_collide(void) {
+    compound_answer = ovoid_body_collide(&body_pair, NULL, &(ovoid_body_evidence){.exclusions = &exclusions});
 }
-static void ask_compound_distance(void) { compound_answer = ovoid_body_distance(&body_pair, NULL, NULL, &exclusions); }
-static void ask_compound_depth(void) { compound_answer = ovoid_body_depth(&body_pair, NULL, NULL, &exclusions); }
+static void ask_compound_within(void) {
+    compound_answer = ovoid_body_within(&body_pair, 0.01, NULL, &(ovoid_body_evidence){.exclusions = &exclusions});
+}
+static void ask_compound_distance(void) {
+    compound_answer = ovoid_body_distance(&body_pair, NULL, &(ovoid_body_evidence){.exclusions = &exclusions});
+}
+static void ask_compound_depth(void) {
+    compound_answer = ovoid_body_depth(&body_pair, NULL, &(ovoid_body_evidence){.exclusions = &exclusions});
+}
 static void ask_compound_check(void) {
-    CHECK(ovoid_body_verify(&body_pair, &compound_answer, NULL, &exclusions, NULL) == OVOID_OK);
+    CHECK(ovoid_body_verify(&body_pair, &compound_answer, &(ovoid_body_basis){.exclusions = &exclusions}, NULL) ==
+          OVOID_OK);
 }
 static void ask_compound_impact(void) {
-    compound_impact = ovoid_body_impact_find(&moving_bodies[0], &moving_bodies[1], 0, &recording);
+    compound_impact =
+        ovoid_body_impact_find(&(ovoid_moving_body_pair){moving_bodies[0], moving_bodies[1], 0}, &recording);
 }
 static void ask_compound_impact_check(void) {
-    CHECK(ovoid_body_impact_verify(&moving_bodies[0], &moving_bodies[1], 0, &compound_impact, NULL, steps, groups,
-                                   NULL) == OVOID_OK);
+    CHECK(ovoid_body_impact_verify(&(ovoid_moving_body_pair){moving_bodies[0], moving_bodies[1], 0}, &compound_impact,
+                                   &(ovoid_motion_basis){.steps = steps, .groups = groups}, NULL) == OVOID_OK);
 }
 static void ask_compound_box(void) { box = ovoid_moving_body_compute_box(&moving_bodies[0], 0, 1); }
 
-static void ask_solid_collide(void) { solid_answer = ovoid_body_collide(&solid_pair, NULL, NULL, &exclusions); }
-static void ask_solid_within(void) { solid_answer = ovoid_body_within(&solid_pair, 0.01, NULL, NULL, &exclusions); }
-static void ask_solid_distance(void) { solid_answer = ovoid_body_distance(&solid_pair, NULL, NULL, &exclusions); }
+static void ask_solid_collide(void) {
+    solid_answer = ovoid_body_collide(&solid_pair, NULL, &(ovoid_body_evidence){.exclusions = &exclusions});
+}
+static void ask_solid_within(void) {
+    solid_answer = ovoid_body_within(&solid_pair, 0.01, NULL, &(ovoid_body_evidence){.exclusions = &exclusions});
+}
+static void ask_solid_distance(void) {
+    solid_answer = ovoid_body_distance(&solid_pair, NULL, &(ovoid_body_evidence){.exclusions = &exclusions});
+}
 /// Of the distance, where there was room for its proof.
 static void ask_solid_check(void) {
-    ovoid_code code = ovoid_body_verify(&solid_pair, &solid_answer, NULL, &exclusions, NULL);
+    ovoid_code code =
+        ovoid_body_verify(&solid_pair, &solid_answer, &(ovoid_body_basis){.exclusions = &exclusions}, NULL);
     CHECK(code == OVOID_OK || exclusions.count > exclusions.capacity);
 }
 static void ask_solid_impact(void) {
-    compound_impact = ovoid_body_impact_find(&moving_solids[0], &moving_solids[1], 0, &recording);
+    compound_impact =
+        ovoid_body_impact_find(&(ovoid_moving_body_pair){moving_solids[0], moving_solids[1], 0}, &recording);
 }
 static void ask_solid_impact_check(void) {
-    (void)ovoid_body_impact_verify(&moving_solids[0], &moving_solids[1], 0, &compound_impact, NULL, steps, groups,
-                                   NULL);
+    (void)ovoid_body_impact_verify(&(ovoid_moving_body_pair){moving_solids[0], moving_solids[1], 0}, &compound_impact,
+                                   &(ovoid_motion_basis){.steps = steps, .groups = groups}, NULL);
 }
 
 static void ask_find_any(void) { CHECK(ovoid_world_find_any(world, NULL, &hit, NULL) == OVOID_OK); }

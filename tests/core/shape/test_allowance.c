@@ -126,7 +126,8 @@ static void check_pair(const trial *t) {
     x = ovoid_depth(&t->shapes, NULL, NULL, &cover);
     check_answer(t, &x, &truth, 0);
     ovoid_error e;
-    if (!CHECK(ovoid_answer_verify(&t->shapes, &x, NULL, &cover, &e) == OVOID_OK)) puts(e.message);
+    if (!CHECK(ovoid_answer_verify(&t->shapes, &x, &(ovoid_answer_basis){.cover = &cover}, &e) == OVOID_OK))
+        puts(e.message);
     CHECK_LE(x.upper - x.lower, t->width + slack);
     CHECK_EQ(ovoid_answer_get_distance(&x), x.lower);
     if (t->is_tight && ovoid_shape_get_allowance(t->a.shape).outside > 0) CHECK_LE(truth.lower, x.lower + slack);
@@ -138,7 +139,7 @@ static void check_pair(const trial *t) {
                  deep = ovoid_collide(&t->shapes, NULL, &x.proof);
     check_answer(t, &cold, &truth, 0);
     check_answer(t, &warm, &truth, 0);
-    CHECK(ovoid_answer_verify(&t->shapes, &cold, NULL, NULL, NULL) == OVOID_OK);
+    CHECK(ovoid_answer_verify(&t->shapes, &cold, NULL, NULL) == OVOID_OK);
     check_decided(&cold, &truth);
     // No earlier proof leaves open what a cold query proves.
     if (cold.status == OVOID_SEPARATED || cold.status == OVOID_OVERLAPPING) {
@@ -148,12 +149,12 @@ static void check_pair(const trial *t) {
 
     x = ovoid_distance(&t->shapes, NULL, &cold.proof);
     check_answer(t, &x, &truth, 0);
-    CHECK(ovoid_answer_verify(&t->shapes, &x, NULL, NULL, NULL) == OVOID_OK);
+    CHECK(ovoid_answer_verify(&t->shapes, &x, NULL, NULL) == OVOID_OK);
     if (truth.lower > t->width + slack) CHECK_LE(x.upper - x.lower, t->width + slack);
 
     x = ovoid_pair_compute_bounds(&t->shapes);
     check_answer(t, &x, &truth, 0);
-    CHECK(ovoid_answer_verify(&t->shapes, &x, NULL, NULL, NULL) == OVOID_OK);
+    CHECK(ovoid_answer_verify(&t->shapes, &x, NULL, NULL) == OVOID_OK);
 
     double margin = fmax(truth.lower, 0) + 0.5 * t->width;
     x = ovoid_within(&t->shapes, margin, NULL, NULL);
@@ -240,9 +241,8 @@ static void check_shape_beside(const assembly *b, ovoid_pose to, double by, uint
     ovoid_pose at = {random_vec3(s, 5), random_quat(s)};
     ovoid_body_pair shapes = {{.shape = one.shape, .pose = at}, {.compound = b->shape, .pose = to}},
                     bodies = {{.shape = one.body, .pose = at}, {.compound = b->body, .pose = to}};
-    ovoid_body_answer truth = ovoid_body_depth(&bodies, NULL, NULL, NULL),
-                      x = ovoid_body_depth(&shapes, NULL, NULL, NULL),
-                      y = ovoid_body_collide(&shapes, NULL, NULL, NULL);
+    ovoid_body_answer truth = ovoid_body_depth(&bodies, NULL, NULL), x = ovoid_body_depth(&shapes, NULL, NULL),
+                      y = ovoid_body_collide(&shapes, NULL, NULL);
     CHECK_LE(x.lower, truth.upper);
     CHECK_LE(truth.lower, x.upper);
     CHECK_LE(y.lower, truth.upper);
@@ -262,18 +262,19 @@ static void test_compounds(void) {
         ovoid_exclusion items[256];
         static ovoid_cover cover;
         ovoid_exclusions all = {.items = items, .capacity = 256, .cover = &cover};
-        ovoid_body_answer truth = ovoid_body_depth(&bodies, NULL, NULL, NULL),
-                          x = ovoid_body_depth(&shapes, NULL, NULL, &all);
+        ovoid_body_answer truth = ovoid_body_depth(&bodies, NULL, NULL),
+                          x = ovoid_body_depth(&shapes, NULL, &(ovoid_body_evidence){.exclusions = &all});
         CHECK_LE(x.lower, truth.upper);
         CHECK_LE(truth.lower, x.upper);
         CHECK_LE(x.upper - x.lower, 8 * by + 1e-6);
-        CHECK(all.count <= all.capacity && ovoid_body_verify(&shapes, &x, NULL, &all, NULL) == OVOID_OK);
-        ovoid_body_answer y = ovoid_body_collide(&shapes, NULL, NULL, &all);
+        CHECK(all.count <= all.capacity &&
+              ovoid_body_verify(&shapes, &x, &(ovoid_body_basis){.exclusions = &all}, NULL) == OVOID_OK);
+        ovoid_body_answer y = ovoid_body_collide(&shapes, NULL, &(ovoid_body_evidence){.exclusions = &all});
         CHECK_LE(y.lower, truth.upper);
         CHECK_LE(truth.lower, y.upper);
-        CHECK(ovoid_body_verify(&shapes, &y, NULL, &all, NULL) == OVOID_OK);
+        CHECK(ovoid_body_verify(&shapes, &y, &(ovoid_body_basis){.exclusions = &all}, NULL) == OVOID_OK);
         check_decided(&y.deciding, &truth.deciding);
-        y = ovoid_body_within(&shapes, 0.5, NULL, NULL, NULL);
+        y = ovoid_body_within(&shapes, 0.5, NULL, NULL);
         int is_within = ovoid_answer_is_within(&y.deciding, 0.5);
         if (is_within == 0) CHECK(truth.upper > 0.5);
         if (is_within == 1) CHECK(truth.lower <= 0.5);
@@ -296,14 +297,14 @@ static void test_mixed(void) {
     ovoid_compound *c = ovoid_compound_create(parts, 2, NULL, NULL);
     ovoid_body_pair pair = {{.compound = c, .pose = {{0, 0, 0}, {1, 0, 0, 0}}},
                             {.shape = box, .pose = {{1.9, 0, 0}, {1, 0, 0, 0}}}};
-    ovoid_body_answer x = ovoid_body_depth(&pair, NULL, NULL, NULL);
+    ovoid_body_answer x = ovoid_body_depth(&pair, NULL, NULL);
     CHECK(x.status == OVOID_OVERLAPPING);
     CHECK_LE(x.upper, -0.1 + 1e-8);
     pair.b.pose.position.x = 3;
-    x = ovoid_body_distance(&pair, NULL, NULL, NULL);
+    x = ovoid_body_distance(&pair, NULL, NULL);
     CHECK_NEAR(x.upper, 1, 1e-8);
     CHECK_NEAR(x.lower, 0.2, 1e-8);
-    x = ovoid_body_within(&pair, 1.0001, NULL, NULL, NULL);
+    x = ovoid_body_within(&pair, 1.0001, NULL, NULL);
     CHECK_EQ(ovoid_answer_is_within(&x.deciding, 1.0001), 1);
     ovoid_compound_destroy(c);
     ovoid_shape_destroy(ball);
@@ -322,14 +323,14 @@ static void test_exclusion(void) {
                             {.compound = c, .pose = {{apart, 0, 0}, {1, 0, 0, 0}}}};
     ovoid_exclusion items[8];
     ovoid_exclusions all = {.items = items, .capacity = 8};
-    ovoid_body_answer x = ovoid_body_collide(&pair, NULL, NULL, &all);
+    ovoid_body_answer x = ovoid_body_collide(&pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
     if (CHECK(x.status == OVOID_SEPARATED && all.count > 0 && all.count <= 8)) {
         ovoid_exclusion e = {0, 2, 0, 2, {1, 0, 0}, {0, 0, 0}, apart - 2 * (radius + outside) - 1e-12};
         all.count = 1;
         items[0] = e;
-        CHECK(ovoid_body_verify(&pair, &x, NULL, &all, NULL) == OVOID_OK);
+        CHECK(ovoid_body_verify(&pair, &x, &(ovoid_body_basis){.exclusions = &all}, NULL) == OVOID_OK);
         items[0].lower += 0.5 * outside;
-        CHECK(ovoid_body_verify(&pair, &x, NULL, &all, NULL) == OVOID_ERROR_PROOF);
+        CHECK(ovoid_body_verify(&pair, &x, &(ovoid_body_basis){.exclusions = &all}, NULL) == OVOID_ERROR_PROOF);
     }
     ovoid_compound_destroy(c);
     ovoid_shape_destroy(ball);
@@ -410,18 +411,24 @@ static void test_motions(void) {
                            true_b = {t.b.body, way, none};
         static ovoid_step steps[4096];
         ovoid_motion_options o = {.steps = steps, .capacity = 4096};
-        ovoid_impact truth = ovoid_impact_find(&true_a, &true_b, 0, NULL), x = ovoid_impact_find(&a, &b, 0, &o);
+        ovoid_impact truth = ovoid_impact_find(&(ovoid_moving_pair){true_a, true_b, 0}, NULL),
+                     x = ovoid_impact_find(&(ovoid_moving_pair){a, b, 0}, &o);
         double hit = truth.status == OVOID_IMPACT_HIT ? truth.hit_at : INFINITY;
         CHECK_LE(x.free_until, fmin(hit, 1));
         if (x.status == OVOID_IMPACT_HIT) CHECK(truth.status != OVOID_IMPACT_FREE && truth.free_until <= x.hit_at);
-        if (x.step_count <= 4096) CHECK(ovoid_impact_verify(&a, &b, 0, &x, NULL, steps, NULL) == OVOID_OK);
+        if (x.step_count <= 4096)
+            CHECK(ovoid_impact_verify(&(ovoid_moving_pair){a, b, 0}, &x, &(ovoid_motion_basis){.steps = steps}, NULL) ==
+                  OVOID_OK);
 
-        ovoid_approach nearest = ovoid_approach_find(&a, &b, &o), real = ovoid_approach_find(&true_a, &true_b, NULL);
+        ovoid_approach nearest = ovoid_approach_find(&(ovoid_moving_pair){a, b, 0}, &o),
+                       real = ovoid_approach_find(&(ovoid_moving_pair){true_a, true_b, 0}, NULL);
         CHECK_LE(nearest.lower, real.upper);
         CHECK_LE(real.lower, nearest.upper);
         if (nearest.limit == OVOID_LIMIT_NONE && nearest.status == OVOID_SEPARATED)
             CHECK_LE(nearest.upper - nearest.lower, t.width + 1e-4);
-        if (nearest.step_count <= 4096) CHECK(ovoid_approach_verify(&a, &b, &nearest, NULL, steps, NULL) == OVOID_OK);
+        if (nearest.step_count <= 4096)
+            CHECK(ovoid_approach_verify(&(ovoid_moving_pair){a, b, 0}, &nearest, &(ovoid_motion_basis){.steps = steps},
+                                        NULL) == OVOID_OK);
 
         // The box holds the true body: its enclosing box along the axes at some times.
         ovoid_box box = ovoid_moving_shape_compute_box(&b, 0, 1);

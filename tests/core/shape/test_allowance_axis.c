@@ -59,7 +59,8 @@ static void check_holds(const rest *r, const ovoid_answer *x, const ovoid_cover 
     ovoid_error e = {.message = ""};
     CHECK_LE(x->lower, r->truth + 1e-14 * r->scale);
     CHECK_LE(r->truth - 1e-14 * r->scale, x->upper);
-    if (!CHECK_EQ(ovoid_answer_verify(&r->pair, x, NULL, cover, &e), OVOID_OK)) printf("  %s\n", e.message);
+    if (!CHECK_EQ(ovoid_answer_verify(&r->pair, x, &(ovoid_answer_basis){.cover = cover}, &e), OVOID_OK))
+        printf("  %s\n", e.message);
 }
 
 // A body with the same polyhedron and another axis, or none, is not shown by the answer; unless it claims no more than
@@ -73,14 +74,14 @@ static void check_other_axis(const rest *r, const ovoid_answer *x, const ovoid_c
         ovoid_pair p = r->pair;
         if (p.shape_a == r->body) p.shape_a = liar;
         if (p.shape_b == r->body) p.shape_b = liar;
-        CHECK_EQ(ovoid_answer_verify(&p, x, NULL, cover, NULL), OVOID_ERROR_PROOF);
+        CHECK_EQ(ovoid_answer_verify(&p, x, &(ovoid_answer_basis){.cover = cover}, NULL), OVOID_ERROR_PROOF);
         ovoid_shape_destroy(liar);
     }
     ovoid_answer y = *x;
     y.lower += 1e-8 * r->scale;
     y.upper = fmax(y.lower, y.upper);
     y.status = y.lower > 0 ? OVOID_SEPARATED : y.upper < 0 ? OVOID_OVERLAPPING : OVOID_TOUCHING;
-    CHECK_EQ(ovoid_answer_verify(&r->pair, &y, NULL, cover, NULL), OVOID_ERROR_PROOF);
+    CHECK_EQ(ovoid_answer_verify(&r->pair, &y, &(ovoid_answer_basis){.cover = cover}, NULL), OVOID_ERROR_PROOF);
 }
 
 // On its base: decided, however near.
@@ -203,12 +204,14 @@ static ovoid_answer ask_bodies(const ovoid_body_pair *pair, int has_solid) {
     ovoid_exclusions all = {.items = items, .capacity = 4096};
     ovoid_error e = {.message = ""};
     if (!has_solid) {
-        ovoid_body_answer x = ovoid_body_distance(pair, NULL, NULL, &all);
-        if (!CHECK_EQ(ovoid_body_verify(pair, &x, NULL, &all, &e), OVOID_OK)) printf("  %s\n", e.message);
+        ovoid_body_answer x = ovoid_body_distance(pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
+        if (!CHECK_EQ(ovoid_body_verify(pair, &x, &(ovoid_body_basis){.exclusions = &all}, &e), OVOID_OK))
+            printf("  %s\n", e.message);
         return x.deciding;
     }
-    ovoid_body_answer x = ovoid_body_distance(pair, NULL, NULL, &all);
-    if (!CHECK_EQ(ovoid_body_verify(pair, &x, NULL, &all, &e), OVOID_OK)) printf("  %s\n", e.message);
+    ovoid_body_answer x = ovoid_body_distance(pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
+    if (!CHECK_EQ(ovoid_body_verify(pair, &x, &(ovoid_body_basis){.exclusions = &all}, &e), OVOID_OK))
+        printf("  %s\n", e.message);
     return (ovoid_answer){.status = x.status, .limit = x.limit, .lower = x.lower, .upper = x.upper};
 }
 
@@ -328,9 +331,11 @@ static void test_motions(void) {
                                                            i % 3 == 2 ? (vec3){0, 0, 3} : vec3_scale(axis, rate), 1),
                                 none};
         ovoid_motion_options o = {.steps = steps, .capacity = 4096};
-        ovoid_impact x = ovoid_impact_find(&a, &b, 0, &o);
+        ovoid_impact x = ovoid_impact_find(&(ovoid_moving_pair){a, b, 0}, &o);
         ovoid_error e = {.message = ""};
-        if (x.step_count <= 4096 && !CHECK_EQ(ovoid_impact_verify(&a, &b, 0, &x, NULL, steps, &e), OVOID_OK))
+        if (x.step_count <= 4096 &&
+            !CHECK_EQ(ovoid_impact_verify(&(ovoid_moving_pair){a, b, 0}, &x, &(ovoid_motion_basis){.steps = steps}, &e),
+                      OVOID_OK))
             printf("  %s\n", e.message);
         if (i % 3 != 1) {
             CHECK_EQ(x.status, OVOID_IMPACT_FREE);

@@ -395,7 +395,7 @@ static void check_other_triangles(void) {
         ovoid_answer answer = ovoid_distance(&pair, NULL, NULL);
         CHECK_LE(1, answer.upper);
         CHECK_NEAR(answer.upper, 1, 1e-11);
-        CHECK(ovoid_answer_verify(&pair, &answer, NULL, NULL, NULL) == OVOID_OK);
+        CHECK(ovoid_answer_verify(&pair, &answer, NULL, NULL) == OVOID_OK);
     }
     ovoid_shape_destroy(t);
     free(f.bytes);

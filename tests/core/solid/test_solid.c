@@ -9,7 +9,8 @@ static ovoid_exclusion items[CAPACITY];
 static void check_answer(const ovoid_body_pair *pair, const ovoid_body_answer *x, const ovoid_exclusions *all) {
     ovoid_error error = {.message = ""};
     CHECK(all->count <= all->capacity);
-    if (!CHECK_EQ(ovoid_body_verify(pair, x, NULL, all, &error), OVOID_OK)) printf("  %s\n", error.message);
+    if (!CHECK_EQ(ovoid_body_verify(pair, x, &(ovoid_body_basis){.exclusions = all}, &error), OVOID_OK))
+        printf("  %s\n", error.message);
 }
 
 static void check_sign(const ovoid_body_answer *x, solid_truth t, double slack) {
@@ -24,18 +25,18 @@ static void check_sign(const ovoid_body_answer *x, solid_truth t, double slack) 
 static void check_pair(const ovoid_body_pair *pair, solid_truth t, double size, uint64_t *s) {
     ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
     double slack = 1e-12 * size, tolerance = 1.01e-9 * size;
-    ovoid_body_answer distance = ovoid_body_distance(pair, NULL, NULL, &all);
+    ovoid_body_answer distance = ovoid_body_distance(pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
     check_answer(pair, &distance, &all);
     check_sign(&distance, t, slack);
     if (distance.status == OVOID_SEPARATED) CHECK_LE(distance.upper - distance.lower, tolerance);
     if (distance.status == OVOID_SEPARATED) CHECK_EQ(distance.limit, OVOID_LIMIT_NONE);
 
-    ovoid_body_answer collide = ovoid_body_collide(pair, NULL, NULL, &all);
+    ovoid_body_answer collide = ovoid_body_collide(pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
     check_answer(pair, &collide, &all);
     check_sign(&collide, t, slack);
 
     double margin = t.surfaces * random_uniform(s, 0.5, 2);
-    ovoid_body_answer within = ovoid_body_within(pair, margin, NULL, NULL, &all);
+    ovoid_body_answer within = ovoid_body_within(pair, margin, NULL, &(ovoid_body_evidence){.exclusions = &all});
     check_answer(pair, &within, &all);
     int is = ovoid_body_answer_is_within(&within, margin);
     if (!t.is_common && t.surfaces > margin + tolerance) CHECK_EQ(is, 0);
@@ -43,18 +44,19 @@ static void check_pair(const ovoid_body_pair *pair, solid_truth t, double size, 
 
     // From the last answer, and from nonsense: the same truth.
     ovoid_body_proof earlier = {distance.part_a, distance.part_b, distance.deciding.proof};
-    ovoid_body_answer again = ovoid_body_distance(pair, NULL, &earlier, &all);
+    ovoid_body_answer again =
+        ovoid_body_distance(pair, NULL, &(ovoid_body_evidence){.earlier = &earlier, .exclusions = &all});
     check_answer(pair, &again, &all);
     check_sign(&again, t, slack);
     earlier.part_a = (uint32_t)(random_next(s) % 200), earlier.part_b = (uint32_t)(random_next(s) % 200);
-    again = ovoid_body_collide(pair, NULL, &earlier, &all);
+    again = ovoid_body_collide(pair, NULL, &(ovoid_body_evidence){.earlier = &earlier, .exclusions = &all});
     check_answer(pair, &again, &all);
     check_sign(&again, t, slack);
 
     // A cap below the distance: proven farther.
     ovoid_options options = {.cap = 0.5 * t.surfaces};
     if (t.is_common || t.surfaces <= tolerance) return;
-    again = ovoid_body_distance(pair, &options, NULL, &all);
+    again = ovoid_body_distance(pair, &options, &(ovoid_body_evidence){.exclusions = &all});
     check_answer(pair, &again, &all);
     CHECK_LE(options.cap, again.lower);
 }
@@ -143,16 +145,16 @@ static void check_peg(void) {
         ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
         ovoid_body_pair pair = {{.solid = ring, .pose = ovoid_pose_make_identity()},
                                 {.shape = peg, .pose = ovoid_pose_make_identity()}};
-        ovoid_body_answer x = ovoid_body_distance(&pair, NULL, NULL, &all);
+        ovoid_body_answer x = ovoid_body_distance(&pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
         check_answer(&pair, &x, &all);
         CHECK_EQ(x.status, OVOID_SEPARATED);
         CHECK_NEAR(x.lower, 5, 0.01);
         CHECK_LE(x.upper - x.lower, 1e-7);
         // Moved by its clearance and more it touches, then overlaps.
         pair.b.pose.position.x = 4.9;
-        CHECK_EQ(ovoid_body_collide(&pair, NULL, NULL, &all).status, OVOID_SEPARATED);
+        CHECK_EQ(ovoid_body_collide(&pair, NULL, &(ovoid_body_evidence){.exclusions = &all}).status, OVOID_SEPARATED);
         pair.b.pose.position.x = 5.1;
-        CHECK_EQ(ovoid_body_collide(&pair, NULL, NULL, &all).status, OVOID_OVERLAPPING);
+        CHECK_EQ(ovoid_body_collide(&pair, NULL, &(ovoid_body_evidence){.exclusions = &all}).status, OVOID_OVERLAPPING);
     }
     ovoid_solid_destroy(ring);
     ovoid_shape_destroy(peg);
@@ -201,9 +203,10 @@ static void check_flush(void) {
         ovoid_body_pair pair = {{.solid = corner, .pose = here}, {.shape = box, .pose = there}};
         ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
         for (int which = 0; which < 3; which++) {
-            ovoid_body_answer x = which == 0   ? ovoid_body_distance(&pair, NULL, NULL, &all)
-                                  : which == 1 ? ovoid_body_collide(&pair, NULL, NULL, &all)
-                                               : ovoid_body_within(&pair, 0.25, NULL, NULL, &all);
+            ovoid_body_answer x =
+                which == 0   ? ovoid_body_distance(&pair, NULL, &(ovoid_body_evidence){.exclusions = &all})
+                : which == 1 ? ovoid_body_collide(&pair, NULL, &(ovoid_body_evidence){.exclusions = &all})
+                             : ovoid_body_within(&pair, 0.25, NULL, &(ovoid_body_evidence){.exclusions = &all});
             check_answer(&pair, &x, &all);
             CHECK_EQ(x.status == OVOID_SEPARATED, !meet[1]);
             CHECK(x.status != OVOID_OVERLAPPING || meet[0]);
@@ -241,11 +244,14 @@ static void check_warm(void) {
             if (k % 2)
                 earlier.part_a = (uint32_t)(random_next(&s) % 40), earlier.part_b = (uint32_t)(random_next(&s) % 40);
             ovoid_body_answer cold[2], warm[2];
-            cold[0] = ovoid_body_distance(&pair, &o, NULL, NULL), cold[1] = ovoid_body_collide(&pair, &o, NULL, NULL);
+            cold[0] = ovoid_body_distance(&pair, &o, NULL), cold[1] = ovoid_body_collide(&pair, &o, NULL);
             ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
-            warm[0] = ovoid_body_distance(&pair, &o, &earlier, &all);
-            if (all.count <= all.capacity) CHECK_EQ(ovoid_body_verify(&pair, &warm[0], &o, &all, NULL), OVOID_OK);
-            warm[1] = ovoid_body_collide(&pair, &o, &earlier, NULL);
+            warm[0] = ovoid_body_distance(&pair, &o, &(ovoid_body_evidence){.earlier = &earlier, .exclusions = &all});
+            if (all.count <= all.capacity)
+                CHECK_EQ(
+                    ovoid_body_verify(&pair, &warm[0], &(ovoid_body_basis){.options = &o, .exclusions = &all}, NULL),
+                    OVOID_OK);
+            warm[1] = ovoid_body_collide(&pair, &o, &(ovoid_body_evidence){.earlier = &earlier});
             for (int q = 0; q < 2; q++) {
                 if (!CHECK(!is_worse(&warm[q], &cold[q])))
                     printf("  %d, %u iterations: %d [%.17g, %.17g], cold %d %d [%.17g, %.17g]\n", q, o.iterations,

@@ -72,7 +72,7 @@ static truth find_truth(const mesh *a, const ovoid_pose *pose_a, const assembly 
 
 static int is_proven(const ovoid_body_pair *pair, const ovoid_body_answer *x, const ovoid_exclusions *all) {
     ovoid_error error = {.message = ""};
-    ovoid_code code = ovoid_body_verify(pair, x, NULL, all, &error);
+    ovoid_code code = ovoid_body_verify(pair, x, &(ovoid_body_basis){.exclusions = all}, &error);
     if (code != OVOID_OK) printf("  %s\n", error.message);
     return code == OVOID_OK;
 }
@@ -93,7 +93,7 @@ static void check_parts(const ovoid_body_pair *pair, const assembly *m, const ov
         ovoid_body_pair one = *pair;
         ovoid_body part = {.shape = m->shapes[k], .pose = ovoid_pose_compute_product(body, &m->parts[k].pose)};
         *(pair->a.compound ? &one.a : &one.b) = part;
-        ovoid_body_answer y = ovoid_body_distance(&one, NULL, NULL, NULL);
+        ovoid_body_answer y = ovoid_body_distance(&one, NULL, NULL);
         if (y.status == OVOID_OVERLAPPING) CHECK_EQ(x->status, OVOID_OVERLAPPING);
         lower = fmin(lower, y.lower);
         uint32_t decides = pair->a.compound ? x->part_a : x->part_b;
@@ -105,18 +105,19 @@ static void check_parts(const ovoid_body_pair *pair, const assembly *m, const ov
 static void check_pair(const ovoid_body_pair *pair, const assembly *m, truth t, double size, uint64_t *s) {
     ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
     double slack = 1e-12 * size;
-    ovoid_body_answer x = ovoid_body_distance(pair, NULL, NULL, &all);
+    ovoid_body_answer x = ovoid_body_distance(pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
     CHECK(all.count <= all.capacity && is_proven(pair, &x, &all));
     check_sign(&x, t, slack);
     if (x.status == OVOID_SEPARATED) CHECK_LE(x.upper - x.lower, 1.01e-9 * size);
     check_parts(pair, m, &x, 2e-9 * size);
 
     ovoid_body_proof earlier = {x.part_a, x.part_b, x.deciding.proof};
-    ovoid_body_answer y = ovoid_body_collide(pair, NULL, &earlier, &all);
+    ovoid_body_answer y =
+        ovoid_body_collide(pair, NULL, &(ovoid_body_evidence){.earlier = &earlier, .exclusions = &all});
     CHECK(is_proven(pair, &y, &all));
     check_sign(&y, t, slack);
     double margin = t.surfaces * random_uniform(s, 0.5, 2);
-    y = ovoid_body_within(pair, margin, NULL, NULL, &all);
+    y = ovoid_body_within(pair, margin, NULL, &(ovoid_body_evidence){.exclusions = &all});
     CHECK(is_proven(pair, &y, &all));
     if (!t.is_common && fabs(t.surfaces - margin) > 2e-9 * size)
         CHECK_EQ(ovoid_body_answer_is_within(&y, margin), t.surfaces < margin);
@@ -131,26 +132,27 @@ static void check_altered(const ovoid_body_pair *pair, const ovoid_body_answer *
     } else {
         y.status = OVOID_SEPARATED;
     }
-    CHECK(ovoid_body_verify(pair, &y, NULL, all, NULL) == OVOID_ERROR_PROOF);
+    CHECK(ovoid_body_verify(pair, &y, &(ovoid_body_basis){.exclusions = all}, NULL) == OVOID_ERROR_PROOF);
     y = *x;
     y.lower += 0.01;
     y.deciding.lower += 0.01;
-    CHECK(ovoid_body_verify(pair, &y, NULL, all, NULL) == OVOID_ERROR_PROOF);
+    CHECK(ovoid_body_verify(pair, &y, &(ovoid_body_basis){.exclusions = all}, NULL) == OVOID_ERROR_PROOF);
     if (x->inside) {
         y = *x;
         y.inside = x->inside == OVOID_BODY_A_INSIDE ? OVOID_BODY_B_INSIDE : OVOID_BODY_A_INSIDE;
-        CHECK(ovoid_body_verify(pair, &y, NULL, all, NULL) == OVOID_ERROR_PROOF);
+        CHECK(ovoid_body_verify(pair, &y, &(ovoid_body_basis){.exclusions = all}, NULL) == OVOID_ERROR_PROOF);
         y = *x;
         y.component = 1000;
-        CHECK(ovoid_body_verify(pair, &y, NULL, all, NULL) == OVOID_ERROR_PROOF);
+        CHECK(ovoid_body_verify(pair, &y, &(ovoid_body_basis){.exclusions = all}, NULL) == OVOID_ERROR_PROOF);
     }
     if (all->count == 0) return;
     ovoid_exclusion kept = all->items[all->count - 1];
     all->count--;
-    CHECK(ovoid_body_verify(pair, x, NULL, all, NULL) == OVOID_ERROR_PROOF);
+    CHECK(ovoid_body_verify(pair, x, &(ovoid_body_basis){.exclusions = all}, NULL) == OVOID_ERROR_PROOF);
     all->count++;
     all->items[all->count - 1].normal = (ovoid_vec3){-kept.normal.x, -kept.normal.y, -kept.normal.z};
-    if (kept.lower > 0) CHECK(ovoid_body_verify(pair, x, NULL, all, NULL) == OVOID_ERROR_PROOF);
+    if (kept.lower > 0)
+        CHECK(ovoid_body_verify(pair, x, &(ovoid_body_basis){.exclusions = all}, NULL) == OVOID_ERROR_PROOF);
     all->items[all->count - 1] = kept;
 }
 
@@ -181,7 +183,7 @@ static void check_random(int rounds, double scale, double far, uint64_t seed) {
         ovoid_body_pair turned = {pair.b, pair.a};
         check_pair(&turned, &b, t, size, &s);
         ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
-        ovoid_body_answer x = ovoid_body_distance(&pair, NULL, NULL, &all);
+        ovoid_body_answer x = ovoid_body_distance(&pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
         if (scale == 1 && far == 0 && t.surfaces > 0.05) check_altered(&pair, &x, &all);
         ovoid_solid_destroy(solid);
         destroy(&b);
@@ -202,9 +204,9 @@ static void check_compounds(int rounds) {
         ovoid_body_pair pair = {{.compound = a.compound, .pose = {{0, 0, 0}, random_quat(&s)}},
                                 {.compound = b.compound, .pose = {random_vec3(&s, 3), random_quat(&s)}}};
         ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
-        ovoid_body_answer x = ovoid_body_distance(&pair, NULL, NULL, &all);
+        ovoid_body_answer x = ovoid_body_distance(&pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
         CHECK(is_proven(&pair, &x, &all));
-        ovoid_answer y = ovoid_body_distance(&pair, NULL, NULL, NULL).deciding;
+        ovoid_answer y = ovoid_body_distance(&pair, NULL, NULL).deciding;
         CHECK_EQ(x.status, y.status);
         if (x.status == OVOID_SEPARATED) CHECK_NEAR(x.upper, y.upper, 1e-7);
         destroy(&a);
@@ -229,15 +231,15 @@ static void check_refusals(void) {
                                {.shape = b.shapes[0], .compound = b.compound, .pose = pose}};
     for (int i = 0; i < 4; i++) {
         ovoid_body_pair first = {bad[i], one}, second = {one, bad[i]};
-        ovoid_body_answer x = ovoid_body_distance(&first, NULL, NULL, NULL);
+        ovoid_body_answer x = ovoid_body_distance(&first, NULL, NULL);
         CHECK_EQ(x.limit, OVOID_LIMIT_SHAPE_A);
         CHECK(is_proven(&first, &x, NULL));
-        CHECK_EQ(ovoid_body_collide(&second, NULL, NULL, NULL).limit, OVOID_LIMIT_SHAPE_B);
-        CHECK_EQ(ovoid_body_distance(&first, NULL, NULL, NULL).limit, OVOID_LIMIT_SHAPE_A);
+        CHECK_EQ(ovoid_body_collide(&second, NULL, NULL).limit, OVOID_LIMIT_SHAPE_B);
+        CHECK_EQ(ovoid_body_distance(&first, NULL, NULL).limit, OVOID_LIMIT_SHAPE_A);
     }
     ovoid_body_pair with = {one, {.compound = b.compound, .pose = pose}};
     with.b.pose.position.x = 2 * OVOID_LENGTH_MAX;
-    CHECK_EQ(ovoid_body_collide(&with, NULL, NULL, NULL).limit, OVOID_LIMIT_POSE_B);
+    CHECK_EQ(ovoid_body_collide(&with, NULL, NULL).limit, OVOID_LIMIT_POSE_B);
     ovoid_solid_destroy(solid);
     destroy(&b);
     mesh_clear(&a);

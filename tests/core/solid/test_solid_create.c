@@ -238,14 +238,14 @@ static void check_slivers(void) {
     for (int i = 0; i < 2; i++) {
         ovoid_body_pair pair = {{.solid = i ? tiny : s, .pose = ovoid_pose_make_identity()},
                                 {.solid = tiny, .pose = {{0.5, 0, 0.25}, {1, 2, 3, 4}}}};
-        ovoid_body_answer x = ovoid_body_distance(&pair, NULL, NULL, &all);
+        ovoid_body_answer x = ovoid_body_distance(&pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
         CHECK_EQ(x.status, OVOID_SEPARATED);
         CHECK_NEAR(x.lower, i ? sqrt(0.3125) : 0.25, 1e-9);
-        CHECK_EQ(ovoid_body_verify(&pair, &x, NULL, &all, &error), OVOID_OK);
+        CHECK_EQ(ovoid_body_verify(&pair, &x, &(ovoid_body_basis){.exclusions = &all}, &error), OVOID_OK);
         pair.b.pose.position = (ovoid_vec3){0, 0, 0};
-        x = ovoid_body_distance(&pair, NULL, NULL, &all);
+        x = ovoid_body_distance(&pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
         CHECK(x.lower <= 0 && x.upper >= 0 && x.status != OVOID_SEPARATED);
-        CHECK_EQ(ovoid_body_verify(&pair, &x, NULL, &all, &error), OVOID_OK);
+        CHECK_EQ(ovoid_body_verify(&pair, &x, &(ovoid_body_basis){.exclusions = &all}, &error), OVOID_OK);
     }
     ovoid_solid_destroy(s);
     ovoid_solid_destroy(tiny);
@@ -258,60 +258,60 @@ static void check_altered(void) {
     ovoid_exclusions all = {items, 4096, 0, NULL};
     ovoid_body_pair pair = {{.solid = s, .pose = ovoid_pose_make_identity()},
                             {.solid = s, .pose = {{2.5, 0.25, 0.125}, {9, 1, 2, 3}}}};
-    const ovoid_body_answer x = ovoid_body_distance(&pair, NULL, NULL, &all);
-    CHECK_EQ(ovoid_body_verify(&pair, &x, NULL, &all, NULL), OVOID_OK);
+    const ovoid_body_answer x = ovoid_body_distance(&pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
+    CHECK_EQ(ovoid_body_verify(&pair, &x, &(ovoid_body_basis){.exclusions = &all}, NULL), OVOID_OK);
     ovoid_body_answer y = x;
     y.lower = y.deciding.lower += 1e-6, y.upper = y.deciding.upper += 1e-6;
-    CHECK_EQ(ovoid_body_verify(&pair, &y, NULL, &all, NULL), OVOID_ERROR_PROOF);
+    CHECK_EQ(ovoid_body_verify(&pair, &y, &(ovoid_body_basis){.exclusions = &all}, NULL), OVOID_ERROR_PROOF);
     y = x, y.upper = y.deciding.upper -= 1e-6, y.lower = y.deciding.lower -= 1e-6;
-    CHECK_EQ(ovoid_body_verify(&pair, &y, NULL, &all, NULL), OVOID_ERROR_PROOF);
+    CHECK_EQ(ovoid_body_verify(&pair, &y, &(ovoid_body_basis){.exclusions = &all}, NULL), OVOID_ERROR_PROOF);
     y = x, y.lower += 1e-12;
-    CHECK_EQ(ovoid_body_verify(&pair, &y, NULL, &all, NULL), OVOID_ERROR_PROOF);
+    CHECK_EQ(ovoid_body_verify(&pair, &y, &(ovoid_body_basis){.exclusions = &all}, NULL), OVOID_ERROR_PROOF);
     y = x, y.status = OVOID_OVERLAPPING, y.upper = -x.lower, y.lower = -9, y.inside = OVOID_BODY_A_INSIDE;
     y.parting = x.deciding.normal;
-    CHECK_EQ(ovoid_body_verify(&pair, &y, NULL, &all, NULL), OVOID_ERROR_PROOF);
+    CHECK_EQ(ovoid_body_verify(&pair, &y, &(ovoid_body_basis){.exclusions = &all}, NULL), OVOID_ERROR_PROOF);
     y = x, y.part_a = 12;
-    CHECK_EQ(ovoid_body_verify(&pair, &y, NULL, &all, NULL), OVOID_ERROR_PROOF);
+    CHECK_EQ(ovoid_body_verify(&pair, &y, &(ovoid_body_basis){.exclusions = &all}, NULL), OVOID_ERROR_PROOF);
     for (size_t i = 0; i < all.count; i++) {
         // Without one of them there is a hole; with more than it shows it is refused.
         ovoid_exclusion kept = items[i], last = items[all.count - 1];
         items[i].lower += 1e-3 + fabs(items[i].lower);
-        CHECK_EQ(ovoid_body_verify(&pair, &x, NULL, &all, NULL), OVOID_ERROR_PROOF);
+        CHECK_EQ(ovoid_body_verify(&pair, &x, &(ovoid_body_basis){.exclusions = &all}, NULL), OVOID_ERROR_PROOF);
         items[i] = kept;
         memmove(items + i, items + i + 1, (all.count - i - 1) * sizeof *items);
         all.count--;
-        CHECK_EQ(ovoid_body_verify(&pair, &x, NULL, &all, NULL), OVOID_ERROR_PROOF);
+        CHECK_EQ(ovoid_body_verify(&pair, &x, &(ovoid_body_basis){.exclusions = &all}, NULL), OVOID_ERROR_PROOF);
         all.count++;
         memmove(items + i + 1, items + i, (all.count - i - 1) * sizeof *items);
         items[i] = kept;
         items[all.count - 1] = i + 1 == all.count ? kept : last;
     }
-    CHECK_EQ(ovoid_body_verify(&pair, &x, NULL, &all, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_body_verify(&pair, &x, &(ovoid_body_basis){.exclusions = &all}, NULL), OVOID_OK);
 
     // One in the other: not apart, and not deeper than the surfaces and the boxes show.
     ovoid_shape *ball = ovoid_shape_create_sphere(0.125, NULL, NULL);
     pair.b = (ovoid_body){.shape = ball, .pose = {{0.5, 0.5, 0.5}, {1, 0, 0, 0}}};
-    const ovoid_body_answer in = ovoid_body_collide(&pair, NULL, NULL, &all);
+    const ovoid_body_answer in = ovoid_body_collide(&pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
     CHECK_EQ(in.status, OVOID_OVERLAPPING);
     CHECK_EQ(in.inside, OVOID_BODY_B_INSIDE);
-    CHECK_EQ(ovoid_body_verify(&pair, &in, NULL, &all, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_body_verify(&pair, &in, &(ovoid_body_basis){.exclusions = &all}, NULL), OVOID_OK);
     y = in, y.status = OVOID_SEPARATED, y.lower = in.deciding.lower, y.upper = in.deciding.upper;
-    CHECK_EQ(ovoid_body_verify(&pair, &y, NULL, &all, NULL), OVOID_ERROR_PROOF);
+    CHECK_EQ(ovoid_body_verify(&pair, &y, &(ovoid_body_basis){.exclusions = &all}, NULL), OVOID_ERROR_PROOF);
     y = in, y.upper *= 1.01;
-    CHECK_EQ(ovoid_body_verify(&pair, &y, NULL, &all, NULL), OVOID_ERROR_PROOF);
+    CHECK_EQ(ovoid_body_verify(&pair, &y, &(ovoid_body_basis){.exclusions = &all}, NULL), OVOID_ERROR_PROOF);
     y = in, y.lower *= 0.99;
-    CHECK_EQ(ovoid_body_verify(&pair, &y, NULL, &all, NULL), OVOID_ERROR_PROOF);
+    CHECK_EQ(ovoid_body_verify(&pair, &y, &(ovoid_body_basis){.exclusions = &all}, NULL), OVOID_ERROR_PROOF);
 
     ovoid_body_pair bad = pair;
     bad.a.shape = ball;
-    CHECK_EQ(ovoid_body_distance(&bad, NULL, NULL, NULL).limit, OVOID_LIMIT_SHAPE_A);
+    CHECK_EQ(ovoid_body_distance(&bad, NULL, NULL).limit, OVOID_LIMIT_SHAPE_A);
     bad = pair, bad.b.shape = NULL;
-    CHECK_EQ(ovoid_body_collide(&bad, NULL, NULL, NULL).limit, OVOID_LIMIT_SHAPE_B);
+    CHECK_EQ(ovoid_body_collide(&bad, NULL, NULL).limit, OVOID_LIMIT_SHAPE_B);
     bad = pair, bad.b.pose.rotation = (ovoid_quat){0, 0, 0, 0};
-    const ovoid_body_answer none = ovoid_body_collide(&bad, NULL, NULL, &all);
+    const ovoid_body_answer none = ovoid_body_collide(&bad, NULL, &(ovoid_body_evidence){.exclusions = &all});
     CHECK_EQ(none.limit, OVOID_LIMIT_POSE_B);
-    CHECK_EQ(ovoid_body_verify(&bad, &none, NULL, &all, NULL), OVOID_OK);
-    CHECK_EQ(ovoid_body_within(&pair, -1, NULL, NULL, NULL).limit, OVOID_LIMIT_OPTIONS);
+    CHECK_EQ(ovoid_body_verify(&bad, &none, &(ovoid_body_basis){.exclusions = &all}, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_body_within(&pair, -1, NULL, NULL).limit, OVOID_LIMIT_OPTIONS);
     ovoid_shape_destroy(ball);
     ovoid_solid_destroy(s);
 }

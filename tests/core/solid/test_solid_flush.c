@@ -61,7 +61,8 @@ static void check(const ovoid_body_pair *pair, const ovoid_body_answer *x, const
                   double scale) {
     ovoid_error error = {.message = ""};
     CHECK(all->count <= all->capacity);
-    if (!CHECK_EQ(ovoid_body_verify(pair, x, NULL, all, &error), OVOID_OK)) printf("  %s\n", error.message);
+    if (!CHECK_EQ(ovoid_body_verify(pair, x, &(ovoid_body_basis){.exclusions = all}, &error), OVOID_OK))
+        printf("  %s\n", error.message);
     CHECK_LE(x->lower, x->upper);
     if (x->status == OVOID_TOUCHING) CHECK(x->lower <= 0 && x->upper >= 0 && x->upper - x->lower <= 1e-7 * scale);
     if (t.shared) {
@@ -85,9 +86,9 @@ static void check(const ovoid_body_pair *pair, const ovoid_body_answer *x, const
 
 static void ask(const ovoid_body_pair *pair, truth t, double scale) {
     ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
-    ovoid_body_answer x = ovoid_body_distance(pair, NULL, NULL, &all);
+    ovoid_body_answer x = ovoid_body_distance(pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
     check(pair, &x, &all, t, scale);
-    x = ovoid_body_collide(pair, NULL, NULL, &all);
+    x = ovoid_body_collide(pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
     check(pair, &x, &all, t, scale);
 }
 
@@ -175,10 +176,10 @@ static void expect_point(mesh *a, mesh *b) {
                             {.solid = sb, .pose = ovoid_pose_make_identity()}};
     if (CHECK(sa && sb)) {
         CHECK(ovoid_solid_get_report(sa).is_closed && ovoid_solid_get_report(sb).is_closed);
-        ovoid_body_answer x = ovoid_body_distance(&pair, NULL, NULL, &all);
+        ovoid_body_answer x = ovoid_body_distance(&pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
         CHECK_EQ(x.status, OVOID_OVERLAPPING);
         CHECK_EQ(x.inside, OVOID_BODY_COMMON_POINT);
-        CHECK_EQ(ovoid_body_verify(&pair, &x, NULL, &all, NULL), OVOID_OK);
+        CHECK_EQ(ovoid_body_verify(&pair, &x, &(ovoid_body_basis){.exclusions = &all}, NULL), OVOID_OK);
     }
     ovoid_solid_destroy(sa);
     ovoid_solid_destroy(sb);

@@ -17,13 +17,14 @@ static ovoid_motion make_motion(uint64_t *s, double far) {
 static ovoid_body_answer ask(const ovoid_moving_body *a, const ovoid_moving_body *b, double time) {
     ovoid_body_pair pair = {{a->shape, a->compound, ovoid_motion_compute_pose(&a->motion, time), a->solid},
                             {b->shape, b->compound, ovoid_motion_compute_pose(&b->motion, time), b->solid}};
-    return ovoid_body_distance(&pair, NULL, NULL, NULL);
+    return ovoid_body_distance(&pair, NULL, NULL);
 }
 
 static int is_proven(const ovoid_moving_body *a, const ovoid_moving_body *b, double margin,
                      const ovoid_body_impact *x) {
     ovoid_error error = {.message = ""};
-    ovoid_code code = ovoid_body_impact_verify(a, b, margin, x, NULL, steps, groups, &error);
+    ovoid_code code = ovoid_body_impact_verify(&(ovoid_moving_body_pair){*a, *b, margin}, x,
+                                               &(ovoid_motion_basis){.steps = steps, .groups = groups}, &error);
     if (code != OVOID_OK) printf("  %lld: %s\n", (long long)error.place, error.message);
     return code == OVOID_OK;
 }
@@ -43,21 +44,26 @@ static void check_altered(const ovoid_moving_body *a, const ovoid_moving_body *b
     ovoid_body_impact y = *x;
     if (!(x->impact.free_until > x->impact.begin)) return;
     y.group_count--;
-    CHECK(ovoid_body_impact_verify(a, b, margin, &y, NULL, steps, groups, NULL) != OVOID_OK);
+    CHECK(ovoid_body_impact_verify(&(ovoid_moving_body_pair){*a, *b, margin}, &y,
+                                   &(ovoid_motion_basis){.steps = steps, .groups = groups}, NULL) != OVOID_OK);
     y = *x;
     y.impact.free_until = fmin(y.impact.free_until + 1e-3, y.impact.hit_at);
     if (y.impact.free_until > x->impact.free_until + 1e-4 && y.impact.status != OVOID_IMPACT_FREE)
-        CHECK(ovoid_body_impact_verify(a, b, margin, &y, NULL, steps, groups, NULL) != OVOID_OK);
+        CHECK(ovoid_body_impact_verify(&(ovoid_moving_body_pair){*a, *b, margin}, &y,
+                                       &(ovoid_motion_basis){.steps = steps, .groups = groups}, NULL) != OVOID_OK);
     y = *x;
     y.impact.status = x->impact.status == OVOID_IMPACT_FREE ? OVOID_IMPACT_HIT : OVOID_IMPACT_FREE;
-    CHECK(ovoid_body_impact_verify(a, b, margin, &y, NULL, steps, groups, NULL) != OVOID_OK);
+    CHECK(ovoid_body_impact_verify(&(ovoid_moving_body_pair){*a, *b, margin}, &y,
+                                   &(ovoid_motion_basis){.steps = steps, .groups = groups}, NULL) != OVOID_OK);
     ovoid_step_group kept = groups[0];
     groups[0].end_a++;
-    CHECK(ovoid_body_impact_verify(a, b, margin, x, NULL, steps, groups, NULL) != OVOID_OK);
+    CHECK(ovoid_body_impact_verify(&(ovoid_moving_body_pair){*a, *b, margin}, x,
+                                   &(ovoid_motion_basis){.steps = steps, .groups = groups}, NULL) != OVOID_OK);
     groups[0] = kept;
     ovoid_step first = steps[0];
     steps[0].normal = (ovoid_vec3){-first.normal.x, -first.normal.y, -first.normal.z};
-    CHECK(ovoid_body_impact_verify(a, b, margin, x, NULL, steps, groups, NULL) != OVOID_OK);
+    CHECK(ovoid_body_impact_verify(&(ovoid_moving_body_pair){*a, *b, margin}, x,
+                                   &(ovoid_motion_basis){.steps = steps, .groups = groups}, NULL) != OVOID_OK);
     steps[0] = first;
 }
 
@@ -79,7 +85,7 @@ static ovoid_impact find_all(const mesh *a, const ovoid_motion *motion_a, const 
         for (size_t j = 0; j < b->triangles; j++) {
             ovoid_moving_shape x = {.shape = all[0][i], .motion = *motion_a},
                                y = {.shape = all[1][j], .motion = *motion_b};
-            ovoid_impact one = ovoid_impact_find(&x, &y, margin, NULL);
+            ovoid_impact one = ovoid_impact_find(&(ovoid_moving_pair){x, y, margin}, NULL);
             best.free_until = fmin(best.free_until, one.free_until);
             best.hit_at = fmin(best.hit_at, one.hit_at);
             if (one.status == OVOID_IMPACT_HIT) best.status = OVOID_IMPACT_HIT;
@@ -94,7 +100,8 @@ static ovoid_impact find_all(const mesh *a, const ovoid_motion *motion_a, const 
 static ovoid_body_impact check_pair(const ovoid_moving_body *a, const ovoid_moving_body *b, double margin,
                                     uint64_t *s) {
     const ovoid_motion_options o = {.steps = steps, .capacity = CAPACITY, .groups = groups, .group_capacity = GROUPS};
-    ovoid_body_impact x = ovoid_body_impact_find(a, b, margin, &o), y = ovoid_body_impact_find(a, b, margin, NULL);
+    ovoid_body_impact x = ovoid_body_impact_find(&(ovoid_moving_body_pair){*a, *b, margin}, &o),
+                      y = ovoid_body_impact_find(&(ovoid_moving_body_pair){*a, *b, margin}, NULL);
     CHECK_EQ(x.impact.status, y.impact.status);
     CHECK_NEAR(fmin(x.impact.hit_at, 2), fmin(y.impact.hit_at, 2), 1e-8);
     CHECK(x.impact.step_count <= CAPACITY && x.group_count <= GROUPS);
@@ -163,13 +170,13 @@ static void check_begin(int rounds) {
         ovoid_solid *b = ovoid_solid_create_from_triangles(&(ovoid_triangles){v, 36, t, 12}, NULL, NULL);
         ovoid_pose here = ovoid_pose_make_identity(), there = {{0, 4, 0}, random_quat(&s)};
         ovoid_body_pair pair = {{.solid = a, .pose = here}, {.solid = b, .pose = there}};
-        double d = ovoid_body_distance(&pair, &exact, NULL, NULL).upper;
+        double d = ovoid_body_distance(&pair, &exact, NULL).upper;
         const ovoid_vec3 none = {0, 0, 0}, up = {0, 1, 0};
         ovoid_moving_body x = {.solid = a, .motion = ovoid_motion_make_velocity(here, up, none, 1)},
                           y = {.solid = b, .motion = ovoid_motion_make_velocity(there, none, none, 1)};
         for (int k = 0; k < 8; k++) {
             double margin = d + k * 2e-10 * far;
-            ovoid_body_impact found = ovoid_body_impact_find(&x, &y, margin, &o);
+            ovoid_body_impact found = ovoid_body_impact_find(&(ovoid_moving_body_pair){x, y, margin}, &o);
             CHECK(is_proven(&x, &y, margin, &found));
             hits += found.impact.hit_at <= 0;
         }
@@ -204,7 +211,9 @@ static void check_known(void) {
     // No surface is met on the way, but it is not free: what is inside at the beginning is asked before any step.
     x.impact.status = OVOID_IMPACT_FREE, x.impact.free_until = x.impact.end, x.impact.hit_at = INFINITY;
     ovoid_error error = {.message = ""};
-    CHECK_EQ(ovoid_body_impact_verify(&a, &b, 0, &x, NULL, steps, groups, &error), OVOID_ERROR_PROOF);
+    CHECK_EQ(ovoid_body_impact_verify(&(ovoid_moving_body_pair){a, b, 0}, &x,
+                                      &(ovoid_motion_basis){.steps = steps, .groups = groups}, &error),
+             OVOID_ERROR_PROOF);
     CHECK(strstr(error.message, "not apart at the beginning") != NULL);
     // The ring, from z = 5 down to -1, around the peg whose top is at 2.
     const ovoid_pose above = {{0, 0, 5}, {1, 0, 0, 0}}, below = {{0, 0, -1}, {1, 0, 0, 0}};
@@ -235,20 +244,20 @@ static void check_refusals(void) {
     ovoid_moving_body bad = good, none = {.motion = good.motion};
     bad.motion.kind = OVOID_MOTION_POSES;
     bad.motion.duration = -1;
-    CHECK_EQ(ovoid_body_impact_find(&good, &bad, 0, NULL).impact.limit, OVOID_LIMIT_POSE_B);
-    CHECK_EQ(ovoid_body_impact_find(&bad, &good, 0, NULL).impact.limit, OVOID_LIMIT_POSE_A);
-    CHECK_EQ(ovoid_body_impact_find(&good, &good, -1, NULL).impact.limit, OVOID_LIMIT_OPTIONS);
-    CHECK_EQ(ovoid_body_impact_find(&none, &good, 0, NULL).impact.limit, OVOID_LIMIT_SHAPE_A);
-    CHECK_EQ(ovoid_body_impact_find(&good, &none, 0, NULL).impact.limit, OVOID_LIMIT_SHAPE_B);
+    CHECK_EQ(ovoid_body_impact_find(&(ovoid_moving_body_pair){good, bad, 0}, NULL).impact.limit, OVOID_LIMIT_POSE_B);
+    CHECK_EQ(ovoid_body_impact_find(&(ovoid_moving_body_pair){bad, good, 0}, NULL).impact.limit, OVOID_LIMIT_POSE_A);
+    CHECK_EQ(ovoid_body_impact_find(&(ovoid_moving_body_pair){good, good, -1}, NULL).impact.limit, OVOID_LIMIT_OPTIONS);
+    CHECK_EQ(ovoid_body_impact_find(&(ovoid_moving_body_pair){none, good, 0}, NULL).impact.limit, OVOID_LIMIT_SHAPE_A);
+    CHECK_EQ(ovoid_body_impact_find(&(ovoid_moving_body_pair){good, none, 0}, NULL).impact.limit, OVOID_LIMIT_SHAPE_B);
     // A body of two kinds.
     ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, NULL, NULL);
     const ovoid_moving_body both = {.shape = box, .motion = good.motion, .solid = solid};
-    CHECK_EQ(ovoid_body_impact_find(&both, &good, 0, NULL).impact.limit, OVOID_LIMIT_SHAPE_A);
-    CHECK_EQ(ovoid_body_impact_find(&good, &both, 0, NULL).impact.limit, OVOID_LIMIT_SHAPE_B);
+    CHECK_EQ(ovoid_body_impact_find(&(ovoid_moving_body_pair){both, good, 0}, NULL).impact.limit, OVOID_LIMIT_SHAPE_A);
+    CHECK_EQ(ovoid_body_impact_find(&(ovoid_moving_body_pair){good, both, 0}, NULL).impact.limit, OVOID_LIMIT_SHAPE_B);
     ovoid_shape_destroy(box);
     CHECK(isnan(ovoid_moving_body_compute_box(&bad, 0, 1).min.x));
     // The same solid at the same place all the time: within the margin from the beginning.
-    ovoid_body_impact x = ovoid_body_impact_find(&good, &good, 0.1, NULL);
+    ovoid_body_impact x = ovoid_body_impact_find(&(ovoid_moving_body_pair){good, good, 0.1}, NULL);
     CHECK_EQ(x.impact.hit_at, 0);
     CHECK(is_proven(&good, &good, 0.1, &x));
     ovoid_solid_destroy(solid);

@@ -56,7 +56,7 @@ static int rays_met, solids_met;
 // A hit's answer holds for its pair, and its proof.
 static void check_hit(const ovoid_body *a, const ovoid_body *b, const ovoid_world_hit *hit) {
     ovoid_body_pair pair = {*a, *b};
-    ovoid_answer truth = ovoid_body_depth(&pair, NULL, NULL, NULL).deciding;
+    ovoid_answer truth = ovoid_body_depth(&pair, NULL, NULL).deciding;
     CHECK_LE(hit->answer.lower, truth.upper);
     CHECK_LE(truth.lower, hit->answer.upper);
 }
@@ -69,7 +69,7 @@ static void test_nearest(scene *x) {
         for (int j = 0; j < BODIES; j++) {
             if (!ovoid_world_is_pair(x->world, x->ids[i], x->ids[j])) continue;
             ovoid_body_pair pair = {a.body, get_body(x, j).body};
-            least = fmin(least, ovoid_body_distance(&pair, NULL, NULL, NULL).upper);
+            least = fmin(least, ovoid_body_distance(&pair, NULL, NULL).upper);
         }
         ovoid_world_hit hit;
         CHECK(ovoid_world_find_nearest(x->world, &(ovoid_world_query){.id = x->ids[i]}, &hit, NULL) == OVOID_OK);
@@ -106,7 +106,7 @@ static void test_nearest_loosely(scene *x) {
         for (int j = 0; j < BODIES; j++) {
             if (!ovoid_world_is_pair(x->world, x->ids[i], x->ids[j])) continue;
             ovoid_body_pair pair = {self.body, get_body(x, j).body};
-            nearest = fmin(nearest, ovoid_body_distance(&pair, NULL, NULL, NULL).upper);
+            nearest = fmin(nearest, ovoid_body_distance(&pair, NULL, NULL).upper);
         }
         if (nearest > 0) CHECK_LE(hit.lower, nearest);
     }
@@ -120,7 +120,7 @@ static void test_any(scene *x) {
         for (int j = 0; j < BODIES; j++) {
             if (!ovoid_world_is_pair(x->world, x->ids[i], x->ids[j])) continue;
             ovoid_body_pair pair = {a.body, get_body(x, j).body};
-            touches |= ovoid_body_collide(&pair, NULL, NULL, NULL).status != OVOID_SEPARATED;
+            touches |= ovoid_body_collide(&pair, NULL, NULL).status != OVOID_SEPARATED;
         }
         ovoid_world_hit hit;
         CHECK(ovoid_world_find_any(x->world, &(ovoid_world_ids){&x->ids[i], 1}, &hit, NULL) == OVOID_OK);
@@ -167,8 +167,8 @@ static void check_overlaps(scene *x, const ovoid_world_body *probe, double margi
         ovoid_world_body b = get_body(x, j);
         if (!is_in_groups(probe, &b)) continue;
         ovoid_body_pair pair = {probe->body, b.body};
-        ovoid_answer alone = ovoid_body_within(&pair, margin, NULL, NULL, NULL).deciding;
-        nearest = fmin(nearest, ovoid_body_distance(&pair, NULL, NULL, NULL).upper);
+        ovoid_answer alone = ovoid_body_within(&pair, margin, NULL, NULL).deciding;
+        nearest = fmin(nearest, ovoid_body_distance(&pair, NULL, NULL).upper);
         if (alone.lower > margin) continue;
         CHECK(at < hits.count && items[at].b == x->ids[j] && items[at].a == 0);
         if (at < hits.count) check_hit(&probe->body, &b.body, &items[at]);

@@ -65,15 +65,15 @@ static void end(stage *x) {
 static ovoid_body_answer ask(const ovoid_body *a, const ovoid_body *b, const ovoid_contact_query *q) {
     const ovoid_body_pair pair = {*a, *b};
     const ovoid_options o = {.cap = q->margin > 0 ? q->margin : 1e-300};
-    if (q->kind == OVOID_QUERY_COLLIDE) return ovoid_body_collide(&pair, NULL, NULL, NULL);
-    if (q->kind == OVOID_QUERY_WITHIN) return ovoid_body_within(&pair, q->margin, NULL, NULL, NULL);
-    return ovoid_body_distance(&pair, &o, NULL, NULL);
+    if (q->kind == OVOID_QUERY_COLLIDE) return ovoid_body_collide(&pair, NULL, NULL);
+    if (q->kind == OVOID_QUERY_WITHIN) return ovoid_body_within(&pair, q->margin, NULL, NULL);
+    return ovoid_body_distance(&pair, &o, NULL);
 }
 
 static void check_contact(stage *x, const ovoid_contact *c, const ovoid_body *a, const ovoid_body *b,
                           const ovoid_contact_query *q) {
     const ovoid_body_pair pair = {*a, *b};
-    ovoid_body_answer alone = ask(a, b, q), truth = ovoid_body_distance(&pair, NULL, NULL, NULL);
+    ovoid_body_answer alone = ask(a, b, q), truth = ovoid_body_distance(&pair, NULL, NULL);
     CHECK_EQ(c->verdict.status, alone.status);
     CHECK_LE(c->verdict.lower, c->verdict.upper);
     CHECK_LE(c->verdict.lower, truth.upper);
@@ -88,7 +88,9 @@ static void check_contact(stage *x, const ovoid_contact *c, const ovoid_body *a,
     ovoid_exclusions exclusions = {items, 4096, 0, NULL};
     ovoid_contact_proof proof = {.exclusions = &exclusions};
     CHECK_EQ(ovoid_world_compute_proof(x->w, c, &proof, &error), OVOID_OK);
-    CHECK_EQ(ovoid_body_verify(&pair, &proof.answer, q->options, &exclusions, &error), OVOID_OK);
+    CHECK_EQ(ovoid_body_verify(&pair, &proof.answer,
+                               &(ovoid_body_basis){.options = q->options, .exclusions = &exclusions}, &error),
+             OVOID_OK);
 }
 
 static void check_frame(stage *x, const ovoid_contact_query *q) {
@@ -180,7 +182,7 @@ static void check_rays(stage *x) {
                 {1, 0, 0, 0}};
             for (int j = 0; j < BODIES; j++) {
                 const ovoid_body_pair pair = {make_body(x, j, x->poses[j]), {.shape = ball, .pose = at}};
-                ovoid_body_answer y = ovoid_body_collide(&pair, NULL, NULL, NULL);
+                ovoid_body_answer y = ovoid_body_collide(&pair, NULL, NULL);
                 if (t < cast.lower - 1e-9) CHECK(y.status != OVOID_OVERLAPPING);
                 is_in |= !k && x->ids[j] == cast.body && y.upper <= 1e-9;
             }
@@ -209,7 +211,7 @@ static void check_cast(stage *x) {
             at.pose.position.x += t * way.x, at.pose.position.y += t * way.y, at.pose.position.z += t * way.z;
             for (int j = 0; j < BODIES; j++) {
                 const ovoid_body_pair pair = {make_body(x, j, x->poses[j]), at};
-                ovoid_body_answer y = ovoid_body_distance(&pair, NULL, NULL, NULL);
+                ovoid_body_answer y = ovoid_body_distance(&pair, NULL, NULL);
                 if (t < cast.lower - 1e-9) CHECK(y.status != OVOID_OVERLAPPING);
                 is_in |= !k && x->ids[j] == cast.body && y.lower <= 1e-8;
             }

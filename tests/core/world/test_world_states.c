@@ -84,7 +84,7 @@ static ovoid_world_body draw(scene *x, double side) {
 
 static int do_touch(const ovoid_body *a, const ovoid_body *b) {
     ovoid_body_pair pair = {*a, *b};
-    return ovoid_body_collide(&pair, NULL, NULL, NULL).status != OVOID_SEPARATED;
+    return ovoid_body_collide(&pair, NULL, NULL).status != OVOID_SEPARATED;
 }
 
 static int are_in_groups(const ovoid_world_body *a, const ovoid_world_body *b) {

@@ -19,7 +19,7 @@ static void fill_points(double (*points)[3]) {
 }
 
 static void print_answer(const char *question, const ovoid_pair *pair, ovoid_answer answer) {
-    int code = (int)ovoid_answer_verify(pair, &answer, NULL, NULL, NULL);
+    int code = (int)ovoid_answer_verify(pair, &answer, NULL, NULL);
     printf("%s %d %.17g %.17g, proof %d\n", question, (int)answer.status, answer.lower, answer.upper, code);
 }
 

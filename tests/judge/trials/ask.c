@@ -108,7 +108,8 @@ static void judge_answer(const hearing *h, const ovoid_answer *x, const ovoid_co
     judge_set_options(trial_judge, h->options);
     if (judge_verify_answer(trial_judge, h->pair, x, cover, &error) != OVOID_OK)
         trial_fail(h->t, h->pair, x, query, error.message);
-    else if (ovoid_answer_verify(h->pair, x, h->options, cover, &error) != OVOID_OK)
+    else if (ovoid_answer_verify(h->pair, x, &(ovoid_answer_basis){.options = h->options, .cover = cover}, &error) !=
+             OVOID_OK)
         trial_fail(h->t, h->pair, x, query, error.message);
     else if (x->stage != OVOID_STAGE_NONE && full && x->status != OVOID_UNDECIDED &&
              judge_verify_points(trial_judge, h->pair, x, &error) != OVOID_OK)

@@ -133,7 +133,8 @@ static void check_answer(work *w, scene *s, const ovoid_answer *x, const ovoid_c
     c->stages[x->stage]++;
     c->limits[x->limit]++;
     if (x->iterations > c->iterations) c->iterations = x->iterations;
-    if (ovoid_answer_verify(&s->pair, x, options, cover, &error) != OVOID_OK) fail(w, s, x, kind, error.message);
+    if (ovoid_answer_verify(&s->pair, x, &(ovoid_answer_basis){.options = options, .cover = cover}, &error) != OVOID_OK)
+        fail(w, s, x, kind, error.message);
     s->low = fmax(s->low, x->lower);
     s->high = fmin(s->high, x->upper);
     if (!(s->low <= s->high)) {
