@@ -183,9 +183,8 @@ int main(int argc, char **argv) {
         const mesh m = make_bumpy(static_cast<std::size_t>(size));
         const double count = static_cast<double>(m.triangles.size() / 3);
         const auto t0 = clock_type::now();
-        ovoid_solid *s = ovoid_solid_create_from_triangles(
-            &(ovoid_triangles){m.points.data(), m.points.size() / 3, m.triangles.data(), m.triangles.size() / 3},
-            nullptr, nullptr);
+        const ovoid_triangles all = {m.points.data(), m.points.size() / 3, m.triangles.data(), m.triangles.size() / 3};
+        ovoid_solid *s = ovoid_solid_create_from_triangles(&all, nullptr, nullptr);
         const auto t1 = clock_type::now();
         const auto theirs = make_model(m);
         const auto t2 = clock_type::now();
