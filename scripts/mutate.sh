@@ -16,7 +16,7 @@ cd "$(dirname "$0")/.." || exit 1
 jobs=${JOBS:-2}
 copy=build/mutate
 tree=$copy/tree
-groups="allowance query prepared growth boxes exact hull shape ellipsoid simd environment world compound solid solid_body solid_files decompose motion smooth paper table lanes io robot robot_read robot_solid robot_spheres robot_compare robot_cli robot_spheres_cli shard verify page report python python_solid decompose_watch robot_watch hostile hostile_cli"
+groups="allowance query prepared growth boxes exact hull shape ellipsoid simd environment tools world compound solid solid_body solid_files decompose motion smooth paper table lanes io robot robot_read robot_solid robot_spheres robot_compare robot_cli robot_spheres_cli shard verify page report python python_solid decompose_watch robot_watch hostile hostile_cli"
 
 # The tests of a group, fastest first; arguments after a colon.
 tests_of() {

@@ -65,7 +65,7 @@ static int place_plain(pair_frame *f, ovoid_quat a, ovoid_quat b) {
     return 1;
 }
 
-// The same of any quaternions but zero.
+// The rotations of any quaternions but zero.
 static void place_scaled(pair_frame *f, ovoid_quat a, ovoid_quat b) {
     f->world = quat_to_mat3(a);
     f->world_b = quat_to_mat3(b);

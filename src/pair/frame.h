@@ -119,7 +119,7 @@ typedef struct frame_support {
 } frame_support;
 frame_support frame_find_support(const pair_frame *f, vec3 n);
 
-/// The same gap by a search of all vertices, without the tables that the shapes have: for checks.
+/// The gap by a search of all vertices, without the tables that the shapes have: for verification.
 double frame_measure_gap(const pair_frame *f, vec3 n);
 
 /// A shape's vertices as the kernels read them, in its body frame.

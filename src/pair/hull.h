@@ -9,11 +9,11 @@
 /// `error`; 0 if none is proven.
 double hull_compute_depth(const vec3 *w, int count, double error);
 
-/// The same of a tetrahedron, and weights of the origin, which mean something where that is above 0.
+/// The depth that a tetrahedron proves, and weights of the origin, which mean something where that is above 0.
 double hull_find_weights(const vec3 w[4], double error, double weight[4]);
 
-/// The same bound from the distance of the surface's triangles alone: costlier, and better where the tetrahedron is
-/// thin. The greater of both bounds is never below what a larger error gave.
+/// The depth from the distance of the surface's triangles alone: costlier than hull_compute_depth, and better where the
+/// tetrahedron is thin. The greater of both bounds is never below what a larger error gave.
 double hull_compute_clearance(const vec3 *w, int count, double error);
 
 #endif

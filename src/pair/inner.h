@@ -20,7 +20,8 @@ double inner_points_compute_upper(const pair_frame *frame, vec3 a, vec3 b, doubl
 /// rounding included.
 double inner_compute_upper_at(const pair_frame *frame, vec3 x);
 
-/// The same of a point of the way between the centres, *x in A's body frame; 0 where no such point is proven common.
+/// The upper bound from a point of the way between the centres, *x in A's body frame; 0 where no such point is proven
+/// common.
 double inner_compute_upper_in_world(const pair_frame *frame, vec3 *x);
 
 #endif

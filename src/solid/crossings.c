@@ -57,7 +57,7 @@ static int find_apex(const vec3 c[3], vec3 *apex) {
 
 static int is_between(double a, double x, double b) { return (a <= x && x <= b) || (b <= x && x <= a); }
 
-/// Of three points on a line: 1 if x is not beyond an end.
+/// 1 if x, of three points on a line, is not beyond an end.
 static int is_on_segment(vec3 a, vec3 b, vec3 x) {
     return is_between(a.x, x.x, b.x) && is_between(a.y, x.y, b.y) && is_between(a.z, x.z, b.z);
 }

@@ -285,7 +285,7 @@ const char *record_find_within(const ovoid_record *record) {
     return record->answer.limit == OVOID_LIMIT_NONE ? "at" : "unproven";
 }
 
-/// Of the hull of a mesh that is so only nearly.
+/// 1 if the body is the hull of a mesh that is convex only nearly.
 static int has_allowance(ovoid_mesh_kind kind, const ovoid_convexity *mesh) {
     return kind == OVOID_MESH_HULL && mesh->allowance > 0;
 }
