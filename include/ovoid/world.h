@@ -164,6 +164,7 @@ typedef struct ovoid_contact_query {
  */
 typedef struct ovoid_contact {
     ovoid_id a, b;           /**< a < b */
+    uint64_t user_a, user_b; /**< the bodies' own (ovoid_world_body) */
     uint32_t part_a, part_b; /**< of compounds the deciding parts, of solids the triangles; 0 for a shape */
     ovoid_verdict verdict;   /**< stage PROOF with 0 iterations: by the aged bounds of an earlier step's proof */
 } ovoid_contact;

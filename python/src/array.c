@@ -32,7 +32,7 @@ static const record records[RECORD_COUNT] = {
     [RECORD_PROOF] = {"T{(3)d:normal:(3)d:normal_low:I:kind:I:count:(6)I:a:(6)I:b:(6)d:weight_a:(6)d:weight_b:"
                       "(3)d:inner_a:(3)d:inner_b:}",
                       sizeof(ovoid_proof)},
-    [RECORD_CONTACT] = {"T{Q:a:Q:b:I:part_a:I:part_b:" VERDICT_FIELDS "}", sizeof(ovoid_contact)},
+    [RECORD_CONTACT] = {"T{Q:a:Q:b:Q:user_a:Q:user_b:I:part_a:I:part_b:" VERDICT_FIELDS "}", sizeof(ovoid_contact)},
     [RECORD_STEP] = {"T{d:until:(3)d:normal:I:frame:4x}", sizeof(ovoid_step)},
     [RECORD_STATE] = {"T{I:status:I:code:I:variable:4x" SIDE_FIELDS("a") SIDE_FIELDS("b") "d:lower:d:upper:}",
                       STATE_SIZE},
@@ -43,7 +43,7 @@ static const record records[RECORD_COUNT] = {
 };
 _Static_assert(sizeof(unsigned) == 4 && sizeof(ovoid_status) == 4, "a format names enumerations by I");
 _Static_assert(sizeof(ovoid_verdict) == 32 && sizeof(ovoid_witness) == 72 && sizeof(ovoid_proof) == 248 &&
-                   sizeof(ovoid_contact) == 56 && sizeof(ovoid_step) == 40,
+                   sizeof(ovoid_contact) == 72 && sizeof(ovoid_step) == 40,
                "the formats name every byte");
 
 const char *record_format(record_kind kind) { return records[kind].format; }

@@ -48,6 +48,18 @@ class Steps(unittest.TestCase):
             self.assertEqual(len(world.contacts("collide").items), 1)
             self.assertIsNone(world.contacts("collide").witnesses)
 
+    def test_contacts_carry_user(self):
+        world = ovoid.World()
+        world.add(BALL, at(0), user=2**64 - 1)
+        world.add(BALL, at(0.5), user=7)
+        world.add(BALL, at(1.0))
+        found = [(r["user_a"], r["user_b"]) for r in rows(world.contacts("collide").items)]
+        self.assertEqual(found, [(2**64 - 1, 7), (2**64 - 1, 0), (7, 0)])
+        for wrong, error in ((-1, OverflowError), (2**64, OverflowError), ("a", TypeError), (1.5, TypeError)):
+            with self.assertRaises(error):
+                world.add(BALL, at(0), user=wrong)
+        self.assertEqual(len(world), 3)
+
     def test_as_pairs(self):
         shapes = [ovoid.Shape.from_points([[random.gauss(0, 1) for _ in range(3)] for _ in range(12)]) for _ in range(30)]
         poses = [ovoid.Pose.from_quaternion([random.uniform(-4, 4) for _ in range(3)],

@@ -183,8 +183,12 @@ void pair_update(ovoid_world *w, world_pair *p) {
 
 ovoid_contact pair_make_contact(const ovoid_world *w, const world_pair *p) {
     const pair_cache *k = &w->pair_cache[p->slot];
-    ovoid_contact contact = {
-        .a = body_get_id(w, p->a), .b = body_get_id(w, p->b), .part_a = k->part_a, .part_b = k->part_b};
+    ovoid_contact contact = {.a = body_get_id(w, p->a),
+                             .b = body_get_id(w, p->b),
+                             .user_a = w->bodies[p->a].user,
+                             .user_b = w->bodies[p->b].user,
+                             .part_a = k->part_a,
+                             .part_b = k->part_b};
     contact.verdict = (ovoid_verdict){
         (ovoid_status)k->status, (ovoid_stage)k->stage, (ovoid_limit)k->limit, k->iterations, k->lower, k->upper};
     if (p->flags & PAIR_STILL) return contact;

@@ -84,6 +84,7 @@ static inline void world_check_contact(const ovoid_world *w, const ovoid_contact
     ovoid_body_pair pair = {a->body, b->body};
     ovoid_answer alone = world_ask(a, b, q).deciding, truth = ovoid_body_depth(&pair, NULL, NULL).deciding;
     CHECK_EQ(c->verdict.status, alone.status);
+    CHECK(c->user_a == a->user && c->user_b == b->user);
     CHECK_LE(c->verdict.lower, truth.upper);
     CHECK_LE(truth.lower, c->verdict.upper);
     // The reported bounds show the status.

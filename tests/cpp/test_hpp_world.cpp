@@ -54,6 +54,7 @@ void check_contacts(worlds &w) {
         for (const ovoid::contact &c : found) {
             const ovoid_contact &t = truth.items[i];
             CHECK(c.a == t.a && c.b == t.b && c.part_a == t.part_a && is_same(c.verdict, t.verdict));
+            CHECK(c.user_a == w.ours.at(c.a).user && c.user_b == w.ours.at(c.b).user);
             if (found.has_witnesses()) CHECK(is_same(found.witness(c), truth.witnesses[i]));
             CHECK(&found[i] == &c);
             i++;

@@ -88,16 +88,18 @@ static void forget(world_object *self, ovoid_id id) {
 }
 
 static PyObject *add(PyObject *object, PyObject *arguments, PyObject *keywords) {
-    static char *names[] = {"body", "pose", "group", "mask", NULL};
+    static char *names[] = {"body", "pose", "group", "mask", "user", NULL};
     world_object *self = (world_object *)object;
     module_state *state = state_of(object);
-    PyObject *body, *pose = NULL;
+    PyObject *body, *pose = NULL, *user = NULL;
     ovoid_world_body made = {0};
     ovoid_error error;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|O$II:add", names, &body, &pose, &made.groups.group,
-                                     &made.groups.mask) ||
-        probe_read(state, body, pose, &made) || world_enter(self, 1))
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|O$IIO!:add", names, &body, &pose, &made.groups.group,
+                                     &made.groups.mask, &PyLong_Type, &user) ||
+        probe_read(state, body, pose, &made))
         return NULL;
+    made.user = user ? PyLong_AsUnsignedLongLong(user) : 0;
+    if ((made.user == UINT64_MAX && PyErr_Occurred()) || world_enter(self, 1)) return NULL;
     ovoid_id id = ovoid_world_add(self->world, &made, &error);
     world_leave(self, 1);
     if (!id) return raise_error(state, &error);
@@ -460,8 +462,9 @@ static PyObject *proof(PyObject *object, PyObject *arguments) {
 
 static PyMethodDef methods[] = {
     {"add", METHOD_KEYWORDS(add), METH_VARARGS | METH_KEYWORDS,
-     "add(body: Body, pose: PoseLike = None, *, group: int = 0, mask: int = 0) -> int\n--\n\nAdds a Shape, Compound or "
-     "Solid; returns its id. Two bodies are a pair if a.group & b.mask and b.group & a.mask are\nboth not zero; both "
+     "add(body: Body, pose: PoseLike = None, *, group: int = 0, mask: int = 0, user: int = 0) -> int\n--\n\nAdds a "
+     "Shape, Compound or Solid; returns its id. user: a number of yours, which contacts carry. Two bodies are a pair "
+     "if a.group & b.mask and b.group & a.mask are\nboth not zero; both "
      "zero: all of both."},
     {"add_many", METHOD_KEYWORDS(add_many), METH_VARARGS | METH_KEYWORDS,
      "add_many(bodies: Sequence[Body], poses: PosesLike, *, order: Order = None, group: int = 0, mask: int = 0) -> "
