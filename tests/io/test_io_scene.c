@@ -278,6 +278,11 @@ static const bad_input bad_scenes[] = {
     {"box.json", OBJECT("\"box\": [1, 2]"), 4, "\"box\" must be three sizes"},
     {"box_sign.json", OBJECT("\"box\": [1, 2, -3]"), 4, "\"box\" must be three sizes"},
     {"box_type.json", OBJECT("\"box\": [1, 2, \"3\"]"), 4, "\"box\" must be three sizes"},
+    {"box_empty.json", OBJECT("\"box\": {}"), 4, "\"box\" must be three sizes"},
+    {"box_both.json", OBJECT("\"box\": {\"half\": [1, 2, 3], \"size\": [2, 4, 6]}"), 4, "\"box\" must be three sizes"},
+    {"box_key.json", OBJECT("\"box\": {\"sizes\": [1, 2, 3]}"), 4, "\"box\" must be three sizes"},
+    {"box_half_sign.json", OBJECT("\"box\": {\"half\": [1, 2, -3]}"), 4, "\"box\" must be three sizes"},
+    {"box_half_count.json", OBJECT("\"box\": {\"half\": [1, 2]}"), 4, "\"box\" must be three sizes"},
     {"sphere.json", OBJECT("\"sphere\": -1"), 4, "\"sphere\" must be a radius"},
     {"huge.json", OBJECT("\"sphere\": 1e999"), 4, "JSON: "},
     {"capsule.json", OBJECT("\"capsule\": {\"radius\": 1}"), 4, "\"capsule\" needs \"length\""},
@@ -444,8 +449,28 @@ static void check_axes(void) {
     ovoid_scene_destroy(scene);
 }
 
+// Bare sizes and "size" are full ones, "half" the half ones; also of a part of a compound.
+static void check_boxes(void) {
+    ovoid_error error = {OVOID_OK, -1, ""};
+    const char *path =
+        file_write_text("boxes_of.json", "{\"objects\": [\n"
+                                         "{\"name\": \"a\", \"box\": [1, 2, 3]},\n"
+                                         "{\"name\": \"b\", \"box\": {\"size\": [1, 2, 3]}},\n"
+                                         "{\"name\": \"c\", \"box\": {\"half\": [0.5, 1, 1.5]}},\n"
+                                         "{\"name\": \"d\", \"compound\": [{\"box\": {\"half\": [0.5, 1, 1.5]}}]}]}\n");
+    ovoid_scene *scene = ovoid_scene_read(path, NULL, &error);
+    if (!CHECK(scene != NULL)) return;
+    for (size_t i = 0; i < 4; i++) {
+        ovoid_scene_object object = ovoid_scene_get(scene, i);
+        const ovoid_shape *shape = i < 3 ? object.shape : ovoid_compound_get_part(object.compound, 0).shape;
+        CHECK_NEAR(ovoid_shape_get_measures(shape).volume, 6, 1e-12); // of eight corners, exact but for their sum
+    }
+    ovoid_scene_destroy(scene);
+}
+
 int main(void) {
     check_unit();
+    check_boxes();
     check_axes();
     check_good();
     check_compounds();

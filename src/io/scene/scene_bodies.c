@@ -41,14 +41,25 @@ static ovoid_shape *name_failure(scene_reader *r, const geometry *g, ovoid_shape
     return shape;
 }
 
+// Reads the half sizes of a box: [x, y, z] or {"size"} are the full ones, {"half"} the half ones, as in C.
+static int read_half_sizes(const json_t *value, ovoid_vec3 *half) {
+    double n[3];
+    json_t *halves = json_object_get(value, "half"), *sizes = json_object_get(value, "size");
+    if (json_is_object(value) && (json_object_size(value) != 1 || (!halves && !sizes))) return 0;
+    if (!scene_read_numbers(halves ? halves : sizes ? sizes : value, n, 3)) return 0;
+    double part = halves ? 1 : 0.5;
+    *half = (ovoid_vec3){part * n[0], part * n[1], part * n[2]};
+    return n[0] >= 0 && n[1] >= 0 && n[2] >= 0;
+}
+
 static ovoid_shape *make_box(scene_reader *r, const geometry *g) {
-    double size[3];
-    if (!scene_read_numbers(g->value, size, 3) || !(size[0] >= 0 && size[1] >= 0 && size[2] >= 0)) {
-        scene_fail_member(r, OVOID_ERROR_FORMAT, g->kind, "must be three sizes >= 0");
+    ovoid_vec3 half;
+    if (!read_half_sizes(g->value, &half)) {
+        scene_fail_member(r, OVOID_ERROR_FORMAT, g->kind,
+                          "must be three sizes >= 0, or {\"size\"} or {\"half\"} with three");
         return NULL;
     }
     ovoid_error why = {OVOID_OK, -1, ""};
-    ovoid_vec3 half = {size[0] / 2, size[1] / 2, size[2] / 2};
     return name_failure(r, g, ovoid_shape_create_box(half, &g->options, &why), &why);
 }
 
