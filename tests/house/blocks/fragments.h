@@ -23,12 +23,12 @@ extern ovoid_answer answer;
 extern ovoid_world_body body;
 extern ovoid_contact_query query;
 extern ovoid_contacts frame;
-extern ovoid_body_answer answer;
+extern ovoid_contact_proof proof;
 #endif
 #ifdef PAGE_robot_spheres
 extern ovoid_robot *robot;
 extern uint32_t link;
-extern ovoid_robot_sphere spheres[8];
+extern ovoid_robot_sphere spheres[8], found[8];
 #endif
 #ifdef PAGE_robot_path
 extern ovoid_robot_checker *checker;
