@@ -18,6 +18,7 @@ arrays where NumPy can be imported.
 from ._enums import Agreement, Code, Error, ImpactStatus, Inside, Limit, ProofKind, RobotStatus, Stage, Status, Touch
 from ._ovoid import *  # noqa: F403
 from ._ovoid import __version__, has_io, has_robot
+from . import _faces, _pickle
 from ._values import (Cast, Clearance, Comparison, Contacts, Element, Hit, Joint, MatrixPair, MotionRequest, Obstacle,
                       PartsAudit, Side, SphereAudit, StateAnswer, Variable)
 

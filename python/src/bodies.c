@@ -112,6 +112,23 @@ static PyObject *move(PyObject *object, PyObject *arguments, PyObject *keywords)
     return is_fit ? Py_NewRef(Py_None) : NULL;
 }
 
+static PyObject *make_shape(const void *self, size_t i) { return Py_NewRef(get_shape(self, (Py_ssize_t)i)); }
+
+static PyObject *make_pose(const void *context, size_t i) {
+    const bodies_object *self = context;
+    return pose_wrap(state_of((PyObject *)context), self->others ? self->others[i].pose : self->items[i].pose);
+}
+
+static PyObject *get_shapes(PyObject *self, void *closure) {
+    (void)closure;
+    return tuple_make((size_t)((bodies_object *)self)->count, make_shape, self);
+}
+
+static PyObject *get_poses(PyObject *self, void *closure) {
+    (void)closure;
+    return tuple_make((size_t)((bodies_object *)self)->count, make_pose, self);
+}
+
 static Py_ssize_t length(PyObject *self) { return ((bodies_object *)self)->count; }
 
 static void bodies_dealloc(PyObject *object) {
@@ -122,6 +139,10 @@ static void bodies_dealloc(PyObject *object) {
     object_free(object);
 }
 
+static PyGetSetDef fields[] = {
+    {"shapes", get_shapes, NULL, "tuple[Body, ...]: The Shape, Compound or Solid of each body.", NULL},
+    {"poses", get_poses, NULL, "tuple[Pose, ...]: Their poses as they are now.", NULL},
+    {NULL, NULL, NULL, NULL, NULL}};
 static PyMethodDef methods[] = {{"move", METHOD_KEYWORDS(move), METH_VARARGS | METH_KEYWORDS,
                                  "move(poses: PosesLike, *, order: Order = None) -> None\n--\n\nNew poses for all "
                                  "bodies, as in Bodies(...); where one is refused none has moved."},
@@ -136,8 +157,8 @@ static PyType_Slot slots[] = {
     {Py_tp_dealloc, bodies_dealloc},
     {Py_mp_length, length},
     {Py_tp_methods, methods},
+    {Py_tp_getset, fields},
     {0, NULL}};
-static PyType_Spec spec = {"ovoid.Bodies", sizeof(bodies_object), 0, Py_TPFLAGS_DEFAULT | Py_TPFLAGS_IMMUTABLETYPE,
-                           slots};
+static PyType_Spec spec = {"ovoid.Bodies", sizeof(bodies_object), 0, Py_TPFLAGS_DEFAULT, slots};
 
 int bodies_add(PyObject *module) { return type_add(module, &spec, &state_of_module(module)->bodies); }

@@ -5,17 +5,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-/// An impact or an approach, with its steps and what it is about. Approaches are of shapes alone.
-typedef struct impact_object {
-    PyObject_HEAD ovoid_body_impact of;
-    ovoid_approach approach;
-    PyObject *a, *b, *motion_a, *motion_b;
-    double margin;
-    ovoid_motion_options options; ///< as asked; where the proof went is not kept
-    ovoid_step *steps;
-    ovoid_step_group *groups;
-} impact_object;
-
 static ovoid_moving_body make_moving(module_state *state, PyObject *body, PyObject *motion) {
     ovoid_body of = body_make(state, body, ovoid_pose_make_identity());
     return (ovoid_moving_body){
@@ -26,8 +15,7 @@ static ovoid_moving_shape make_moving_shape(const ovoid_moving_body *body) {
     return (ovoid_moving_shape){.shape = body->shape, .motion = body->motion};
 }
 
-static impact_object *make_object(PyTypeObject *type, PyObject *a, PyObject *b, PyObject *motion_a,
-                                  PyObject *motion_b) {
+impact_object *impact_make(PyTypeObject *type, PyObject *a, PyObject *b, PyObject *motion_a, PyObject *motion_b) {
     impact_object *self = object_make(type);
     if (!self) return NULL;
     self->a = Py_NewRef(a);
@@ -121,7 +109,7 @@ static PyObject *find(module_state *state, moving_input *in, int what) {
     PyObject *motion_b = motion_a ? motion_read(state, in->motion_b, "motion_b") : NULL;
     impact_object *made = NULL;
     if (motion_b)
-        made = make_object(what == APPROACH ? state->approach : state->impact, in->a, in->b, motion_a, motion_b);
+        made = impact_make(what == APPROACH ? state->approach : state->impact, in->a, in->b, motion_a, motion_b);
     Py_XDECREF(motion_a);
     Py_XDECREF(motion_b);
     if (!made) return NULL;
@@ -231,17 +219,20 @@ static PyObject *get_nearest(PyObject *object, void *closure) {
     return make_answer(self, self->approach.time, &self->approach.answer);
 }
 
+size_t impact_count_steps(const impact_object *self) {
+    module_state *state = state_of((PyObject *)self);
+    if (Py_TYPE((PyObject *)self) == state->approach) return self->approach.step_count;
+    if (Py_TYPE(self->a) == state->shape && Py_TYPE(self->b) == state->shape) return self->of.impact.step_count;
+    size_t count = 0;
+    for (size_t i = 0; i < self->of.group_count; i++) count += self->groups[i].count;
+    return count;
+}
+
 static PyObject *get_steps(PyObject *object, void *closure) {
     (void)closure;
     const impact_object *self = (const impact_object *)object;
-    module_state *state = state_of(object);
-    Py_ssize_t count = (Py_ssize_t)self->of.impact.step_count;
-    if (Py_TYPE(object) == state->approach) count = (Py_ssize_t)self->approach.step_count;
-    if (Py_TYPE(self->a) != state->shape || Py_TYPE(self->b) != state->shape) {
-        count = 0;
-        for (size_t i = 0; i < self->of.group_count; i++) count += (Py_ssize_t)self->groups[i].count;
-    }
-    return array_copy(state, RECORD_STEP, 1, &count, self->steps);
+    Py_ssize_t count = (Py_ssize_t)impact_count_steps(self);
+    return array_copy(state_of(object), RECORD_STEP, 1, &count, self->steps);
 }
 
 static PyGetSetDef impact_fields[] = {

@@ -103,8 +103,8 @@ static int execute(PyObject *module) {
 #endif
                                                 prepared_add, solid_add};
     PyMethodDef *const functions[] = {
-        own_methods,        query_methods, batch_methods,  impact_methods,
-        smooth_methods,     array_methods, bounds_methods, decompose_methods,
+        own_methods,        query_methods,  batch_methods,     impact_methods, smooth_methods,
+        array_methods,      bounds_methods, decompose_methods, state_methods,
 #ifdef OVOID_PYTHON_IO
         shape_file_methods,
 #endif

@@ -3,8 +3,7 @@
 
 #include <stdlib.h>
 
-// A new object around a motion whose arrays, if any, it takes over; refused motions raise.
-static PyObject *wrap(module_state *state, ovoid_motion motion, double *times, ovoid_pose *poses) {
+PyObject *motion_wrap_arrays(module_state *state, ovoid_motion motion, double *times, ovoid_pose *poses) {
     ovoid_error error;
     motion_object *self = NULL;
     if (ovoid_motion_validate(&motion, &error) != OVOID_OK)
@@ -22,7 +21,9 @@ static PyObject *wrap(module_state *state, ovoid_motion motion, double *times, o
     return (PyObject *)self;
 }
 
-PyObject *motion_wrap(module_state *state, ovoid_motion motion) { return wrap(state, motion, NULL, NULL); }
+PyObject *motion_wrap(module_state *state, ovoid_motion motion) {
+    return motion_wrap_arrays(state, motion, NULL, NULL);
+}
 
 PyObject *motion_read(module_state *state, PyObject *from, const char *what) {
     if (from && Py_TYPE(from) == state->motion) return Py_NewRef(from);
@@ -83,7 +84,7 @@ static PyObject *path(PyObject *type, PyObject *arguments, PyObject *keywords) {
         free(places);
         return NULL;
     }
-    return wrap(state, ovoid_motion_make_path(times.data, places, (size_t)count), times.data, places);
+    return motion_wrap_arrays(state, ovoid_motion_make_path(times.data, places, (size_t)count), times.data, places);
 }
 
 // ---- what it is

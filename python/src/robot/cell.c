@@ -336,7 +336,7 @@ static PyType_Slot slots[] = {
     {Py_tp_methods, NULL},
     {Py_tp_getset, fields},
     {0, NULL}};
-static PyType_Spec spec = {"ovoid.Cell", sizeof(cell_object), 0, Py_TPFLAGS_DEFAULT | Py_TPFLAGS_IMMUTABLETYPE, slots};
+static PyType_Spec spec = {"ovoid.Cell", sizeof(cell_object), 0, Py_TPFLAGS_DEFAULT, slots};
 
 int cell_add(PyObject *module) {
     static PyMethodDef queries[24], all[24];

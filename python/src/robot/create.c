@@ -171,13 +171,14 @@ static int read_disabled(parts *p, PyObject *given) {
     int failed = !p->disabled || PyList_Append(p->kept, pairs);
     if (pairs && !p->disabled) PyErr_NoMemory();
     for (size_t i = 0; !failed && i < count; i++) {
-        PyObject *pair = PyTuple_GetItem(pairs, (Py_ssize_t)i);
+        PyObject *pair = PyTuple_GetItem(pairs, (Py_ssize_t)i), *reason = Py_None;
         failed = !PyTuple_Check(pair);
         if (failed)
             PyErr_SetString(PyExc_TypeError, "disabled: tuples of two links' names are wanted");
         else
             failed =
-                !PyArg_ParseTuple(pair, "OO;disabled: two links are wanted", &a, &b) ||
+                !PyArg_ParseTuple(pair, "OO|O;disabled: two links are wanted, and perhaps why", &a, &b, &reason) ||
+                (reason != Py_None && !(p->disabled[i].reason = read_name(p, reason, "disabled"))) ||
                 read_index(p->links, p->d.link_count, read_name(p, a, "disabled"), "disabled", &p->disabled[i].a) ||
                 read_index(p->links, p->d.link_count, read_name(p, b, "disabled"), "disabled", &p->disabled[i].b);
     }

@@ -115,6 +115,20 @@ static PyObject *get_fact(PyObject *self, void *closure) {
     return found ? Py_NewRef(found) : PyTuple_New(0);
 }
 
+static PyObject *get_facts(PyObject *self, PyObject *ignored) {
+    (void)ignored;
+    return PyDict_Copy(((robot_object *)self)->facts);
+}
+
+static PyObject *set_facts(PyObject *self, PyObject *facts) {
+    if (!PyDict_Check(facts)) return PyErr_Format(PyExc_TypeError, "facts: a dict is wanted");
+    PyObject *copy = PyDict_Copy(facts), *old = ((robot_object *)self)->facts;
+    if (!copy) return NULL;
+    ((robot_object *)self)->facts = copy;
+    Py_DECREF(old);
+    Py_RETURN_NONE;
+}
+
 static PyObject *get_fixed_mimics(PyObject *self, void *closure) {
     (void)closure;
     PyObject *found = PyDict_GetItemString(((robot_object *)self)->facts, "fixed_mimics");
@@ -150,3 +164,7 @@ PyGetSetDef robot_fields[] = {
     {"fixed_mimics", get_fixed_mimics, NULL, "int: Of a URDF: how many mimics stood on fixed joints and were dropped.",
      NULL},
     {NULL, NULL, NULL, NULL, NULL}};
+
+// For pickle.
+PyMethodDef robot_facts_methods[] = {
+    {"_get_facts", get_facts, METH_NOARGS, NULL}, {"_set_facts", set_facts, METH_O, NULL}, {NULL, NULL, 0, NULL}};

@@ -263,7 +263,7 @@ static PyMethodDef own_methods[] = {
 static PyType_Slot slots[] = {
     {Py_tp_doc,
      "Robot(links: Sequence[str], joints: Sequence[Joint], elements: Sequence[tuple[Any, ...]] = (), disabled: "
-     "Sequence[tuple[str, str]] = (), *, name: str | None = None) -> Robot\n--\n\nLinks that hang on joints. "
+     "Sequence[tuple[Any, ...]] = (), *, name: str | None = None) -> Robot\n--\n\nLinks that hang on joints. "
      "Robot.read reads a URDF.\n\nlinks: names. joints: Joint tuples, which make one tree of all links; mimic names "
      "another joint. elements:\n(link, shape, pose, name) each, pose and name may be left out. disabled: pairs of "
      "names. Lengths are the caller's\nunit, angles radians. Immutable; a Cell says what it touches."},
@@ -273,13 +273,13 @@ static PyType_Slot slots[] = {
     {Py_tp_methods, NULL},
     {Py_tp_getset, robot_fields},
     {0, NULL}};
-static PyType_Spec spec = {"ovoid.Robot", sizeof(robot_object), 0, Py_TPFLAGS_DEFAULT | Py_TPFLAGS_IMMUTABLETYPE,
-                           slots};
+static PyType_Spec spec = {"ovoid.Robot", sizeof(robot_object), 0, Py_TPFLAGS_DEFAULT, slots};
 
 int robot_add(PyObject *module) {
-    static PyMethodDef all[24], more[24];
+    static PyMethodDef all[24], more[24], own[24];
     slots_set_methods(slots, more, robot_spheres_methods, robot_matrix_methods);
-    slots_set_methods(slots, all, own_methods, more);
+    slots_set_methods(slots, own, own_methods, robot_facts_methods);
+    slots_set_methods(slots, all, own, more);
 #ifdef OVOID_PYTHON_ROBOT_READ
     static PyMethodDef with_files[24];
     slots_set_methods(slots, with_files, all, robot_constructors);

@@ -90,6 +90,7 @@ int query_options_validate(module_state *state, const ovoid_robot_query_options 
 
 extern PyMethodDef robot_constructors[], robot_spheres_methods[], robot_matrix_methods[], robot_file_functions[];
 extern PyMethodDef cell_queries[], cell_clearances[], cell_scenes[], cell_proofs[], robot_functions[];
+extern PyMethodDef robot_facts_methods[];
 extern PyGetSetDef robot_fields[];
 extern PyMethodDef robot_proof_functions[];
 

@@ -56,6 +56,7 @@ static PyObject *world_new(PyTypeObject *type, PyObject *arguments, PyObject *ke
     options.threads = (uint32_t)threads;
     world_object *self = object_make(type);
     if (!self) return NULL;
+    self->options = options;
     self->kept = PyDict_New();
     self->world = self->kept ? ovoid_world_create(&options, &error) : NULL;
     if (self->world) return (PyObject *)self;
@@ -307,6 +308,31 @@ static Py_ssize_t length(PyObject *object) {
 
 // ---- which pairs
 
+// For pickle: the options, [(body, pose, group, mask)] in the order of the ids, and the ids.
+static PyObject *get_state(PyObject *object, PyObject *ignored) {
+    world_object *self = (world_object *)object;
+    module_state *state = state_of(object);
+    if (world_enter(self, 0)) return NULL;
+    PyObject *bodies = PyList_New(0), *ids = get_ids(object, ignored);
+    ovoid_world_body body;
+    for (ovoid_id id = 0; bodies && (id = ovoid_world_find_next(self->world, id));) {
+        if (ovoid_world_get(self->world, id, &body, NULL) != OVOID_OK) break;
+        PyObject *kept = find_kept(self, id);
+        PyObject *one =
+            kept ? Py_BuildValue("NNII", kept, pose_wrap(state, body.body.pose), body.groups.group, body.groups.mask)
+                 : NULL;
+        if (!one || PyList_Append(bodies, one)) Py_CLEAR(bodies);
+        Py_XDECREF(one);
+    }
+    world_leave(self, 0);
+    if (bodies && ids)
+        return Py_BuildValue("{s:I,s:d}NN", "threads", self->options.threads, "enlargement", self->options.enlargement,
+                             bodies, ids);
+    Py_XDECREF(bodies);
+    Py_XDECREF(ids);
+    return NULL;
+}
+
 static PyObject *set_groups(PyObject *object, PyObject *arguments) {
     world_object *self = (world_object *)object;
     ovoid_id id;
@@ -479,6 +505,7 @@ static PyMethodDef methods[] = {
     {"pose", get_pose, METH_O, "pose(id: SupportsIndex, /) -> Pose\n--\n\nThe pose of a body."},
     {"body", get_kept, METH_O, "body(id: SupportsIndex, /) -> Body\n--\n\nThe Shape, Compound or Solid of a body."},
     {"ids", get_ids, METH_NOARGS, "ids() -> Ids\n--\n\nThe ids of all bodies, in ascending order."},
+    {"_get_state", get_state, METH_NOARGS, NULL},
     {"set_groups", set_groups, METH_VARARGS,
      "set_groups(id: SupportsIndex, group: int, mask: int, /) -> None\n--\n\nOther groups for a body."},
     {"set_ignored", set_ignored, METH_VARARGS,
@@ -505,8 +532,7 @@ static PyType_Slot slots[] = {
     {Py_mp_length, length},
     {Py_tp_methods, NULL},
     {0, NULL}};
-static PyType_Spec spec = {"ovoid.World", sizeof(world_object), 0, Py_TPFLAGS_DEFAULT | Py_TPFLAGS_IMMUTABLETYPE,
-                           slots};
+static PyType_Spec spec = {"ovoid.World", sizeof(world_object), 0, Py_TPFLAGS_DEFAULT, slots};
 
 int world_add(PyObject *module) {
     static PyMethodDef all[40];

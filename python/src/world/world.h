@@ -6,9 +6,10 @@
 
 typedef struct world_object {
     PyObject_HEAD ovoid_world *world;
-    ovoid_options asked;     ///< the options of the last contacts
-    PyObject *kept;          ///< a dict: the Shape, Compound or Solid of each id
-    int readers, is_written; ///< calls that run without the interpreter's lock
+    ovoid_world_options options; ///< it was made with; of those that Python gives
+    ovoid_options asked;         ///< the options of the last contacts
+    PyObject *kept;              ///< a dict: the Shape, Compound or Solid of each id
+    int readers, is_written;     ///< calls that run without the interpreter's lock
 } world_object;
 
 /// Every call of a world is between these: 0, or -1 with RuntimeError where another thread's call is in the way.
