@@ -239,7 +239,7 @@ void check_errors() {
     const shape box = shape::box({1, 1, 1});
     CHECK(throws(OVOID_ERROR_ARGUMENT, -1, "each vertex", [&] { box.deformed(points); }));
     CHECK(throws(OVOID_ERROR_ARGUMENT, -1, "", [&] { box.divided({{0, 0, 0}, 0}); }));
-    CHECK(throws(OVOID_ERROR_ARGUMENT, -1, "bad argument", [&] { ovoid::compute_outer(box.polytope(), -1); }));
+    CHECK(throws(OVOID_ERROR_ARGUMENT, -1, "a gap below 0", [&] { ovoid::compute_outer(box.polytope(), -1); }));
     CHECK(std::string(ovoid::name(OVOID_ERROR_EMPTY)) == "empty" &&
           std::string(ovoid::version()) == ovoid_get_version());
 }
