@@ -96,7 +96,7 @@ class Values(unittest.TestCase):
         world = ovoid.World(threads=2, enlargement=0.1)
         ids = [world.add(BOX, (3 * i, 0, 0), group=1, mask=1 + i % 2) for i in range(5)]
         world.add(PAIR, DEEP)
-        world.set_ignored(ids[0], ids[1])
+        world.set_ignored(ids[0], ids[2])
         again = pickle.loads(pickle.dumps(world))
         self.assertEqual(again.ids().tolist(), world.ids().tolist())
         self.assertEqual(again.contacts("distance", 3).items.tolist(), world.contacts("distance", 3).items.tolist())
