@@ -79,7 +79,7 @@ void triangle_set(triangle_shape *t, const vec3 corner[3]);
 
 ovoid_posed_shape solid_get_leaf(const body_tree *tree, uint32_t place, triangle_shape *room);
 /// A leaf in the world: the body's shape, the part, or the triangle at that place, made in *room, which triangle_begin
-/// has made.
+/// has made; NULL will do for a body without triangles.
 static inline ovoid_posed_shape body_tree_get_leaf(const body_tree *tree, uint32_t place, triangle_shape *room) {
     if (tree->solid) return solid_get_leaf(tree, place, room);
     if (tree->shape) return (ovoid_posed_shape){tree->shape, *tree->pose};

@@ -26,8 +26,8 @@ static void exclude_all(const body_search *state, vec3 normal, double lower) {
 
 int first_look(const body_search *state, const query_goal *goal) {
     const body_tree *a = &state->a, *b = &state->b;
-    const compound_node *node_a = state->parts.nodes[0], *node_b = state->parts.nodes[1];
-    const compound_part *part_a = state->parts.parts[0], *part_b = state->parts.parts[1];
+    const compound_node *node_a = state->parts->nodes[0], *node_b = state->parts->nodes[1];
+    const compound_part *part_a = state->parts->parts[0], *part_b = state->parts->parts[1];
     ovoid_body_answer *out = state->out;
     mat3 ra = quat_to_mat3(a->pose->rotation), rb = quat_to_mat3(b->pose->rotation);
     vec3 offset = vec3_sub(b->pose->position, a->pose->position);

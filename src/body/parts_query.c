@@ -7,15 +7,15 @@
 // ---- what is left out
 
 static const compound_node *get_node(const body_search *state, int side, tree_ref ref) {
-    return &state->parts.nodes[side][ref_get_index(ref)];
+    return &state->parts->nodes[side][ref_get_index(ref)];
 }
 static tree_ref get_ref(const body_search *state, int side, const compound_node *node) {
-    return (tree_ref)(node - state->parts.nodes[side]) | (node_is_leaf(node) ? TREE_LEAF : 0);
+    return (tree_ref)(node - state->parts->nodes[side]) | (node_is_leaf(node) ? TREE_LEAF : 0);
 }
 
 static vec3 find_normal(const body_search *state, const compound_node *a, const compound_node *b, nodes_means means) {
-    const compound_part *const *parts = state->parts.parts;
-    if (means == NODES_NORMAL) return state->parts.direction.normal;
+    const compound_part *const *parts = state->parts->parts;
+    if (means == NODES_NORMAL) return state->parts->direction.normal;
     return means == NODES_PARTS ? parts_compute_normal(&state->frame, &parts[0][a->first], &parts[1][b->first])
                                 : nodes_compute_normal(&state->frame, a, b, means);
 }
@@ -31,14 +31,14 @@ static void exclude_nodes(body_search *state, const waiting_pair *w) {
 
 static int take(body_search *state, const leaf_pair *pair) {
     if (!search_take(state, pair)) return 0;
-    state->parts.direction = parts_direction_make(&state->frame, pair->normal);
+    state->parts->direction = parts_direction_make(&state->frame, pair->normal);
     return 1;
 }
 
 // ---- the steps of the traversal
 
 static waiting_pair bound_roots(const body_search *state, double enough) {
-    const compound_node *a = state->parts.nodes[0], *b = state->parts.nodes[1];
+    const compound_node *a = state->parts->nodes[0], *b = state->parts->nodes[1];
     nodes_other other = nodes_turn(&state->frame, 0, b);
     nodes_bound bound = nodes_compute_lower(&state->frame, 0, a, &other, enough);
     return waiting_make(get_ref(state, 0, a), get_ref(state, 1, b), bound.lower, bound.means);
@@ -46,7 +46,7 @@ static waiting_pair bound_roots(const body_search *state, double enough) {
 
 // Two parts: the closer bounds of their own spheres and supports, then the query.
 static void visit_leaves(body_search *state, const waiting_pair *w) {
-    const parts_state *parts = &state->parts;
+    const parts_state *parts = state->parts;
     uint32_t a = get_node(state, 0, waiting_get_a(w))->first, b = get_node(state, 1, waiting_get_b(w))->first;
     if (a == state->warm_a && b == state->warm_b) return;
     nodes_bound bound = parts_compute_lower(&state->frame, &parts->direction, &parts->parts[0][a], &parts->parts[1][b],
@@ -62,7 +62,7 @@ static void visit_leaves(body_search *state, const waiting_pair *w) {
 // The other node of a pair, along the axes of the body whose node is opened: often that of the pair before, and always
 // where the other body is a shape.
 static inline const nodes_other *turn(body_search *state, int side, const compound_node *rest) {
-    parts_state *parts = &state->parts;
+    parts_state *parts = state->parts;
     if (parts->turned.node != rest || parts->turned_side != side) {
         parts->turned = nodes_turn(&state->frame, side, rest);
         parts->turned_side = side;
@@ -129,8 +129,8 @@ static void set_nodes(parts_state *parts, int side, const body_tree *tree) {
 // From an earlier proof or NULL. Nodes visited and pairs tested are counted on.
 static void search_from(body_search *state, const query_goal *goal, const ovoid_body_proof *earlier) {
     search_begin(state, goal);
-    state->parts.direction = (parts_direction){.offset = 0};
-    state->parts.turned.node = NULL;
+    state->parts->direction = (parts_direction){.offset = 0};
+    state->parts->turned.node = NULL;
     search_run(state, earlier);
 }
 
@@ -166,8 +166,8 @@ static void search_parts(body_search *state, const ovoid_body_pair *pair, const 
         out->tested = 1;
         return;
     }
-    set_nodes(&state->parts, 0, &state->a);
-    set_nodes(&state->parts, 1, &state->b);
+    set_nodes(state->parts, 0, &state->a);
+    set_nodes(state->parts, 1, &state->b);
     if (goal->far < INFINITY && first_look(state, goal)) return;
     find(state, goal, earlier);
 }
@@ -175,9 +175,12 @@ static void search_parts(body_search *state, const ovoid_body_pair *pair, const 
 void parts_find_internal(const ovoid_body_pair *pair, const ovoid_options *options, query_goal goal,
                          const ovoid_body_proof *earlier, ovoid_exclusions *exclusions, ovoid_body_answer *out) {
     static const vec3 none = {0, 0, 0};
+    parts_state parts;
     body_search state;
     state.kind = &kind;
     state.has_solid = 0;
+    state.parts = &parts;
+    state.solids = NULL;
     state.out = out;
     state.exclusions = exclusions;
     search_parts(&state, pair, options, &goal, earlier);

@@ -68,14 +68,15 @@ int search_take(body_search *state, const leaf_pair *pair) {
 // The leaves at two places, in the world; one posed by the last call is reused.
 static inline const ovoid_pair *pose_pair(body_search *state, uint32_t a, uint32_t b) {
     ovoid_pair *pair = &state->pair;
+    triangle_shape *rooms = state->solids ? state->solids->rooms : NULL;
     if (state->posed_a != a) {
-        ovoid_posed_shape leaf = body_tree_get_leaf(&state->a, a, &state->solids.rooms[0]);
+        ovoid_posed_shape leaf = body_tree_get_leaf(&state->a, a, rooms);
         pair->shape_a = leaf.shape;
         pair->pose_a = leaf.pose;
         state->posed_a = a;
     }
     if (state->posed_b != b) {
-        ovoid_posed_shape leaf = body_tree_get_leaf(&state->b, b, &state->solids.rooms[1]);
+        ovoid_posed_shape leaf = body_tree_get_leaf(&state->b, b, rooms ? rooms + 1 : NULL);
         pair->shape_b = leaf.shape;
         pair->pose_b = leaf.pose;
         state->posed_b = b;

@@ -109,8 +109,9 @@ typedef struct body_search {
     ovoid_pair pair;
     uint32_t posed_a, posed_b;
     ovoid_answer spare;
-    parts_state parts;
-    solids_state solids;
+    // The one that the kind needs; it is on the stack of who asks, since that of solids takes kilobytes.
+    parts_state *parts;
+    solids_state *solids; ///< NULL where no body is a solid
 } body_search;
 
 static inline int search_is_left_out(const body_search *state, double lower) {

@@ -11,7 +11,7 @@ void solids_exclude_boxes(body_search *state, const waiting_pair *w) {
     state->lower = min2(state->lower, w->lower);
     if (!state->exclusions) return;
     tree_box a = body_tree_get_box(&state->a, waiting_get_a(w)), b = body_tree_get_box(&state->b, waiting_get_b(w));
-    vec3 tried = state->solids.normals[waiting_get_reason(w)];
+    vec3 tried = state->solids->normals[waiting_get_reason(w)];
     ovoid_exclusion x = {.lower = w->lower};
     x.normal = mat3_mul_vec3(state->frame.world, tree_frame_find_gap(&state->frame, &a, &b, tried).normal);
     body_tree_get_range(&state->a, waiting_get_a(w), &x.first_a, &x.end_a);
@@ -30,7 +30,7 @@ static vec3 find_normal(const body_tree *tree, uint32_t place) {
 
 // Of two triangles only where both bodies are on one side of them.
 static void note_flush(body_search *state, uint32_t a, uint32_t b, double lower) {
-    flush_pairs *all = &state->solids.flush;
+    flush_pairs *all = &state->solids->flush;
     if (lower > state->frame.claim || all->count == sizeof all->pair / sizeof *all->pair) return;
     if (state->a.solid && state->b.solid) {
         vec3 n = find_normal(&state->a, a), m = mat3_mul_vec3(state->frame.to_a, find_normal(&state->b, b));
@@ -45,7 +45,7 @@ static void note_flush(body_search *state, uint32_t a, uint32_t b, double lower)
 // The direction of the best pair, for boxes, and for triangles beside a shape.
 static void set_filter(body_search *state) {
     if (!(vec3_norm_squared(state->best.normal) > 0.5)) return;
-    solids_state *solids = &state->solids;
+    solids_state *solids = state->solids;
     if (solids->normal_count < SEARCH_REASONS)
         solids->normals[solids->normal_count++] =
             vec3_unit(mat3_mul_transposed_vec3(state->frame.world, state->best.normal));
@@ -69,8 +69,8 @@ static void set_filter(body_search *state) {
 static double find_shape_gap(const body_search *state, int side, uint32_t place) {
     const ovoid_solid *s = side ? state->b.solid : state->a.solid;
     double most = -INFINITY;
-    for (int i = 0; i < 3; i++) most = max2(most, vec3_dot(state->solids.filter, solid_get_corner(s, place, i)));
-    return state->solids.filter_support - most;
+    for (int i = 0; i < 3; i++) most = max2(most, vec3_dot(state->solids->filter, solid_get_corner(s, place, i)));
+    return state->solids->filter_support - most;
 }
 
 // The largest n.x of a leaf, n in the world, from the body's origin.
@@ -100,7 +100,7 @@ static double find_leaf_gap(const body_search *state, uint32_t a, uint32_t b) {
 static int is_filtered(body_search *state, uint32_t a, uint32_t b) {
     double lower;
     if (!state->has_best || !(vec3_norm_squared(state->best.normal) > 0.5)) return 0;
-    if (state->solids.filter_support > -INFINITY)
+    if (state->solids->filter_support > -INFINITY)
         lower = find_shape_gap(state, !state->a.solid, state->a.solid ? a : b);
     else
         lower = find_leaf_gap(state, a, b);
@@ -153,7 +153,7 @@ void solids_visit_triangles(body_search *state, int side, uint32_t one, const ui
     solid8_triangles eight;
     solid8_gaps gaps;
     gather(own, places, count, &eight);
-    state->solids.kernels->triangles(&t, &eight, &gaps);
+    state->solids->kernels->triangles(&t, &eight, &gaps);
     state->out->visited += count;
     for (uint32_t i = 0; i < count && !search_is_decided(state); i++) {
         uint32_t a = side ? one : places[i], b = side ? places[i] : one;

@@ -22,7 +22,7 @@ static void bound_boxes(const body_search *state, int side, tree_ref node, const
     solid8_other other;
     tree_frame_turn(&state->frame, side, rest, solids_get_normal(state), &other);
     other.unit = s->unit;
-    state->solids.kernels->boxes(&s->boxes[node], &other, lower);
+    state->solids->kernels->boxes(&s->boxes[node], &other, lower);
 }
 
 // Of the two children of a compound's node.
@@ -48,7 +48,7 @@ static void bound_children(body_search *state, const waiting_pair *w, int side, 
     found->count = 0;
     for (uint32_t i = 0; i < count; i++) {
         const waiting_pair next = waiting_make(side ? waiting_get_a(w) : all[i], side ? all[i] : waiting_get_b(w),
-                                               lower[i] - state->frame.claim, state->solids.normal_count - 1);
+                                               lower[i] - state->frame.claim, state->solids->normal_count - 1);
         if (search_is_left_out(state, next.lower))
             solids_exclude_boxes(state, &next);
         else
@@ -86,7 +86,7 @@ waiting_pair solids_bound_roots(const body_search *state, double enough) {
     tree_ref root_a = body_tree_get_root(&state->a), root_b = body_tree_get_root(&state->b);
     tree_box a = body_tree_get_box(&state->a, root_a), b = body_tree_get_box(&state->b, root_b);
     double gap = tree_frame_find_gap(&state->frame, &a, &b, solids_get_normal(state)).lower;
-    return waiting_make(root_a, root_b, gap - state->frame.claim, state->solids.normal_count - 1);
+    return waiting_make(root_a, root_b, gap - state->frame.claim, state->solids->normal_count - 1);
 }
 
 static void open_nodes(body_search *state, const waiting_pair *w, waiting *q) {

@@ -29,7 +29,7 @@ static void find_common_point(body_search *state) {
     ovoid_body_answer *out = state->out;
     const framed_pair pair = {&state->frame, &state->a, &state->b};
     common_point found;
-    if (!framed_pair_find_common_point(&pair, &state->solids.flush, &found)) return;
+    if (!framed_pair_find_common_point(&pair, &state->solids->flush, &found)) return;
     out->inside = OVOID_BODY_COMMON_POINT;
     out->common = found.point;
     out->upper = -found.depth;
@@ -70,7 +70,7 @@ static ovoid_limit begin(body_search *state, const ovoid_body_pair *pair, const 
     state->options.relative_tolerance = OVOID_LENGTH_MIN;
     state->least_far = state->frame.claim;
     search_begin(state, goal);
-    solids_state *solids = &state->solids;
+    solids_state *solids = state->solids;
     solids->flush.count = 0;
     solids->filter_support = -INFINITY;
     solids->normals[0] = (vec3){1, 0, 0};
@@ -107,11 +107,14 @@ static int is_better(ovoid_status status, double width, const ovoid_body_answer 
 COMPILER_NOINLINE void solid_find_internal(const ovoid_body_pair *pair, const ovoid_options *options,
                                            const query_goal *goal, const ovoid_body_proof *earlier,
                                            ovoid_exclusions *exclusions, ovoid_body_answer *out) {
+    solids_state solids;
     body_search state;
     query_goal own = *goal;
     own.wants_depth = 0;
     state.kind = &solids_kind;
     state.has_solid = 1;
+    state.parts = NULL;
+    state.solids = &solids;
     state.out = out;
     state.exclusions = exclusions;
     ovoid_limit refused = search_from(&state, pair, options, &own, earlier);

@@ -8,7 +8,7 @@ extern const search_kind solids_kind;
 
 /// The normal that is tried on boxes, in a's frame.
 static inline vec3 solids_get_normal(const body_search *state) {
-    return state->solids.normals[state->solids.normal_count - 1];
+    return state->solids->normals[state->solids->normal_count - 1];
 }
 
 /// The steps (search_kind).
