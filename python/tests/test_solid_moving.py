@@ -148,7 +148,7 @@ class Worlds(unittest.TestCase):
         """As the queries of all pairs."""
         found = {}
         for record in self.world.contacts("distance", 0.3).items.tolist():
-            a, b, _, _, status, _, _, _, lower, upper = values(record)
+            a, b, _, _, _, _, status, _, _, _, lower, upper = values(record)
             found[a, b] = status, lower, upper
         for i, k in COUPLES:
             answer = ovoid.distance(SHAPES[k], SHAPES[i], POSES[k], POSES[i])

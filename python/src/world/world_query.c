@@ -133,7 +133,8 @@ static PyObject *find_any(PyObject *object, PyObject *arguments) {
         return NULL;
     }
     Py_BEGIN_ALLOW_THREADS;
-    code = ovoid_world_find_any(self->world, &(ovoid_world_ids){ids.data, (size_t)ids.shape[0]}, &hit, &error);
+    code = ovoid_world_find_any(
+        self->world, given != Py_None ? &(ovoid_world_ids){ids.data, (size_t)ids.shape[0]} : NULL, &hit, &error);
     Py_END_ALLOW_THREADS;
     PyObject *made =
         code == OVOID_OK ? hit_make(self, &hit, &(hits_query){NULL, NULL, NULL}) : raise_error(state, &error);
