@@ -194,11 +194,15 @@ static void print_counts(const verify *v) {
         printf("\n");
 }
 
+static int is_identity(const ovoid_pose *pose) {
+    ovoid_vec3 p = pose->position;
+    return p.x == 0 && p.y == 0 && p.z == 0 && pose->rotation.w == 1;
+}
+
 /// Proofs of two bodies hold where the poses are those of the query, and the results do not say these.
 static void advise_poses(const verify *v) {
-    static const ovoid_pose none = {{0, 0, 0}, {1, 0, 0, 0}};
     if (v->bodies.scene || v->settings->list) return;
-    if (memcmp(&v->settings->pose_a, &none, sizeof none) == 0 && memcmp(&v->settings->pose_b, &none, sizeof none) == 0)
+    if (is_identity(&v->settings->pose_a) && is_identity(&v->settings->pose_b))
         message_note(
             "both bodies are at the origin: if \"ovoid distance\" had --pose-a or --pose-b, give them here too");
 }
