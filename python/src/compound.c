@@ -134,7 +134,6 @@ static PyType_Slot slots[] = {
     {Py_tp_getset, fields},
     {Py_tp_methods, methods},
     {0, NULL}};
-static PyType_Spec spec = {"ovoid.Compound", sizeof(compound_object), 0, Py_TPFLAGS_DEFAULT,
-                           slots};
+static PyType_Spec spec = {"ovoid.Compound", sizeof(compound_object), 0, Py_TPFLAGS_DEFAULT, slots};
 
 int compound_add(PyObject *module) { return type_add(module, &spec, &state_of_module(module)->compound); }

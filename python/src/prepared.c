@@ -35,7 +35,6 @@ static PyType_Slot slots[] = {
     {Py_tp_dealloc, prepared_dealloc},
     {Py_tp_getset, fields},
     {0, NULL}};
-static PyType_Spec spec = {"ovoid.Prepared", sizeof(prepared_object), 0, Py_TPFLAGS_DEFAULT,
-                           slots};
+static PyType_Spec spec = {"ovoid.Prepared", sizeof(prepared_object), 0, Py_TPFLAGS_DEFAULT, slots};
 
 int prepared_add(PyObject *module) { return type_add(module, &spec, &state_of_module(module)->prepared); }

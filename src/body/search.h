@@ -128,7 +128,7 @@ void search_begin(body_search *state, const query_goal *goal);
 void search_run(body_search *state, const ovoid_body_proof *earlier);
 
 /// Leaves out the leaves of an exclusion, or two leaves by their bracket.
-void search_exclude(body_search *state, const ovoid_exclusion *exclusion);
+void search_exclude(body_search *state, const ovoid_exclusion *x);
 void search_exclude_leaves(body_search *state, const leaf_pair *pair);
 /// Takes a pair of leaves as the best, 1, or leaves it out, 0.
 int search_take(body_search *state, const leaf_pair *pair);

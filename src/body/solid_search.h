@@ -13,8 +13,8 @@ static inline vec3 solids_get_normal(const body_search *state) {
 
 /// The steps (search_kind).
 waiting_pair solids_bound_roots(const body_search *state, double enough);
-void solids_exclude_boxes(body_search *state, const waiting_pair *pair);
-void solids_visit_leaves(body_search *state, const waiting_pair *pair);
+void solids_exclude_boxes(body_search *state, const waiting_pair *w);
+void solids_visit_leaves(body_search *state, const waiting_pair *w);
 int solids_take(body_search *state, const leaf_pair *pair);
 
 /// Triangles of the body `side` (0: a) at places, with one triangle of the other, in lanes. count <= 8.

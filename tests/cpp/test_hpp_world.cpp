@@ -150,7 +150,7 @@ void check_finds(worlds &w) {
     CHECK_EQ(w.ours.find_overlaps(w.ours.make_point({0.1, 0, 0})).size() > 0, true);
 
     const ovoid::ray ray({-20, 0, 0}, {1, 0, 0}, 40, 0.01);
-    const ovoid_world_ray grouped = {ray, 0, 0};
+    const ovoid_world_ray grouped = {ray, {0, 0}};
     ovoid_world_cast cast;
     ovoid_world_cast_ray(c, &grouped, &cast, nullptr);
     const ovoid::world_cast met = w.ours.cast_ray(ray);

@@ -95,7 +95,7 @@ static inline size_t checker_count_pairs(const ovoid_robot_checker *checker) {
 }
 
 /// Makes the checker's memory fit its cell; all is forgotten where that has changed.
-ovoid_code checker_renew(ovoid_robot_checker *checker, ovoid_error *error);
+ovoid_code checker_renew(ovoid_robot_checker *made, ovoid_error *error);
 
 /// The answer where there is no pair to ask about.
 static inline ovoid_robot_answer answer_make_empty(void) {

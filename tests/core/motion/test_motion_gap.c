@@ -1,4 +1,4 @@
-// The bound of a step (query/motion_gap.h): over an interval of times the gap along a direction, fixed or turning with
+// The bound of a step (motion/motion_gap.h): over an interval of times the gap along a direction, fixed or turning with
 // a body, is nowhere below what is claimed from its two ends. Truth: the gap itself at sampled times. That the bound is
 // worth something: over a short interval it is below the least sample by the square of the angle at most.
 #include "motion/motion_gap.h"

@@ -1,4 +1,4 @@
-// Surfaces around the origin, which prove overlaps and depths (query/cover.h, query/hull.h): what is claimed must hold
+// Surfaces around the origin, which prove overlaps and depths (pair/cover.h, pair/hull.h): what is claimed must hold
 // for every surface whose corners are off by `error`. Errors of a thousandth of the size make that visible in doubles.
 // Truth: the corners are moved by `error` to where it hurts most, toward the origin along a triangle's normal, and at
 // random; the moved surface's distance, by the nearest points of its triangles, and its winding number, by solid
