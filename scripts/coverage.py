@@ -29,7 +29,9 @@ def main():
     print(table, end="")
     if "--write" in sys.argv:
         page = open("docs/coverage.md").read()
-        page = re.sub(r"(\| folder \|).*?(?=\n\n|\Z)", lambda _: table.rstrip("\n"), page, flags=re.S)
+        page, found = re.subn(r"(<!-- figures.*?-->\n).*?(?=<!-- end of the figures)", lambda mark: mark.group(1) + table, page, flags=re.S)
+        if not found:
+            sys.exit("coverage: docs/coverage.md has no marks around its figures")
         open("docs/coverage.md", "w").write(page)
 
 
