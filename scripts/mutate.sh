@@ -44,7 +44,7 @@ tests_of() {
     hostile_cli) echo "test_cli_hostile.sh" ;;
     decompose_watch) echo "test_decompose_watch" ;;
     compound) echo "test_compound_create test_compound_far test_compound_bounds test_compound_proofs test_compound test_compound_impact test_compound_impact_altered test_judge_compound test_compound_altered test_query_near" ;;
-    motion) echo "test_motion_gap test_motion_pose test_judge_motion test_motion test_impact test_impact_altered test_judge_impact test_impact_trials test_compound_impact" ;;
+    motion) echo "test_motion_gap test_motion_pose test_judge_motion test_motion test_impact test_impact_rod test_impact_altered test_judge_impact test_impact_trials test_compound_impact" ;;
     smooth) echo "test_smooth test_smooth_bounds test_gradient test_gradient_round test_gradient_bounds" ;;
     paper) echo "test_paper test_area" ;;
     table) echo "test_lookup test_shape test_simd test_query" ;;
