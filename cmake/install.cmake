@@ -1,5 +1,5 @@
 # Installation: headers, libraries, tool, CMake package and pkg-config files. Its components are those of packages: runtime
-# and dev of the core, io and io_dev of libovoid_io, robot and robot_dev of libovoid_robot, tool.
+# and dev of the core, io and io_dev of libovoid_io, robot and robot_dev of libovoid_robot, ompl_dev of the header for OMPL, tool.
 
 # install_library(NAME RUNTIME DEV NEEDED): a library in its kinds, its part of the CMake package, its pkg-config file;
 # NEEDED is what its archive needs.
@@ -24,7 +24,7 @@ endfunction()
 
 install_library(ovoid runtime dev "-lm -lpthread")
 install(DIRECTORY include/ovoid TYPE INCLUDE COMPONENT dev FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp" PATTERN io.h EXCLUDE
-  PATTERN io.hpp EXCLUDE PATTERN "robot*" EXCLUDE)
+  PATTERN io.hpp EXCLUDE PATTERN ompl.hpp EXCLUDE PATTERN "robot*" EXCLUDE)
 if(TARGET ovoid_io_static)
   set(needed -ljansson)
   if(TARGET ovoid_assimp)
@@ -45,6 +45,8 @@ if(TARGET ovoid_robot_static)
   install_library(ovoid_robot robot robot_dev "${needed}")
   install(DIRECTORY include/ovoid TYPE INCLUDE COMPONENT robot_dev FILES_MATCHING ${unread} PATTERN "robot*.h"
     PATTERN "robot*.hpp")
+  # Needs nothing to install; what it includes is OMPL's and libovoid_robot's.
+  install(FILES include/ovoid/ompl.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/ovoid COMPONENT ompl_dev)
 endif()
 if(TARGET ovoid_cli)
   install(TARGETS ovoid_cli COMPONENT tool)

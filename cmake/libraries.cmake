@@ -1,4 +1,5 @@
 # What ovoid stands on. The core: libm. libovoid_io: jansson and Assimp. libovoid_robot, where it reads: expat and libyaml. The exact judge: GMP. One test: Qhull, as a peer.
+# <ovoid/ompl.hpp>, which is a header alone, is tested, and `ovoid robot plan` is built, where OMPL and a C++ compiler are.
 
 # ovoid_find(NAME header library package): an interface target ovoid_NAME, or a sentence that names what is missing.
 function(ovoid_find name header library package required)
@@ -31,4 +32,18 @@ if(OVOID_IO AND OVOID_ROBOT)
 endif()
 if(OVOID_JUDGE)
   ovoid_find(gmp gmp.h gmp libgmp-dev FALSE)
+endif()
+if(OVOID_IO AND OVOID_ROBOT AND (OVOID_CLI OR OVOID_TESTS OR OVOID_EXAMPLES OR OVOID_BENCH))
+  include(CheckLanguage)
+  check_language(CXX)
+  find_path(OVOID_EIGEN_FOLDER Eigen/Geometry PATH_SUFFIXES eigen3)
+  find_path(OVOID_OMPL_FOLDER ompl/base/SpaceInformation.h PATH_SUFFIXES ompl-1.5 ompl-1.6 ompl-1.7)
+  find_library(OVOID_OMPL_LIBRARY ompl)
+  mark_as_advanced(OVOID_OMPL_FOLDER OVOID_OMPL_LIBRARY)
+  if(CMAKE_CXX_COMPILER AND OVOID_EIGEN_FOLDER AND OVOID_OMPL_FOLDER AND OVOID_OMPL_LIBRARY)
+    enable_language(CXX)
+    add_library(ovoid_ompl INTERFACE)
+    target_include_directories(ovoid_ompl SYSTEM INTERFACE ${OVOID_OMPL_FOLDER} ${OVOID_EIGEN_FOLDER})
+    target_link_libraries(ovoid_ompl INTERFACE ${OVOID_OMPL_LIBRARY})
+  endif()
 endif()

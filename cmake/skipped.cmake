@@ -1,6 +1,7 @@
 # What cannot be built here is a test all the same: it says what is missing, and is counted as skipped.
 set(package_ovoid_judge "libgmp-dev (GMP)")
 set(package_ovoid_assimp "libassimp-dev (Assimp)")
+set(package_ovoid_ompl "libompl-dev (OMPL)")
 set(package_fcl "libfcl-dev (FCL)")
 set(package_ovoid_qhull "libqhull-dev (Qhull)")
 set(package_ovoid_io_static "libovoid_io (OVOID_IO, libjansson-dev)")

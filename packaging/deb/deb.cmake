@@ -72,6 +72,10 @@ what these touch.")
     "robots for ovoid (development)
 ${about}This package has the header, the static library and the pkg-config file of
 the library of robots.")
+  ovoid_deb(ompl_dev libovoid-ompl-dev libdevel "libovoid-robot-dev (= ${full}), libompl-dev"
+    "proven motion planning of robots in OMPL (development)
+${about}This package has the header that lets planners of OMPL check states and
+motions with libovoid_robot, so that each motion is proven free.")
 endif()
 if(TARGET ovoid_cli)
   ovoid_deb(tool ovoid science "" "proximity of meshes from the command line, with proofs
