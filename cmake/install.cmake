@@ -1,5 +1,5 @@
 # Installation: headers, libraries, tool, CMake package and pkg-config files. Its components are those of packages: runtime
-# and dev of the core, io and io_dev of libovoid_io, robot and robot_dev of libovoid_robot, ompl_dev of the header for OMPL, tool.
+# and dev of the core, io and io_dev of libovoid_io, robot and robot_dev of libovoid_robot, ompl_dev of the header for OMPL, tool, plan of `ovoid robot plan`.
 
 # install_library(NAME RUNTIME DEV NEEDED): a library in its kinds, its part of the CMake package, its pkg-config file;
 # NEEDED is what its archive needs.
@@ -54,6 +54,13 @@ if(TARGET ovoid_cli)
   install(FILES cli/ovoid.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ovoid COMPONENT tool)
   # The template of pages, where `make page` has built it.
   install(FILES ${PROJECT_BINARY_DIR}/page.html DESTINATION ${CMAKE_INSTALL_DATADIR}/ovoid COMPONENT tool OPTIONAL)
+endif()
+
+if(TARGET ovoid_plan)
+  install(TARGETS ovoid_plan COMPONENT plan)
+  # Its manual is the tool's.
+  file(WRITE ${PROJECT_BINARY_DIR}/ovoid-plan.1 ".so man1/ovoid.1\n")
+  install(FILES ${PROJECT_BINARY_DIR}/ovoid-plan.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT plan)
 endif()
 
 include(CMakePackageConfigHelpers)

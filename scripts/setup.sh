@@ -12,7 +12,7 @@ packages_of() {
         build) echo build-essential cmake pkgconf libjansson-dev libassimp-dev libexpat1-dev libyaml-dev libgmp-dev ;;
         check) packages_of build deb python page site && echo libqhull-dev libcgal-demo libeigen3-dev libglm-dev libompl-dev clang libclang-rt-14-dev clang-format clang-tidy shellcheck mandoc doxygen locales musl-tools gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user parallel abigail-tools ;;
         coverage) packages_of check && echo gcovr ;;
-        deb) packages_of build && echo dpkg-dev lintian ;;
+        deb) packages_of build && echo dpkg-dev lintian libompl-dev ;;
         deb-root) packages_of deb && echo debootstrap ;;
         demo) packages_of build && echo libcgal-demo ;;
         bench) packages_of build && echo libccd-dev libfcl-dev libbullet-dev libode-dev libqhull-dev ;;

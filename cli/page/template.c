@@ -2,30 +2,16 @@
 #include "page/template.h"
 
 #include "base/args.h"
+#include "base/beside.h"
 #include "base/message.h"
 
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 /// Largest template, bytes.
 #define SIZE_MOST ((size_t)64 << 20)
-
-/// Room for a folder, and for a path in it.
-enum { FOLDER_ROOM = 4096, PATH_ROOM = FOLDER_ROOM + 32 };
-
-/// The folder of this program; 0 where the system does not say it.
-static int find_folder(char folder[FOLDER_ROOM]) {
-    ssize_t length = readlink("/proc/self/exe", folder, FOLDER_ROOM - 1);
-    if (length <= 0 || length == FOLDER_ROOM - 1) return 0;
-    folder[length] = 0;
-    char *slash = strrchr(folder, '/');
-    if (!slash) return 0;
-    *slash = 0;
-    return 1;
-}
 
 static int is_file(const char *path) {
     struct stat status;
@@ -40,17 +26,17 @@ static int complain_absent(const char *beside, const char *shared) {
 }
 
 /// Finds the file. 0, or EXIT_INPUT after a message.
-static int find(char path[PATH_ROOM]) {
+static int find(char path[BESIDE_PATH_ROOM]) {
     const char *given = getenv("OVOID_PAGE");
-    char folder[FOLDER_ROOM], shared[PATH_ROOM];
+    char folder[BESIDE_FOLDER_ROOM], shared[BESIDE_PATH_ROOM];
     if (given && *given) {
-        if (snprintf(path, PATH_ROOM, "%s", given) < PATH_ROOM) return 0;
+        if (snprintf(path, BESIDE_PATH_ROOM, "%s", given) < BESIDE_PATH_ROOM) return 0;
         return message_error("--html: the path in OVOID_PAGE is too long"), EXIT_INPUT;
     }
-    if (!find_folder(folder)) return complain_absent("page.html", "../share/ovoid/page.html beside the program");
-    snprintf(path, PATH_ROOM, "%s/page.html", folder);
+    if (!beside_find_folder(folder)) return complain_absent("page.html", "../share/ovoid/page.html beside the program");
+    snprintf(path, BESIDE_PATH_ROOM, "%s/page.html", folder);
     if (is_file(path)) return 0;
-    snprintf(shared, PATH_ROOM, "%s/../share/ovoid/page.html", folder);
+    snprintf(shared, BESIDE_PATH_ROOM, "%s/../share/ovoid/page.html", folder);
     if (!is_file(shared)) return complain_absent(path, shared);
     memcpy(path, shared, strlen(shared) + 1);
     return 0;
@@ -91,7 +77,7 @@ static size_t find_mark(const page_template *t, size_t at) {
 }
 
 int page_template_read(page_template *t) {
-    char path[PATH_ROOM];
+    char path[BESIDE_PATH_ROOM];
     *t = (page_template){.text = NULL};
     int code = find(path);
     if (!code) code = read_all(path, t);

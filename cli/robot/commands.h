@@ -5,6 +5,6 @@
 #include "base/args.h"
 
 extern const cli_command command_robot_info, command_robot_check, command_robot_path, command_robot_matrix,
-    command_robot_spheres;
+    command_robot_spheres, command_robot_plan;
 
 #endif

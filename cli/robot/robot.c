@@ -6,8 +6,13 @@
 
 #include <string.h>
 
-static const cli_command *const subcommands[] = {&command_robot_info,   &command_robot_check,   &command_robot_path,
-                                                 &command_robot_matrix, &command_robot_spheres, NULL};
+static const cli_command *const subcommands[] = {&command_robot_info,
+                                                 &command_robot_check,
+                                                 &command_robot_path,
+                                                 &command_robot_plan,
+                                                 &command_robot_matrix,
+                                                 &command_robot_spheres,
+                                                 NULL};
 #define SUBCOMMAND_COUNT (sizeof subcommands / sizeof *subcommands - 1)
 
 static int complain_unknown(const cli_command *command, const char *name) {
@@ -46,6 +51,7 @@ const cli_command command_robot = {
     .examples = "ovoid robot info panda.urdf --srdf panda.srdf\n"
                 "ovoid robot check panda.urdf --scene cell.yaml --states q.csv\n"
                 "ovoid robot path panda.urdf --scene cell.yaml --states q.csv\n"
+                "ovoid robot plan panda.urdf --scene cell.yaml --states ends.csv -o path.csv\n"
                 "ovoid robot check --help",
     .options = options,
     .operands_min = 1,

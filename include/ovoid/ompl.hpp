@@ -34,6 +34,44 @@
 
 namespace ovoid {
 
+namespace detail {
+
+inline constexpr double half_turn = 3.14159265358979323846;
+
+/// An angle within a half turn of 0.
+inline double wrap_angle(double angle) { return std::remainder(angle, 2 * half_turn); }
+
+/// Draws states whose turning numbers pass a half turn.
+class robot_sampler : public ::ompl::base::RealVectorStateSampler {
+  public:
+    robot_sampler(const ::ompl::base::StateSpace *space, const std::vector<bool> &turning)
+        : RealVectorStateSampler(space), turning_(&turning) {}
+    void sampleUniformNear(::ompl::base::State *to, const ::ompl::base::State *near, double distance) override {
+        const std::vector<double> middle = copy(near);
+        RealVectorStateSampler::sampleUniformNear(to, near, distance);
+        turn(to, middle, [&](double from) { return rng_.uniformReal(from - distance, from + distance); });
+    }
+    void sampleGaussian(::ompl::base::State *to, const ::ompl::base::State *mean, double deviation) override {
+        const std::vector<double> middle = copy(mean);
+        RealVectorStateSampler::sampleGaussian(to, mean, deviation);
+        turn(to, middle, [&](double from) { return rng_.gaussian(from, deviation); });
+    }
+
+  private:
+    using state = ::ompl::base::RealVectorStateSpace::StateType;
+    std::vector<double> copy(const ::ompl::base::State *from) const {
+        const double *values = from->as<state>()->values;
+        return {values, values + turning_->size()};
+    }
+    template <class Draw> void turn(::ompl::base::State *to, const std::vector<double> &middle, Draw draw) {
+        for (std::size_t i = 0; i < middle.size(); i++)
+            if ((*turning_)[i]) to->as<state>()->values[i] = wrap_angle(draw(middle[i]));
+    }
+    const std::vector<bool> *turning_;
+};
+
+} // namespace detail
+
 /**
  * The states of a robot that a planner moves through: some of its variables, within their limits; all others stand
  * still. The distance is the Euclidean norm of the differences, radians and metres alike. An angle without limits turns
@@ -145,38 +183,13 @@ class robot_space : public ::ompl::base::RealVectorStateSpace {
         }
     }
     /** Uniform within the bounds; near a state the bounds of what turns do not count. */
-    ::ompl::base::StateSamplerPtr allocDefaultStateSampler() const override { return std::make_shared<sampler>(this); }
+    ::ompl::base::StateSamplerPtr allocDefaultStateSampler() const override {
+        return std::make_shared<detail::robot_sampler>(this, turning_);
+    }
 
   private:
-    static constexpr double pi = 3.14159265358979323846;
-
-    class sampler : public ::ompl::base::RealVectorStateSampler {
-      public:
-        explicit sampler(const robot_space *space) : RealVectorStateSampler(space), robot_space_(space) {}
-        void sampleUniformNear(::ompl::base::State *to, const ::ompl::base::State *near, double distance) override {
-            const std::vector<double> middle = copy(near);
-            RealVectorStateSampler::sampleUniformNear(to, near, distance);
-            turn(to, middle, [&](double from) { return rng_.uniformReal(from - distance, from + distance); });
-        }
-        void sampleGaussian(::ompl::base::State *to, const ::ompl::base::State *mean, double deviation) override {
-            const std::vector<double> middle = copy(mean);
-            RealVectorStateSampler::sampleGaussian(to, mean, deviation);
-            turn(to, middle, [&](double from) { return rng_.gaussian(from, deviation); });
-        }
-
-      private:
-        std::vector<double> copy(const ::ompl::base::State *from) const {
-            const double *values = from->as<state>()->values;
-            return {values, values + robot_space_->moving_.size()};
-        }
-        template <class Draw> void turn(::ompl::base::State *to, const std::vector<double> &middle, Draw draw) {
-            for (std::size_t i = 0; i < middle.size(); i++)
-                if (robot_space_->turning_[i]) to->as<state>()->values[i] = wrap(draw(middle[i]));
-        }
-        const robot_space *robot_space_;
-    };
-
-    static double wrap(double angle) { return std::remainder(angle, 2 * pi); }
+    static constexpr double pi = detail::half_turn;
+    static double wrap(double angle) { return detail::wrap_angle(angle); }
 
     /// From a to b in number i.
     double difference(const ::ompl::base::State *a, const ::ompl::base::State *b, std::size_t i) const {

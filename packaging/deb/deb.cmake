@@ -82,4 +82,9 @@ if(TARGET ovoid_cli)
 ${about}This package has the tool. It fits meshes, answers pairs and lists of pairs,
 checks scenes and motions, verifies the proofs of answers and draws pictures.")
 endif()
+if(TARGET ovoid_plan)
+  ovoid_deb(plan ovoid-plan science "ovoid (= ${full})" "motion planning of robots with proofs
+${about}This package lets the tool plan: \"ovoid robot plan\" finds paths of robots
+with planners of OMPL, each motion of which is proven free.")
+endif()
 include(CPack)

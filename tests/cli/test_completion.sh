@@ -44,7 +44,8 @@ expect 'b.stl' distance a.stl b
 expect 'a.stl' batch --shapes a
 expect '' check --margin ''
 expect 'a.stl b.stl folder/' check --json ''
-expect 'info check path matrix spheres --help' robot ''
+expect 'info check path plan matrix spheres --help' robot ''
+expect 'rrtconnect biest' robot plan --planner ''
 expect '--samples --states --state --scene --srdf --scale --seed' robot spheres --s
 expect 'a.stl b.stl folder/' robot spheres --given ''
 expect 'check' robot c

@@ -25,7 +25,7 @@ rm -rf "$root" "$folder"/out_*
 mkdir -p "$folder"
 check "build, with lintian" "$OVOID_SOURCE_DIR/scripts/deb.sh" "$folder/build"
 so=$(define MAJOR).$(define MINOR)
-packages="libovoid$so libovoid-dev libovoid-io$so libovoid-io-dev libovoid-robot$so libovoid-robot-dev libovoid-ompl-dev ovoid"
+packages="libovoid$so libovoid-dev libovoid-io$so libovoid-io-dev libovoid-robot$so libovoid-robot-dev libovoid-ompl-dev ovoid ovoid-plan"
 for package in $packages; do
     file=$(find "$folder/build" -maxdepth 1 -name "${package}_$version-1_*.deb")
     check "package $package" [ -f "$file" ]

@@ -6,7 +6,7 @@ set -u
 work=$OVOID_BUILD_DIR/test_mutations
 rm -rf "$work" && mkdir -p "$work" || exit 1
 # A copy, since a listing is written beside the sources.
-cp -R "$OVOID_SOURCE_DIR/scripts" "$OVOID_SOURCE_DIR/src" "$OVOID_SOURCE_DIR/python" "$OVOID_SOURCE_DIR/cli" "$work" && cd "$work" || exit 1
+cp -R "$OVOID_SOURCE_DIR/scripts" "$OVOID_SOURCE_DIR/src" "$OVOID_SOURCE_DIR/python" "$OVOID_SOURCE_DIR/cli" "$OVOID_SOURCE_DIR/include" "$work" && cd "$work" || exit 1
 passed=0 failed=0
 check() { # NAME RESULT
     if [ "$2" -eq 0 ]; then passed=$((passed + 1)); else failed=$((failed + 1)) && echo "FAILED $1"; fi
@@ -17,7 +17,7 @@ check "every mutation applies: $(grep FAILED said | head -n 5)" $?
 passed=$((passed + $(sed -n 's/^\([0-9]*\) passed.*/\1/p' said)))
 for test in $(scripts/mutate.sh --list | sed 's/^[^:]*://' | tr ' ' '\n' | sed 's/:.*//' | sort -u); do
     # A test of Python, test_python_NAME, is python/tests/test_NAME.py; those of the tool are scripts.
-    [ -n "$(find "$OVOID_SOURCE_DIR/tests" -name "$test.c" -o -name "$test")" ] || [ -f "$OVOID_SOURCE_DIR/python/tests/$(echo "$test.py" | sed 's/_python//')" ]
+    [ -n "$(find "$OVOID_SOURCE_DIR/tests" -name "$test.c" -o -name "$test.cpp" -o -name "$test")" ] || [ -f "$OVOID_SOURCE_DIR/python/tests/$(echo "$test.py" | sed 's/_python//')" ]
     check "there is no $test" $?
 done
 for group in $(scripts/mutate.sh --list | cut -d, -f1); do

@@ -7,6 +7,7 @@
 #include "base/progress.h"
 #include "robot/commands.h"
 #include "robot/page.h"
+#include "robot/path/answer.h"
 #include "robot/path/proof.h"
 #include "robot/path/speed.h"
 #include "robot/report.h"
@@ -51,48 +52,6 @@ static const cli_option options[] = {
     REPORT_OPTIONS(settings),
     {.name = NULL},
 };
-
-/// Steps for which there is room at first.
-#define STEPS_ROOM 4096
-
-/// Checks the path, with room for its steps where they are wanted. 0, or EXIT_INPUT after a message.
-static int find_answer(path_report *r, ovoid_robot_checker *checker, const ovoid_robot_path *path,
-                       ovoid_robot_path_options *o) {
-    ovoid_error error;
-    size_t room = r->steps ? STEPS_ROOM : 0;
-    for (;;) {
-        o->steps = r->steps;
-        o->capacity = room;
-        ovoid_robot_checker_reset(checker);
-        if (ovoid_robot_path_find_hit(checker, &(ovoid_robot_path_query){path, o}, &r->answer, &error) != OVOID_OK)
-            return message_error("%s", error.message), EXIT_INPUT;
-        if (!r->steps || r->answer.step_count <= room) return 0;
-        room = r->answer.step_count;
-        free(r->steps);
-        r->steps = malloc(room * sizeof *r->steps);
-        if (!r->steps) return message_error("out of memory for %zu steps", room), EXIT_INPUT;
-    }
-}
-
-/// Measures all steps again. 0, or EXIT_NOT_PROVEN after a message.
-static int check_proofs(const path_report *r, const ovoid_robot_path *path, const ovoid_robot_path_options *o) {
-    ovoid_error error;
-    size_t count = r->answer.step_count;
-    if (r->answer.status == OVOID_ROBOT_REFUSED) {
-        if (!r->is_edge) message_note("nothing is proven of a path that is refused");
-        return 0;
-    }
-    if (ovoid_robot_path_verify(r->cell->cell, &r->answer, &(ovoid_robot_path_basis){{path, o}, r->steps}, &error) !=
-        OVOID_OK) {
-        message_error("path %zu: of %zu proofs not all hold: %s", r->number, count, error.message);
-        return EXIT_NOT_PROVEN;
-    }
-    const char *until = r->answer.status == OVOID_ROBOT_FREE ? "free up to" : "free before";
-    if (r->is_edge) return 0;
-    message_note("%zu of %zu proofs hold: %s s %.9g%s", count, count, until, r->answer.free_until,
-                 r->answer.status == OVOID_ROBOT_HIT ? ", and the hit" : "");
-    return 0;
-}
 
 /// The smallest clearance. 0, or EXIT_INPUT after a message.
 static int find_clearance(const settings *s, path_report *r, ovoid_robot_checker *checker, const ovoid_robot_path *path,
@@ -140,10 +99,10 @@ static int run_one(const settings *s, path_run *run, const cli_results *results,
     ovoid_robot_path_options o = {
         .query = cell_make_options(&s->cell), .tolerance = s->tolerance, .states = s->most, .any_hit = s->any_hit};
     ovoid_robot_clearance clearance;
-    int code = find_answer(r, checker, &path, &o);
+    int code = path_find_answer(r, checker, &path, &o);
     if (!code && s->clearance) code = find_clearance(s, r, checker, &path, &clearance);
     if (code) return code;
-    if (s->proofs && check_proofs(r, &path, &o)) counts->proven = EXIT_NOT_PROVEN;
+    if (s->proofs && path_check_proofs(r, &path, &o)) counts->proven = EXIT_NOT_PROVEN;
     write_answer(r, results);
     robot_page_add_path(&run->page, r);
     r->clearance = NULL;
@@ -278,7 +237,7 @@ static int run(const cli_command *command, int argc, char **argv) {
             .cell = &cell, .states = &states, .margin = s.cell.margin, .has_proofs = s.proofs, .is_edge = s.edges};
         run.checker = ovoid_robot_checker_create(cell.cell, NULL, &error);
         int has_steps = s.proofs || (s.html && !s.edges);
-        if (run.checker && has_steps) r->steps = malloc(STEPS_ROOM * sizeof *r->steps);
+        if (run.checker && has_steps) r->steps = path_create_steps();
         if (!run.checker || (has_steps && !r->steps))
             message_error("out of memory"), code = EXIT_INPUT;
         else
