@@ -25,7 +25,7 @@ typedef struct cell_settings {
      offsetof(settings, cell.scene),                                                                                   \
      "FILE",                                                                                                           \
      NULL,                                                                                                             \
-     "obstacles, in the root link's frame: a planning scene of MoveIt (.yaml) or a scene of ovoid (.json)"},           \
+     "obstacles, in the root link's frame: MoveIt's planning scene (.yaml, .scene) or a scene of ovoid (.json)"},      \
         {"padding",                                                                                                    \
          0,                                                                                                            \
          OPTION_LIST,                                                                                                  \

@@ -1,14 +1,11 @@
-// MoveIt's scenes and requests.
+// MoveIt's scenes, in YAML and as text, and its requests.
 #include "robot.h"
 
 #include <math.h>
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+static void read_obstacles(const char *path, const ovoid_robot_read_options *options) {
     ovoid_error error = {OVOID_OK, -1, ""};
-    size_t notes = 0, count;
-    ovoid_robot_read_options options = {.note = fuzz_count_note, .context = &notes};
-    const char *path = fuzz_write_file("scene.yaml", data, size);
-    ovoid_obstacles *o = ovoid_obstacles_read(path, &options, &error);
+    ovoid_obstacles *o = ovoid_obstacles_read(path, options, &error);
     if (!o) fuzz_require_error(&error);
     for (size_t i = 0; o && i < ovoid_obstacles_get_count(o); i++) {
         ovoid_obstacle obstacle = ovoid_obstacles_get(o, i);
@@ -16,7 +13,16 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         fuzz_require(ovoid_pose_validate(&obstacle.pose) == OVOID_OK);
     }
     ovoid_obstacles_destroy(o);
-    error = (ovoid_error){OVOID_OK, -1, ""};
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    ovoid_error error = {OVOID_OK, -1, ""};
+    size_t notes = 0, count;
+    ovoid_robot_read_options options = {.note = fuzz_count_note, .context = &notes};
+    const char *path = fuzz_write_file("scene.yaml", data, size);
+    read_obstacles(path, &options);
+    read_obstacles(fuzz_write_file("text.scene", data, size), &options);
+    path = fuzz_write_file("request.yaml", data, size);
     ovoid_motion_request *r = ovoid_motion_request_read(path, &options, &error);
     if (!r) {
         fuzz_require_error(&error);

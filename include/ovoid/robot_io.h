@@ -174,7 +174,8 @@ typedef struct ovoid_obstacle {
 } ovoid_obstacle;
 
 /**
- * Reads a scene: MoveIt's planning scene (.yaml, .yml) or ovoid's own (.json: ovoid_scene_read). Meshes count as
+ * Reads a scene: MoveIt's planning scene (.yaml, .yml), its text
+ * (.scene, older and newer format), or ovoid's own (.json: ovoid_scene_read). Meshes count as
  * what they are, or with options->hull as their hulls; a scene that asks for a solid is refused then. Equal primitives
  * share a shape. docs/robot.md says what each key of a planning scene means, and which mean nothing; any other key, and
  * what cannot be obeyed (octomaps, planes, scaled links), is refused with its line. options: tolerance, shape, hull,

@@ -101,6 +101,67 @@ static void test_meshes(void) {
 }
 
 // By the scene's own rule, and where it asks for it; where hulls are asked for that is refused.
+static void test_geometry_text(void) {
+    static const char text[] =
+        "(noname)+\n* the table\n0 0 10\n0 0 1 0\n2\nbox\n2 4 6\n1 0 0\n0 0 0 1\n0 0 0 0\n"
+        "cylinder\n0.5 5\n0 2 0\n0 0 0 1\n1 0 0 1\n1\nhandle\n0 0 0\n0 0 0 1\n"
+        "* ball\n0 0 0\n0 0 0 1\n3\nsphere\n0.25\n3 0 0\n0 0 0 1\n0 0 0 0\ncone\n1 2\n4 0 0\n0 0 0 1\n0 0 0 0\n"
+        "mesh\n4 4\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 2 1\n0 1 3\n1 2 3\n2 0 3\n5 0 0\n0 0 0 1\n0 0 0 0\n0\n.\n";
+    static const char old[] = "scene\n* Box 0\n1\nbox\n2 4 6\n1 2 3\n0 0 0 1\n0 0 0 0\n*  next\n1\nsphere\n1\n"
+                              "0 0 9\n0 0 0 1\n0 0 0 0\n.\n";
+    ovoid_robot_read_options options = make_read_options();
+    options.tolerance = 0.01;
+    ovoid_obstacles *o = read_scene("new.scene", text, &options);
+    if (CHECK(o) && CHECK_EQ(ovoid_obstacles_get_count(o), 5)) {
+        CHECK(strcmp(ovoid_obstacles_get(o, 0).name, "the table") == 0);
+        // Turned by a half turn about z and raised by 10.
+        CHECK_EQ(ovoid_obstacles_get(o, 0).pose.position.x, -1);
+        CHECK_EQ(ovoid_obstacles_get(o, 0).pose.position.z, 10);
+        CHECK_EQ(get_box(o, 0).max.z, 3);
+        CHECK_EQ(get_box(o, 1).max.z, 2.5); // the radius comes first
+        CHECK_NEAR(get_box(o, 1).max.x, 0.5, 0.01);
+        CHECK_EQ(ovoid_shape_get_radius(ovoid_obstacles_get(o, 2).shape), 0.25);
+        CHECK_EQ(get_box(o, 3).max.z, 1);
+        CHECK_EQ(ovoid_obstacles_get(o, 4).pose.position.x, 5);
+        CHECK_EQ(get_box(o, 4).max.z, 1);
+    }
+    ovoid_obstacles_destroy(o);
+    o = read_scene("old.scene", old, &options);
+    if (CHECK(o) && CHECK_EQ(ovoid_obstacles_get_count(o), 2)) {
+        CHECK(strcmp(ovoid_obstacles_get(o, 0).name, "Box 0") == 0);
+        CHECK(strcmp(ovoid_obstacles_get(o, 1).name, "next") == 0);
+        CHECK_EQ(ovoid_obstacles_get(o, 0).pose.position.y, 2);
+        CHECK_EQ(ovoid_obstacles_get(o, 1).pose.position.z, 9);
+    }
+    ovoid_obstacles_destroy(o);
+}
+
+// What is refused, at which line.
+static void test_bad_geometry_text(void) {
+    static const struct {
+        const char *text, *place, *word;
+    } cases[] = {
+        {"n\n* a\n1\nbox\n1 1 1\n0 0 0\n0 0 0 1\n0 0 0 0\n", ":9:", "* name"},
+        {"n\n* a\n1\nbox\n1 1\n", ":6:", "ends before"},
+        {"n\n* a\n1\nbox\n1 1 x\n0 0 0\n0 0 0 1\n0 0 0 0\n.\n", ":5:", "finite number"},
+        {"n\n* a\n1\nplane\n0 0 1 0\n0 0 0\n0 0 0 1\n0 0 0 0\n.\n", ":4:", "planes"},
+        {"n\n* a\n1\npyramid\n1\n.\n", ":4:", "must be box"},
+        {"n\n* a\nmany\n.\n", ":3:", "number of its shapes"},
+        {"n\n* a\n0 0 0\n0 0 0 1\n1\nsphere\n1\n0 0 0\n0 0 0 1\n0 0 0 0\n.\n", ":11:", "subframes"},
+        {"n\n* a\n1\nmesh\n3 1\n0 0 0\n1 0 0\n0 1 0\n0 1 3\n0 0 0\n0 0 0 1\n0 0 0 0\n.\n", ":9:", "vertex 3"},
+        {"n\n* a\n1\nmesh\n99999999999 1\n0 0 0\n", ":7:", "ends before"},
+        {"world:\n  collision_objects: []\n", ":2:", ".yaml"},
+        {"n\n* \n1\nsphere\n1\n0 0 0\n0 0 0 1\n0 0 0 0\n.\n", ":2:", "needs an id"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        ovoid_error error = {OVOID_OK, -1, ""};
+        ovoid_obstacles *o = ovoid_obstacles_read(file_write_text("bad.scene", cases[i].text), NULL, &error);
+        if (!CHECK(!o) || !CHECK(strstr(error.message, cases[i].place) && strstr(error.message, cases[i].word)))
+            printf("  case %zu: %s\n", i, o ? "accepted" : error.message);
+        ovoid_obstacles_destroy(o);
+    }
+}
+
 static void test_own_solids(void) {
     static const char dented[] = "v 0 0 0\nv 3 0 0\nv 0 3 0\nv 0 0 3\nv 0.5 0.5 0.5\n"
                                  "f 1 3 2\nf 1 2 4\nf 3 1 4\nf 2 3 5\nf 3 4 5\nf 4 2 5\n";
@@ -357,6 +418,8 @@ int main(void) {
     file_write_text("x", "");
     test_primitives();
     test_meshes();
+    test_geometry_text();
+    test_bad_geometry_text();
     test_own_solids();
     test_own_scene();
     check_bad_inputs(scenes, sizeof scenes / sizeof *scenes, accepts_scene);

@@ -1,8 +1,10 @@
-// Obstacles from a scene: MoveIt's planning scene in YAML (moveit_msgs/PlanningScene), or ovoid's own scenes. An object
-// is its parts, each convex or a solid; where an object and its parts have poses, the pose of a part is their product
-// by definition. scene_state.c reads what a planning scene says beside them. Cost: n log n, plus the shapes.
+// Obstacles from a scene: MoveIt's planning scene in YAML (moveit_msgs/PlanningScene), its text (.scene), or ovoid's
+// own scenes. An object is its parts, each convex or a solid; where an object and its parts have poses, the pose of a
+// part is their product by definition. scene_state.c reads what a planning scene says beside them. Cost: n log n, plus
+// the shapes.
 #include "robot/read/scene/obstacles.h"
 #include "robot/read/body/mesh_body.h"
+#include "robot/read/scene/geometry_text.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -336,10 +338,8 @@ static ovoid_code refuse_octomap(const message_reader *r, const yaml_value *worl
 static ovoid_code read_world(message_reader *r, ovoid_obstacles *o, const yaml_value *root) {
     const yaml_value *world, *objects = NULL;
     if (root->kind == YAML_TEXT && strchr(root->text, '*'))
-        return message_fail(
-            r, root, OVOID_ERROR_FORMAT,
-            "this is MoveIt's text of a scene (.scene), which is not read: load it in RViz, and save the "
-            "message: rostopic echo -n 1 /move_group/monitored_planning_scene >scene.yaml");
+        return message_fail(r, root, OVOID_ERROR_FORMAT,
+                            "this is MoveIt's text of a scene: it is read where the file's name ends in .scene");
     ovoid_code code = message_find_kind(r, root, "world", YAML_MAP, &world);
     if (!code && world) code = message_find_kind(r, world, "collision_objects", YAML_LIST, &objects);
     if (code) return code;
@@ -360,7 +360,8 @@ static ovoid_code read_world(message_reader *r, ovoid_obstacles *o, const yaml_v
 
 static ovoid_code read_planning_scene(message_reader *r, ovoid_obstacles *o) {
     yaml_value *root;
-    ovoid_code code = yaml_read(r->path, &r->scratch, &root, r->error);
+    ovoid_code code = path_has_extension(r->path, "scene") ? geometry_text_read(r->path, &r->scratch, &root, r->error)
+                                                           : yaml_read(r->path, &r->scratch, &root, r->error);
     if (!code) code = read_world(r, o, root);
     pool_clear(&r->scratch);
     return code;

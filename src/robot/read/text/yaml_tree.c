@@ -28,7 +28,7 @@ static ovoid_code fail_parser(const yaml_reader *r, const yaml_parser_t *parser)
     return io_fail(r->error, OVOID_ERROR_FORMAT, at, "YAML: %s", parser->problem ? parser->problem : "cannot be read");
 }
 
-static void hang(yaml_value *parent, yaml_value *value) {
+void yaml_append(yaml_value *parent, yaml_value *value) {
     value->parent = parent;
     parent->count++;
     if (parent->last)
@@ -45,7 +45,7 @@ static ovoid_code add_value(yaml_reader *r, const yaml_event_t *event, yaml_kind
     if (!r->open)
         r->root = value;
     else
-        hang(r->open, value);
+        yaml_append(r->open, value);
     r->key = NULL;
     *out = value;
     return OVOID_OK;

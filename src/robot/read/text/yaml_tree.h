@@ -21,5 +21,7 @@ typedef struct yaml_value {
 
 /// Reads the file ("-": standard input); all of the tree is in the pool. An empty file is a map without members.
 ovoid_code yaml_read(const char *path, pool *memory, yaml_value **root, ovoid_error *error);
+/// Makes the value the last item or member of its parent.
+void yaml_append(yaml_value *parent, yaml_value *value);
 
 #endif
