@@ -2,6 +2,7 @@
 set(package_ovoid_judge "libgmp-dev (GMP)")
 set(package_ovoid_assimp "libassimp-dev (Assimp)")
 set(package_ovoid_ompl "libompl-dev (OMPL)")
+set(package_planner "libfcl-dev (FCL) and libompl-dev (OMPL)")
 set(package_fcl "libfcl-dev (FCL)")
 set(package_ovoid_qhull "libqhull-dev (Qhull)")
 set(package_ovoid_io_static "libovoid_io (OVOID_IO, libjansson-dev)")

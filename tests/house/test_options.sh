@@ -28,8 +28,8 @@ for script in scripts/*.sh bench/web/bench.sh; do
 done
 # Tests and benches with options are those whose sources name the command line.
 # shellcheck disable=SC2013 # paths without blanks
-for source in $(grep -lE 'main\(int [a-z]+, char \*\*' tests/*/*.c tests/*/*/*.c bench/bench.c bench/peers/solids.cpp bench/web/native.c); do
-    name=$(basename "$source" | sed 's/\.[a-z]*$//; s/^solids$/bench_solids/')
+for source in $(grep -lE 'main\(int [a-z]+, char \*\*' tests/*/*.c tests/*/*/*.c bench/bench.c bench/peers/solids.cpp bench/planner/planner.cpp bench/web/native.c); do
+    name=$(basename "$source" | sed 's/\.[a-z]*$//; s/^solids$/bench_solids/; s/^planner$/bench_planner/')
     if [ "$name" = native ]; then name=bench_web; fi
     program=
     for folder in tests bench; do if [ -x "$OVOID_BUILD_DIR/$folder/$name" ]; then program=$OVOID_BUILD_DIR/$folder/$name; fi; done
