@@ -38,8 +38,10 @@ static ovoid_code verify_compound(const verify *v, const claim *item, const ovoi
     const ovoid_record *r = &item->record;
     ovoid_body_answer answer = ovoid_body_answer_make(&r->answer, item->pair.a.compound ? r->part_a : 0,
                                                       item->pair.b.compound ? r->part_b : 0);
-    ovoid_exclusions exclusions = {(ovoid_exclusion *)r->exclusions, r->exclusion_count, r->exclusion_count,
-                                   (ovoid_cover *)r->cover};
+    ovoid_exclusions exclusions = {.items = (ovoid_exclusion *)r->exclusions,
+                                   .capacity = r->exclusion_count,
+                                   .count = r->exclusion_count,
+                                   .cover = (ovoid_cover *)r->cover};
     return verdict_verify_compound(v->verdict, &item->pair, &answer, &exclusions, points, error);
 }
 
@@ -87,7 +89,8 @@ static ovoid_code verify_impact(const claim *item, const ovoid_answer *answer, o
 /// The answer of solids is that of their surfaces, of which the points are, and what follows from it.
 static ovoid_code verify_solids(const verify *v, const claim *item, ovoid_error *error) {
     const ovoid_record *r = &item->record;
-    ovoid_exclusions exclusions = {(ovoid_exclusion *)r->exclusions, r->exclusion_count, r->exclusion_count, NULL};
+    ovoid_exclusions exclusions = {
+        .items = (ovoid_exclusion *)r->exclusions, .capacity = r->exclusion_count, .count = r->exclusion_count};
     if (!item->pair.a.solid && !item->pair.b.solid) {
         snprintf(error->message, sizeof error->message, "it is an answer about solids, which the bodies are not");
         return OVOID_ERROR_PROOF;

@@ -10,9 +10,6 @@
 /// Pairs of a chunk.
 #define CHUNK 128
 
-/// Exclusions for which there is room at first.
-#define ROOM 256
-
 typedef struct chunk {
     size_t first, count;
     ovoid_record *records; ///< CHUNK
@@ -54,18 +51,6 @@ void answers_describe(const ovoid_scene *scene, ovoid_couple couple, ovoid_recor
     record->mesh_b = b.convexity;
 }
 
-/// Makes room for that many exclusions; 0 where memory is out.
-static int reserve(answer_room *room, size_t count) {
-    if (!room->cover) room->cover = malloc(sizeof *room->cover);
-    if (count > room->capacity) {
-        ovoid_exclusion *items = realloc(room->items, count * sizeof *items);
-        if (!items) return 0;
-        room->items = items;
-        room->capacity = count;
-    }
-    return room->cover != NULL;
-}
-
 /// The width that a shape's allowance gives a bracket.
 static double get_width(const ovoid_shape *shape) {
     ovoid_allowance allowance = ovoid_shape_get_allowance(shape);
@@ -89,16 +74,14 @@ void answers_settle_limit(ovoid_answer *answer, const ovoid_body_pair *pair, dou
 
 int answers_find(answer_room *room, const ovoid_body_pair *pair, const answers_query *query, ovoid_record *record) {
     int is_solid = pair->a.solid || pair->b.solid;
-    if (!reserve(room, ROOM)) return 0;
-    ovoid_exclusions proof = {room->items, room->capacity, 0, query->query == QUERY_DISTANCE ? room->cover : NULL};
+    if (!room->cover && !(room->cover = malloc(sizeof *room->cover))) return 0;
     room->cover->point_count = 0;
-    room->body = find(pair, query, query->wants_proof ? &proof : NULL);
-    if (proof.count > room->capacity) {
-        if (!reserve(room, proof.count)) return 0;
-        proof.items = room->items;
-        proof.capacity = room->capacity;
-        room->body = find(pair, query, &proof);
-    }
+    ovoid_exclusions *proof = &room->exclusions;
+    proof->grows = 1;
+    proof->count = 0;
+    proof->cover = query->query == QUERY_DISTANCE ? room->cover : NULL;
+    room->body = find(pair, query, query->wants_proof ? proof : NULL);
+    if (proof->count > proof->capacity) return 0;
     record->solid = NULL;
     record->answer = room->body.deciding;
     if (is_solid)
@@ -108,14 +91,14 @@ int answers_find(answer_room *room, const ovoid_body_pair *pair, const answers_q
     record->part_a = pair->a.compound ? room->body.part_a : OVOID_RECORD_NO_PART;
     record->part_b = pair->b.compound ? room->body.part_b : OVOID_RECORD_NO_PART;
     record->cover = query->wants_proof && room->cover->point_count ? room->cover : NULL;
-    record->exclusions = proof.items;
-    record->exclusion_count = proof.count;
+    record->exclusions = proof->items;
+    record->exclusion_count = proof->count;
     return 1;
 }
 
 void answer_room_clear(answer_room *room) {
     free(room->cover);
-    free(room->items);
+    ovoid_exclusions_release(&room->exclusions);
     *room = (answer_room){.cover = NULL};
 }
 

@@ -159,8 +159,10 @@ static int verify_record(const ovoid_body_pair *pair, const ovoid_record *record
     const ovoid_options asked = {.absolute_tolerance = tolerance};
     ovoid_body_answer answer = ovoid_body_answer_make(&record->answer, pair->a.compound ? record->part_a : 0,
                                                       pair->b.compound ? record->part_b : 0);
-    ovoid_exclusions exclusions = {(ovoid_exclusion *)record->exclusions, record->exclusion_count,
-                                   record->exclusion_count, (ovoid_cover *)record->cover};
+    ovoid_exclusions exclusions = {.items = (ovoid_exclusion *)record->exclusions,
+                                   .capacity = record->exclusion_count,
+                                   .count = record->exclusion_count,
+                                   .cover = (ovoid_cover *)record->cover};
     if (ovoid_body_verify(pair, &answer, &(ovoid_body_basis){.options = &asked, .exclusions = &exclusions}, &error) ==
         OVOID_OK)
         return 1;

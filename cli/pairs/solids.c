@@ -96,13 +96,8 @@ typedef struct solids_result {
 static int find_answer(const solids_pair *p, const solids_query *q, solids_result *r) {
     ovoid_options options = {.absolute_tolerance = q->tolerance};
     ovoid_error error;
-    for (size_t room = 4096;; room = r->exclusions.count) {
-        free(r->exclusions.items);
-        r->exclusions = (ovoid_exclusions){malloc(room * sizeof(ovoid_exclusion)), room, 0, NULL};
-        if (!r->exclusions.items) return 0;
-        r->answer = ovoid_body_distance(&p->pair, &options, &(ovoid_body_evidence){.exclusions = &r->exclusions});
-        if (r->exclusions.count <= room) break;
-    }
+    r->answer = ovoid_body_distance(&p->pair, &options, &(ovoid_body_evidence){.exclusions = &r->exclusions});
+    if (r->exclusions.count > r->exclusions.capacity) return 0;
     r->holds =
         ovoid_body_verify(&p->pair, &r->answer, &(ovoid_body_basis){.options = &options, .exclusions = &r->exclusions},
                           &error) == OVOID_OK;
@@ -190,7 +185,7 @@ static void print_report(FILE *file, const solids_pair *p, const solids_query *q
 }
 
 int solids_answer(const solids_pair *p, const solids_query *q, const output_settings *out) {
-    solids_result r = {.exclusions.items = NULL};
+    solids_result r = {.exclusions.grows = 1};
     cli_results results;
     if (!find_answer(p, q, &r)) {
         message_error("out of memory");
@@ -200,7 +195,7 @@ int solids_answer(const solids_pair *p, const solids_query *q, const output_sett
     unsigned fields = OVOID_RECORD_MESHES | OVOID_RECORD_SOLIDS | (q->margin >= 0 ? OVOID_RECORD_MARGIN : 0);
     int code = r.holds ? (int)results_judge(&record.answer, q->margin) : EXIT_NOT_PROVEN;
     if (results_open(&results, out, fields, q->unit)) {
-        free(r.exclusions.items);
+        ovoid_exclusions_release(&r.exclusions);
         return EXIT_INPUT;
     }
     record.fields = results.fields;
@@ -208,6 +203,6 @@ int solids_answer(const solids_pair *p, const solids_query *q, const output_sett
         code = results_add(&results, &record) ? EXIT_INPUT : code;
     else
         print_report(results.file, p, q, &r);
-    free(r.exclusions.items);
+    ovoid_exclusions_release(&r.exclusions);
     return results_close(&results, code);
 }

@@ -52,7 +52,7 @@ static void ask_all(findings *f, double margin, const ovoid_options *options, co
                     size_t capacity) {
     static ovoid_exclusion items[ITEMS];
     static ovoid_cover cover;
-    ovoid_exclusions exclusions = {items, capacity, 0, &cover};
+    ovoid_exclusions exclusions = {.items = items, .capacity = capacity, .cover = &cover};
     f->options = options;
     ovoid_body_answer x =
         ovoid_body_collide(f->pair, options, &(ovoid_body_evidence){.earlier = earlier, .exclusions = &exclusions});

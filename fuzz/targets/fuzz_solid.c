@@ -75,7 +75,7 @@ static void check(findings *f, const ovoid_body_answer *x, const ovoid_exclusion
 
 static void ask(findings *f, double margin, const ovoid_body_proof *earlier, size_t capacity) {
     static ovoid_exclusion items[ITEMS];
-    ovoid_exclusions all = {items, capacity, 0, NULL};
+    ovoid_exclusions all = {.items = items, .capacity = capacity};
     ovoid_body_answer x =
         ovoid_body_collide(f->pair, NULL, &(ovoid_body_evidence){.earlier = earlier, .exclusions = &all});
     check(f, &x, &all);

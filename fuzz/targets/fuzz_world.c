@@ -100,7 +100,7 @@ static void check_contact(const model *m, const ovoid_contact *c, double margin)
     fuzz_require(!(c->verdict.lower > margin));
     static ovoid_exclusion items[256];
     static ovoid_cover cover;
-    ovoid_exclusions exclusions = {items, 256, 0, &cover};
+    ovoid_exclusions exclusions = {.items = items, .capacity = 256, .cover = &cover};
     ovoid_error error = {OVOID_OK, -1, ""};
     ovoid_contact_proof proof = {.exclusions = &exclusions};
     fuzz_require_code(ovoid_world_compute_proof(m->world, c, &proof, &error), &error);

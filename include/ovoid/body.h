@@ -55,14 +55,22 @@ typedef struct ovoid_exclusion {
 /**
  * Memory for the proof of a query's answer beside the deciding pair's own proof: sorted exclusions, which with the
  * deciding pair cover all pairs of parts; and for a depth the deciding pair's cover (NULL: none is wanted; of a solid
- * it is not used). How many there are is known once a query has counted them: it may be asked again with that capacity.
+ * it is not used). How many there are is known at the end of a query only. With `grows` the query makes room for them;
+ * without, `count` tells how many there are, and the query may be repeated with that capacity.
  */
 typedef struct ovoid_exclusions {
-    ovoid_exclusion *items; /**< the caller's, capacity of them; may be NULL where capacity is 0 */
+    ovoid_exclusion *items; /**< capacity of them; may be NULL where capacity is 0. The caller's, or see grows */
     size_t capacity;
     size_t count; /**< written: how many there are; more than capacity: the items are not all there */
     ovoid_cover *cover;
+    int grows; /**< 1: a query that finds too little room takes more from the allocator and releases the items that it
+                  was given, which must be NULL or the allocator's. ovoid_exclusions_release ends them. Where memory is
+                  out count is above capacity; the answer holds nonetheless. */
+    const ovoid_allocator *allocator; /**< of items that grow; NULL: the default one. Must outlive the items */
 } ovoid_exclusions;
+
+/** Releases items that grow; then there are none, and no room. Nothing where `grows` is 0, or exclusions is NULL. */
+OVOID_API void ovoid_exclusions_release(ovoid_exclusions *exclusions);
 
 /** Which body has a point of the other inside, if that is what proves an overlap. */
 typedef enum ovoid_body_inside {

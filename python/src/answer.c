@@ -35,6 +35,23 @@ int answer_keep_cover(answer_object *to, const ovoid_cover *cover) {
     return 0;
 }
 
+int answer_keep_exclusions(answer_object *to, ovoid_exclusions *exclusions) {
+    size_t count = exclusions->count;
+    int failed = count > exclusions->capacity;
+    if (!failed && count) {
+        to->exclusions = malloc(count * sizeof *to->exclusions);
+        failed = !to->exclusions;
+        if (!failed) memcpy(to->exclusions, exclusions->items, count * sizeof *to->exclusions);
+    }
+    ovoid_exclusions_release(exclusions);
+    if (failed) {
+        PyErr_NoMemory();
+        return -1;
+    }
+    to->exclusion_count = count;
+    return 0;
+}
+
 const ovoid_cover *answer_unpack_cover(const answer_object *self, ovoid_cover *to) {
     if (!self->cover) return NULL;
     to->point_count = self->cover->point_count;
@@ -70,8 +87,10 @@ ovoid_code answer_verify(const answer_object *self, ovoid_error *error) {
         return ovoid_answer_verify(&pair, &self->of.deciding,
                                    &(ovoid_answer_basis){.options = &self->options, .cover = cover}, error);
     }
-    ovoid_exclusions exclusions = {self->exclusions, self->exclusion_count, self->exclusion_count,
-                                   self->cover ? &unpacked : NULL};
+    ovoid_exclusions exclusions = {.items = self->exclusions,
+                                   .capacity = self->exclusion_count,
+                                   .count = self->exclusion_count,
+                                   .cover = self->cover ? &unpacked : NULL};
     ovoid_code code;
     Py_BEGIN_ALLOW_THREADS;
     code = ovoid_body_verify(&bodies, &self->of,

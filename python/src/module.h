@@ -307,6 +307,8 @@ answer_object *answer_make(module_state *state, PyObject *a, PyObject *b, const 
                            const ovoid_pose *pose_b);
 /// Keeps of a depth's cover what is used of it.
 int answer_keep_cover(answer_object *to, const ovoid_cover *cover);
+/// Keeps a copy of exclusions that grow, and releases them; -1 with MemoryError where memory was or is out.
+int answer_keep_exclusions(answer_object *to, ovoid_exclusions *exclusions);
 /// What was kept as the library reads it, in *to; NULL where there is none.
 const ovoid_cover *answer_unpack_cover(const answer_object *self, ovoid_cover *to);
 /// Raises where an answer was refused; -1 then.

@@ -206,26 +206,14 @@ static ovoid_body_answer query_once(const query_input *in, ovoid_exclusions *exc
     }
 }
 
-// Asks again with more memory where the exclusions were more than there was room for.
 static int query_bodies(const query_input *in, answer_object *to) {
     ovoid_cover cover;
-    size_t capacity = in->pair.a.solid || in->pair.b.solid ? 256 : 64;
-    for (;;) {
-        ovoid_exclusion *grown = realloc(to->exclusions, capacity * sizeof *grown);
-        if (!grown) {
-            PyErr_NoMemory();
-            return -1;
-        }
-        to->exclusions = grown;
-        cover.point_count = 0;
-        ovoid_exclusions exclusions = {grown, capacity, 0, in->name == QUERY_DEPTH ? &cover : NULL};
-        Py_BEGIN_ALLOW_THREADS;
-        to->of = query_once(in, &exclusions);
-        Py_END_ALLOW_THREADS;
-        to->exclusion_count = exclusions.count;
-        if (exclusions.count <= capacity) return answer_keep_cover(to, &cover);
-        capacity = exclusions.count;
-    }
+    cover.point_count = 0;
+    ovoid_exclusions exclusions = {.cover = in->name == QUERY_DEPTH ? &cover : NULL, .grows = 1};
+    Py_BEGIN_ALLOW_THREADS;
+    to->of = query_once(in, &exclusions);
+    Py_END_ALLOW_THREADS;
+    return answer_keep_exclusions(to, &exclusions) || answer_keep_cover(to, &cover) ? -1 : 0;
 }
 
 // ---- what is called

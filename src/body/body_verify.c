@@ -278,7 +278,7 @@ static ovoid_code verify_solids(cut *c, const ovoid_pair *leaves, ovoid_error *e
 
 static ovoid_code verify(const ovoid_body_pair *pair, const ovoid_body_answer *x, const ovoid_options *options,
                          const ovoid_exclusions *all, ovoid_error *error) {
-    static const ovoid_exclusions none = {NULL, 0, 0, NULL};
+    static const ovoid_exclusions none = {.items = NULL};
     cut c = {.x = x, .all = all ? all : &none, .lower = x->deciding.lower};
     ovoid_limit refused = find_refusal(pair, options, &c);
     if (refused != OVOID_LIMIT_NONE || is_refusal(x->limit)) {

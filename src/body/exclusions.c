@@ -1,13 +1,37 @@
-// Exclusions: their order, and the search for one by its ranges.
+// Exclusions: their memory, their order, and the search for one by its ranges.
 #include "body/exclusions.h"
 
+#include "base/allocator.h"
 #include "tools/heap.h"
+
+#include <string.h>
+
+enum { FIRST_CAPACITY = 64 };
 
 void exclusions_begin(ovoid_exclusions *exclusions) {
     if (!exclusions) return;
     exclusions->count = 0;
     ovoid_cover *cover = exclusions->cover;
     if (cover) cover->point_count = cover->triangle_count = 0;
+}
+
+void exclusions_grow(ovoid_exclusions *exclusions) {
+    ovoid_allocator allocator = allocator_make(exclusions->allocator);
+    size_t capacity = exclusions->capacity ? 2 * exclusions->capacity : FIRST_CAPACITY;
+    ovoid_exclusion *items = allocator_allocate(&allocator, capacity, sizeof *items);
+    if (!items) return;
+    if (exclusions->count) memcpy(items, exclusions->items, exclusions->count * sizeof *items);
+    allocator_release(&allocator, exclusions->items);
+    exclusions->items = items;
+    exclusions->capacity = capacity;
+}
+
+void ovoid_exclusions_release(ovoid_exclusions *exclusions) {
+    if (!exclusions || !exclusions->grows) return;
+    ovoid_allocator allocator = allocator_make(exclusions->allocator);
+    allocator_release(&allocator, exclusions->items);
+    exclusions->items = NULL;
+    exclusions->capacity = exclusions->count = 0;
 }
 
 static int compare(const ovoid_exclusion *a, const ovoid_exclusion *b) {

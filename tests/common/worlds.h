@@ -80,7 +80,7 @@ static inline void world_check_contact(const ovoid_world *w, const ovoid_contact
                                        const ovoid_world_body *b, const ovoid_contact_query *q) {
     static ovoid_exclusion items[4096];
     static ovoid_cover cover;
-    ovoid_exclusions exclusions = {items, 4096, 0, &cover};
+    ovoid_exclusions exclusions = {.items = items, .capacity = 4096, .cover = &cover};
     ovoid_body_pair pair = {a->body, b->body};
     ovoid_answer alone = world_ask(a, b, q).deciding, truth = ovoid_body_depth(&pair, NULL, NULL).deciding;
     CHECK_EQ(c->verdict.status, alone.status);

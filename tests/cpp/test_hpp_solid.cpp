@@ -62,7 +62,7 @@ void check_queries() {
                            pose::rpy({0.5, 0.5, 0.5}, {0, 0, 0})}) {
         const body_pair p({angle}, {cube, at}), two({angle}, {angle, at});
         for (const body_pair *q : {&p, &two}) {
-            ovoid_exclusions all = {items, 512, 0, nullptr}, c = {other, 512, 0, nullptr};
+            ovoid_exclusions all = {items, 512, 0, nullptr, 0, nullptr}, c = {other, 512, 0, nullptr, 0, nullptr};
             const ovoid_body_evidence into = {nullptr, &c};
             const ovoid::body_answer x = ovoid::distance(*q, {}, nullptr, &all);
             CHECK(is_same_solid_answer(x, ovoid_body_distance(q, nullptr, &into)));
@@ -96,7 +96,7 @@ void check_bodies() {
     const ovoid::compound two = ovoid::compound::create(
         {{cube, pose::rpy({1.5, 1.5, 0.5}, {0, 0, 0})}, {cube, pose::rpy({4, 4, 0.5}, {0, 0, 0})}});
     ovoid_exclusion items[512];
-    ovoid_exclusions all = {items, 512, 0, nullptr};
+    ovoid_exclusions all = {items, 512, 0, nullptr, 0, nullptr};
     const body_pair beside(angle, two);
     const ovoid::body_answer x = ovoid::distance(beside, {}, nullptr, &all);
     CHECK_EQ(x.part_b, 0u);

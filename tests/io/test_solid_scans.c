@@ -35,7 +35,7 @@ static double find_surfaces(const mesh *a, const mesh *b, const ovoid_body_pair 
 }
 
 static void check_pair(const mesh *a, const mesh *b, const ovoid_body_pair *pair, ovoid_status status, double size) {
-    ovoid_exclusions all = {items, 200000, 0, NULL};
+    ovoid_exclusions all = {.items = items, .capacity = 200000};
     ovoid_error error = {OVOID_OK, -1, ""};
     double truth = find_surfaces(a, b, pair);
     ovoid_body_answer x = ovoid_body_distance(pair, NULL, &(ovoid_body_evidence){.exclusions = &all}),

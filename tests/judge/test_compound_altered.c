@@ -79,7 +79,7 @@ static void lie_about_answer(const told *t, const ovoid_body_answer *x, const ov
 }
 
 static void lie_about_exclusions(const told *t, const ovoid_body_answer *x, const ovoid_exclusions *all, uint64_t *s) {
-    ovoid_exclusions y = {altered, CAPACITY, all->count, all->cover};
+    ovoid_exclusions y = {.items = altered, .capacity = CAPACITY, .count = all->count, .cover = all->cover};
     size_t at = random_next(s) % all->count, other = random_next(s) % all->count, bytes = all->count * sizeof *items;
     memcpy(altered, items, bytes);
     alter_walk w = alter_walk_make(&exclusion_table, &altered[at], sizeof *altered, &items[other]);
@@ -131,7 +131,7 @@ static uint32_t find_vertex_count(const ovoid_body *body, uint32_t part) {
 
 static void check_pair(told *t, uint64_t *s) {
     static ovoid_body_answer last;
-    ovoid_exclusions all = {items, CAPACITY, 0, &cover};
+    ovoid_exclusions all = {.items = items, .capacity = CAPACITY, .cover = &cover};
     ovoid_error error = {.message = ""};
     t->options = (ovoid_options){0};
     uint64_t which = random_next(s) % 6;

@@ -49,7 +49,8 @@ static void judge_whole(const ovoid_body_pair *pair, const ovoid_body_answer *x,
         all->items[i].lower = nextafter(x->lower, -INFINITY);
         CHECK(judge_all(pair, x, all) != OVOID_OK);
         all->items[i] = all->items[all->count - 1];
-        ovoid_exclusions fewer = {all->items, all->capacity, all->count - 1, all->cover};
+        ovoid_exclusions fewer = {
+            .items = all->items, .capacity = all->capacity, .count = all->count - 1, .cover = all->cover};
         // The deciding pair may have an exclusion too, which is not needed.
         int is_deciding = kept.end_a - kept.first_a == 1 && get_index(&pair->a, kept.first_a) == x->part_a &&
                           kept.end_b - kept.first_b == 1 && get_index(&pair->b, kept.first_b) == x->part_b;

@@ -129,7 +129,9 @@ export function bindBodies(core) {
     const kinds = [kindOf(a), kindOf(b)];
     if (kind === 3 && kinds.includes(2)) throw new TypeError('depth: of a Solid ask for the distance, which brackets the depth too');
     calls.body_query(kind, kinds[0] | (kinds[1] << 2), a.address, b.address, earlier ? 1 : 0);
-    const n = memory.get(HEAD + ANSWER + PROOF), bytes = memory.take(Uint8Array, calls.get_exclusions(), EXCLUSION * n[0]);
+    const n = memory.get(HEAD + ANSWER + PROOF);
+    if (n[0] < 0) throw new OvoidError(1, -1, 'out of memory');
+    const bytes = memory.take(Uint8Array, calls.get_exclusions(), EXCLUSION * n[0]);
     const extra = { kinds, n: n.slice(0, HEAD), bytes, cover: kind === 3 ? readCover() : undefined, lower: n[HEAD + 4] };
     const answer = new Answer(n.slice(HEAD), names, (proof) => completeProof(proof, extra));
     describe(answer, kinds, n);

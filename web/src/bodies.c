@@ -26,7 +26,7 @@ ovoid_compound *EXPORT(compound_create)(ovoid_shape *const *shapes, const double
 void EXPORT(compound_destroy)(ovoid_compound *compound) { ovoid_compound_destroy(compound); }
 
 // The exclusions of the last query, and of the next check, as the caller reads and writes them.
-static ovoid_exclusions exclusions;
+static ovoid_exclusions exclusions = {.grows = 1};
 _Static_assert(sizeof(ovoid_exclusion) == 72 && offsetof(ovoid_exclusion, normal) == 16, "four indices, seven numbers");
 
 ovoid_exclusion *EXPORT(get_exclusions)(void) { return exclusions.items; }
@@ -34,11 +34,11 @@ ovoid_exclusion *EXPORT(get_exclusions)(void) { return exclusions.items; }
 /// Room for so many exclusions: their address; 0 where there is no memory, or nothing to hold.
 ovoid_exclusion *EXPORT(set_exclusions)(size_t count) {
     if (count > exclusions.capacity) {
-        void *items = count <= SIZE_MAX / sizeof(ovoid_exclusion)
-                          ? realloc(exclusions.items, count * sizeof(ovoid_exclusion))
-                          : NULL;
-        if (!items) return NULL;
-        exclusions.items = items;
+        ovoid_exclusions_release(&exclusions);
+        exclusions.items = count <= SIZE_MAX / 2 / sizeof(ovoid_exclusion)
+                               ? aligned_alloc(64, (count * sizeof(ovoid_exclusion) + 63) / 64 * 64)
+                               : NULL;
+        if (!exclusions.items) return NULL;
         exclusions.capacity = count;
     }
     exclusions.count = count;
@@ -79,9 +79,9 @@ static ovoid_body_answer ask(const question *q) {
 }
 
 /// kind: collide, within, distance, depth. Reads both poses, the margin, four options and, where is_warm, the deciding
-/// parts of an earlier answer and its proof. Writes how many exclusions there are, the deciding parts, parting, inside,
-/// component, common point, of the surfaces status, limit, lower and upper, then the answer and its proof; of a depth
-/// the cover.
+/// parts of an earlier answer and its proof. Writes how many exclusions there are (-1: memory was out), the deciding
+/// parts, parting, inside, component, common point, of the surfaces status, limit, lower and upper, then the answer and
+/// its proof; of a depth the cover.
 void EXPORT(body_query)(int kind, unsigned kinds, const void *a, const void *b, int is_warm) {
     question q = {.kind = kind, .is_warm = is_warm};
     const double *from = read_bodies(kinds, a, b, &q.pair);
@@ -94,10 +94,8 @@ void EXPORT(body_query)(int kind, unsigned kinds, const void *a, const void *b, 
     exclusions.cover = kind == 3 ? &cover : NULL;
     cover.point_count = cover.triangle_count = 0;
     ovoid_body_answer s = ask(&q);
-    // Once more where there was too little room: the search is the same.
-    if (exclusions.count > exclusions.capacity && set_exclusions(exclusions.count)) s = ask(&q);
     double *to = exchange;
-    *to++ = (double)exclusions.count, *to++ = s.part_a, *to++ = s.part_b;
+    *to++ = exclusions.count <= exclusions.capacity ? (double)exclusions.count : -1, *to++ = s.part_a, *to++ = s.part_b;
     to = write_vec3(to, s.parting);
     *to++ = s.inside, *to++ = s.component;
     to = write_vec3(to, s.common);

@@ -38,14 +38,20 @@ struct body_pair : ovoid_body_pair {
     body_pair(const T &from) noexcept : ovoid_body_pair(from) {}
 };
 
-/** Where a query writes what proves its answer beside the deciding pair: into an array of the caller's. */
+/** Where a query writes what proves its answer beside the deciding pair: into memory of its own, or an array of the
+    caller's. For the cover of a depth set `cover`. */
 class exclusions : public ovoid_exclusions {
   public:
+    /** Grows as a query needs it, from malloc; freed with the object. */
+    exclusions() noexcept : ovoid_exclusions{nullptr, 0, 0, nullptr, 1, nullptr} {}
     /** Into a contiguous container, as many as it has places; c: receives the cover of a depth, or nullptr. */
     template <class Container>
     explicit exclusions(Container &into, ovoid_cover *c = nullptr) noexcept
-        : ovoid_exclusions{std::data(into), std::size(into), 0, c} {}
-    /** False where there were more than places: the proof is not all there. */
+        : ovoid_exclusions{std::data(into), std::size(into), 0, c, 0, nullptr} {}
+    exclusions(const exclusions &) = delete;
+    exclusions &operator=(const exclusions &) = delete;
+    ~exclusions() { ovoid_exclusions_release(this); }
+    /** False where there were more than places, or memory was out: the proof is not all there. */
     bool is_complete() const noexcept { return count <= capacity; }
     /** What was written. */
     span<const ovoid_exclusion> written() const noexcept { return {items, is_complete() ? count : capacity}; }

@@ -435,29 +435,16 @@ int world_find(world_object *self, ovoid_id id, PyObject **body, ovoid_pose *pos
 static PyObject *fill_proof(world_object *self, const ovoid_contact *contact, answer_object *made) {
     ovoid_cover cover;
     ovoid_error error;
-    for (size_t capacity = 64; made;) {
-        ovoid_exclusion *grown = realloc(made->exclusions, capacity * sizeof *grown);
-        if (!grown)
-            PyErr_NoMemory();
-        else
-            made->exclusions = grown;
-        cover.point_count = 0;
-        ovoid_exclusions exclusions = {grown, capacity, 0, &cover};
-        ovoid_code code = OVOID_OK;
-        ovoid_contact_proof proof = {.exclusions = &exclusions};
-        if (grown) code = ovoid_world_compute_proof(self->world, contact, &proof, &error);
-        if (code != OVOID_OK) raise_error(state_of((PyObject *)self), &error);
-        if (!grown || code != OVOID_OK) {
-            Py_CLEAR(made);
-        } else if (exclusions.count <= capacity) {
-            made->exclusion_count = exclusions.count;
-            made->of = proof.answer;
-            made->options = self->asked;
-            if (answer_keep_cover(made, &cover)) Py_CLEAR(made);
-            break;
-        }
-        capacity = exclusions.count;
-    }
+    if (!made) return NULL;
+    cover.point_count = 0;
+    ovoid_exclusions exclusions = {.cover = &cover, .grows = 1};
+    ovoid_contact_proof proof = {.exclusions = &exclusions};
+    ovoid_code code = ovoid_world_compute_proof(self->world, contact, &proof, &error);
+    made->of = proof.answer;
+    made->options = self->asked;
+    int failed = answer_keep_exclusions(made, &exclusions);
+    if (!failed && code != OVOID_OK) raise_error(state_of((PyObject *)self), &error);
+    if (failed || code != OVOID_OK || answer_keep_cover(made, &cover)) Py_CLEAR(made);
     return (PyObject *)made;
 }
 

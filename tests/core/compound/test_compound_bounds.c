@@ -152,7 +152,7 @@ static void check_proofs(ovoid_shape *const shapes[SHAPES], uint64_t seed) {
     ovoid_vec3 at = random_vec3(&s, far), way = vec3_scale(vec3_unit(random_vec3(&s, 1)), random_uniform(&s, 4, 14));
     ovoid_body_pair pair = {{.compound = c[0], .pose = {at, random_quat(&s)}},
                             {.compound = c[1], .pose = {vec3_add(at, way), random_quat(&s)}}};
-    ovoid_exclusions all = {items, CAPACITY, 0, NULL};
+    ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
     ovoid_error error = {.message = ""};
     ovoid_body_answer x = ovoid_body_distance(&pair, NULL, &(ovoid_body_evidence){.exclusions = &all});
     double size = c[0]->extent + c[1]->extent + vec3_norm(way);
@@ -175,7 +175,7 @@ static void check_far_balls(uint64_t seed) {
     ovoid_vec3 at = random_vec3(&s, far), way = vec3_scale(vec3_unit(random_vec3(&s, 1)), random_uniform(&s, 8, 20));
     ovoid_body_pair pair = {{.compound = c[0], .pose = {at, random_quat(&s)}},
                             {.compound = c[1], .pose = {vec3_add(at, way), random_quat(&s)}}};
-    ovoid_exclusions all = {items, CAPACITY, 0, NULL};
+    ovoid_exclusions all = {.items = items, .capacity = CAPACITY};
     ovoid_error error = {.message = ""};
     for (int k = 0; k < 3; k++) {
         ovoid_options o = {.cap = k ? random_uniform(&s, 0, 20) : 0};

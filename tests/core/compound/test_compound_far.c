@@ -22,7 +22,7 @@ static int first_looks;
 // The answer holds, and its proof; one exclusion of all parts shows it where no pair of parts was asked.
 static void check_answer(const ovoid_body_pair *pair, ask *how, double margin, double lower, double upper) {
     ovoid_exclusion items[512];
-    ovoid_exclusions all = {items, 512, 0, NULL};
+    ovoid_exclusions all = {.items = items, .capacity = 512};
     ovoid_body_answer x = how(pair, margin, &all), same = how(pair, margin, NULL);
     ovoid_error error = {0};
     if (!CHECK(ovoid_body_verify(pair, &x, &(ovoid_body_basis){.exclusions = &all}, &error) == OVOID_OK))
@@ -40,7 +40,7 @@ static void check_answer(const ovoid_body_pair *pair, ask *how, double margin, d
                     x.deciding.point_b.z - x.deciding.point_a.z};
     CHECK_NEAR(sqrt(d.x * d.x + d.y * d.y + d.z * d.z), x.upper, 1e-12 * (1 + x.upper) + 1e-5);
     // Room for no exclusion changes nothing but that.
-    ovoid_exclusions none = {NULL, 0, 0, NULL};
+    ovoid_exclusions none = {.items = NULL};
     ovoid_body_answer without = how(pair, margin, &none);
     CHECK(none.count == 1 && without.lower == x.lower);
 }

@@ -149,7 +149,7 @@ static void check_compounds(const ovoid_pair *p, const ovoid_proof *foreign) {
     ovoid_compound *ca = ovoid_compound_create(a, 2, NULL, NULL), *cb = ovoid_compound_create(b, 2, NULL, NULL);
     static ovoid_exclusion items[64];
     static ovoid_cover cover;
-    ovoid_exclusions all = {items, 64, 0, &cover};
+    ovoid_exclusions all = {.items = items, .capacity = 64, .cover = &cover};
     ovoid_body_pair pair = {{.compound = ca, .pose = p->pose_a}, {.compound = cb, .pose = p->pose_b}};
     ovoid_body_answer cold = ovoid_body_depth(&pair, NULL, NULL);
     for (int i = 0; i < 2; i++) {

@@ -233,7 +233,7 @@ static void check_slivers(void) {
     ovoid_solid *s = ovoid_solid_create_from_triangles(&(ovoid_triangles){xyz, 6, t, 2}, NULL, NULL);
     ovoid_solid *tiny = ovoid_solid_create_from_triangles(&(ovoid_triangles){xyz, 6, t + 3, 1}, NULL, NULL);
     ovoid_exclusion items[16];
-    ovoid_exclusions all = {items, 16, 0, NULL};
+    ovoid_exclusions all = {.items = items, .capacity = 16};
     ovoid_error error;
     for (int i = 0; i < 2; i++) {
         ovoid_body_pair pair = {{.solid = i ? tiny : s, .pose = ovoid_pose_make_identity()},
@@ -255,7 +255,7 @@ static void check_slivers(void) {
 static void check_altered(void) {
     ovoid_solid *s = make_cube(12);
     static ovoid_exclusion items[4096];
-    ovoid_exclusions all = {items, 4096, 0, NULL};
+    ovoid_exclusions all = {.items = items, .capacity = 4096};
     ovoid_body_pair pair = {{.solid = s, .pose = ovoid_pose_make_identity()},
                             {.solid = s, .pose = {{2.5, 0.25, 0.125}, {9, 1, 2, 3}}}};
     const ovoid_body_answer x = ovoid_body_distance(&pair, NULL, &(ovoid_body_evidence){.exclusions = &all});

@@ -85,7 +85,7 @@ static void check_contact(stage *x, const ovoid_contact *c, const ovoid_body *a,
         CHECK_NEAR(c->verdict.lower, truth.lower, 1e-7);
     ovoid_error error = {.message = ""};
     static ovoid_exclusion items[4096];
-    ovoid_exclusions exclusions = {items, 4096, 0, NULL};
+    ovoid_exclusions exclusions = {.items = items, .capacity = 4096};
     ovoid_contact_proof proof = {.exclusions = &exclusions};
     CHECK_EQ(ovoid_world_compute_proof(x->w, c, &proof, &error), OVOID_OK);
     CHECK_EQ(ovoid_body_verify(&pair, &proof.answer,
