@@ -2,8 +2,8 @@
 #include "many/many.h"
 
 #include "common/build.h"
+#include "common/module.h"
 #include "many/many_ours.h"
-#include "pairs/field.h"
 
 #include <stdio.h>
 

@@ -1,29 +1,11 @@
-// Peers are shared modules, each with its libraries in a scope of its own: Bullet in double and Bullet in single
-// precision could not be linked into one program.
-#define _GNU_SOURCE
 #include "pairs/field.h"
 
+#include "common/module.h"
 #include "pairs/ours.h"
 
-#include <dlfcn.h>
 #include <stdio.h>
-#include <string.h>
 
 field field_make(void) { return (field){{&ours}, 1}; }
-
-module_function module_load(const char *path, const char *name) {
-    void *module = dlopen(path, RTLD_NOW | RTLD_LOCAL);
-    if (!module) {
-        (void)fprintf(stderr, "bench: %s\n", dlerror());
-        return NULL;
-    }
-    // C has no conversion of an object pointer to a function pointer; POSIX promises that the bytes will do.
-    void *symbol = dlsym(module, name);
-    module_function function = NULL;
-    memcpy(&function, &symbol, sizeof function);
-    if (!function) (void)fprintf(stderr, "bench: %s exports no %s\n", path, name);
-    return function;
-}
 
 typedef const peer *const *(*get_peers)(void);
 

@@ -4,11 +4,6 @@
 
 #include "common/measure.h"
 
-/// To be cast to what it is.
-typedef void (*module_function)(void);
-/// The function that a module exports; NULL, with a line on stderr, where there is none.
-module_function module_load(const char *path, const char *name);
-
 typedef struct field {
     const peer *members[ENTRANTS_MOST]; ///< ovoid first
     uint32_t count;

@@ -1,6 +1,7 @@
-// bench_planner: RRTConnect of OMPL on the planning problems of MotionBenchMaker, with ovoid's proofs and with states
-// sampled by FCL as MoveIt drives it, by the same seeds. Every path is then proven or refuted by ovoid; those that
-// sampled planners call free and that hit are counted, with the deepest overlap that is proven.
+// bench_planner: planners of OMPL on the planning problems of MotionBenchMaker, with ovoid's proofs and with states
+// sampled by FCL as MoveIt drives it, by the same seeds. Every path is then proven or refuted by ovoid. Paths that a
+// sampling peer calls free and that hit are counted in two groups: a state that the peer looked at hits, or only states
+// between them do.
 #include <ovoid/ompl.hpp>
 
 extern "C" {
@@ -10,11 +11,13 @@ extern "C" {
 
 #include <ompl/geometric/PathSimplifier.h>
 #include <ompl/geometric/SimpleSetup.h>
+#include <ompl/geometric/planners/informedtrees/BITstar.h>
 #include <ompl/geometric/planners/rrt/RRTConnect.h>
 #include <ompl/util/Console.h>
 
 #include <chrono>
 #include <cstring>
+#include <string>
 
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
@@ -22,14 +25,17 @@ namespace og = ompl::geometric;
 namespace {
 
 const char help[] =
-    "bench_planner [OPTION...]: RRTConnect with ovoid's proven motions beside FCL's samples, on MotionBenchMaker's "
-    "problems\n"
+    "bench_planner [OPTION...]: OMPL's planners with ovoid's proven motions beside FCL's samples, on "
+    "MotionBenchMaker's problems\n"
     "\n"
     "  --smoke          one problem of each robot: does it run\n"
     "  --scenes N       most problems of a robot, spread over all (20)\n"
     "  --seeds N        seeds of each problem (1)\n"
     "  --seconds S      most time of a plan (10)\n"
+    "  --planner NAME   RRTConnect, or BITstar, which ends with its first path (RRTConnect)\n"
     "  --robot TEXT     only robots whose name holds TEXT: panda, fetch\n"
+    "  --peer FILE      a module with one more peer (bench/peers/robot_peer.h), at 0.5 %; may be repeated\n"
+    "  --alone          without FCL\n"
     "  --data FOLDER    where robots/ is (OVOID_DATA, else ../shared/data)\n"
     "  --help           this\n";
 
@@ -37,6 +43,8 @@ struct settings {
     unsigned scenes = 20, seeds = 1;
     double seconds = 10;
     const char *only = "", *data = nullptr;
+    bool is_bit_star = false, is_alone = false;
+    robots_field modules = {};
 };
 
 double get_seconds() {
@@ -45,7 +53,7 @@ double get_seconds() {
 
 /// Who validates: ovoid, or a peer at states that are this part of the space's extent apart.
 struct contestant {
-    const char *name;
+    std::string name;
     const robot_peer *peer;
     double resolution;
 };
@@ -53,7 +61,7 @@ struct contestant {
 /// What was measured of a contestant.
 struct results {
     std::vector<double> planned, shortened;
-    unsigned solved = 0, proven = 0, hit = 0, open = 0;
+    unsigned solved = 0, proven = 0, hit_at_samples = 0, hit_between = 0, open = 0;
     double deepest = 0;
 };
 
@@ -75,7 +83,8 @@ class sampled_checker : public ob::StateValidityChecker {
     bool isValid(const ob::State *state) const override {
         space_->write_state(state, q_.data());
         return space_->satisfiesBounds(state) &&
-               ovoid_robot_compute_poses(of_->robot.get(), q_.data(), links_.data(), nullptr) == OVOID_OK &&
+               (peer_->has_kinematics ||
+                ovoid_robot_compute_poses(of_->robot.get(), q_.data(), links_.data(), nullptr) == OVOID_OK) &&
                !peer_->is_hit(self_, q_.data(), links_.data());
     }
 
@@ -86,6 +95,31 @@ class sampled_checker : public ob::StateValidityChecker {
     void *self_;
     mutable std::vector<double> q_;
     mutable std::vector<ovoid_pose> links_;
+};
+
+/// Motions of a peer that looks at a whole edge by its own way; its resolution is its own.
+class edge_validator : public ob::MotionValidator {
+  public:
+    edge_validator(ob::SpaceInformation *planner, const problem &of, const robot_peer *peer, void *self)
+        : MotionValidator(planner), space_(&ovoid::detail::robot_space_of(*planner)), peer_(peer), self_(self),
+          q_(2 * of.start.size()) {}
+    bool checkMotion(const ob::State *from, const ob::State *to) const override {
+        space_->write_motion(from, to, q_.data());
+        const unsigned states = space_->validSegmentCount(from, to) + 1;
+        return !peer_->is_edge_hit(self_, q_.data(), q_.data() + q_.size() / 2, states);
+    }
+    bool checkMotion(const ob::State *from, const ob::State *to, std::pair<ob::State *, double> &last) const override {
+        const bool is_free = checkMotion(from, to);
+        if (!is_free) last.second = 0;
+        if (!is_free && last.first) space_->copyState(last.first, from);
+        return is_free;
+    }
+
+  private:
+    const ovoid::robot_space *space_;
+    const robot_peer *peer_;
+    void *self_;
+    mutable std::vector<double> q_;
 };
 
 /// Of the limits: URDFs and requests have few digits.
@@ -112,19 +146,49 @@ double find_depth(ovoid::robot_checker &checker, const std::vector<double> &stat
     return deepest;
 }
 
-void judge(const problem &of, const std::vector<double> &states, results &into) {
+/// Does a state hit that OMPL's discrete motion validator looks at along this path?
+bool is_sample_hit(ovoid::robot_checker &checker, const ovoid::robot_space &space, const og::PathGeometric &path) {
+    std::vector<double> q(space.robot().variable_count());
+    ob::ScopedState<ovoid::robot_space> at(path.getSpaceInformation());
+    for (unsigned i = 0; i + 1 < path.getStateCount(); i++) {
+        const unsigned parts = std::max(1u, space.validSegmentCount(path.getState(i), path.getState(i + 1)));
+        for (unsigned k = 0; k <= parts; k++) {
+            space.interpolate(path.getState(i), path.getState(i + 1), double(k) / parts, at.get());
+            space.write_state(at.get(), q.data());
+            if (checker.collide({q.data(), q.size()}, make_options()).status == OVOID_ROBOT_HIT) return true;
+        }
+    }
+    return false;
+}
+
+void judge(const problem &of, const ovoid::robot_space &space, const og::PathGeometric &path, results &into) {
     const std::size_t n = of.start.size();
+    const std::vector<double> states = space.make_states(path, {of.start.data(), n});
     auto checker = ovoid::robot_checker::create(of.cell);
     ovoid::robot_path_options how;
     how.query = make_options();
     const auto found = checker.find_hit({states.data(), states.size()}, states.size() / n, how);
     into.proven += found.status == OVOID_ROBOT_FREE;
-    into.hit += found.status == OVOID_ROBOT_HIT;
     into.open += found.status != OVOID_ROBOT_FREE && found.status != OVOID_ROBOT_HIT;
-    if (found.status == OVOID_ROBOT_HIT) into.deepest = std::max(into.deepest, find_depth(checker, states, n));
+    if (found.status != OVOID_ROBOT_HIT) return;
+    (is_sample_hit(checker, space, path) ? into.hit_at_samples : into.hit_between)++;
+    into.deepest = std::max(into.deepest, find_depth(checker, states, n));
 }
 
-void plan(const problem &of, const contestant &who, unsigned seed, double seconds, results &into) {
+ob::PlannerPtr make_planner(const settings &how, const ob::SpaceInformationPtr &space) {
+    if (how.is_bit_star) return std::make_shared<og::BITstar>(space);
+    return std::make_shared<og::RRTConnect>(space);
+}
+
+/// Until the first path: BIT* would go on to shorten it until the time is up.
+bool solve(og::SimpleSetup &setup, double seconds) {
+    const auto &definition = setup.getProblemDefinition();
+    (void)setup.solve(ob::plannerOrTerminationCondition(ob::timedPlannerTerminationCondition(seconds),
+                                                        ob::exactSolnPlannerTerminationCondition(definition)));
+    return definition->hasExactSolution();
+}
+
+void plan(const problem &of, const contestant &who, unsigned seed, const settings &how, results &into) {
     const ovoid::span<const double> start(of.start.data(), of.start.size()), goal(of.goal.data(), of.goal.size());
     ompl::RNG::setSeed(seed);
     const auto space = std::make_shared<ovoid::robot_space>(
@@ -132,9 +196,12 @@ void plan(const problem &of, const contestant &who, unsigned seed, double second
     og::SimpleSetup setup(space);
     const auto planner = setup.getSpaceInformation();
     void *self = who.peer ? who.peer->create(&of.scene.what) : nullptr;
+    if (who.peer && !self) return; // it does not know the robot
     if (who.peer) {
         planner->setStateValidityChecker(std::make_shared<sampled_checker>(planner.get(), of, who.peer, self));
         planner->setStateValidityCheckingResolution(who.resolution);
+        if (who.peer->is_edge_hit && who.peer->has_kinematics)
+            planner->setMotionValidator(std::make_shared<edge_validator>(planner.get(), of, who.peer, self));
     } else {
         ovoid::set_cell(*planner, of.cell, make_options());
     }
@@ -142,17 +209,17 @@ void plan(const problem &of, const contestant &who, unsigned seed, double second
     space->read_state(start, from.get());
     space->read_state(goal, to.get());
     setup.setStartAndGoalStates(from, to);
-    setup.setPlanner(std::make_shared<og::RRTConnect>(planner));
+    setup.setPlanner(make_planner(how, planner));
     setup.setup();
     const double begun = get_seconds();
-    const bool is_solved = setup.solve(seconds) == ob::PlannerStatus::EXACT_SOLUTION;
+    const bool is_solved = solve(setup, how.seconds);
     into.planned.push_back(get_seconds() - begun);
     if (is_solved) {
         const double found = get_seconds();
         og::PathSimplifier(planner, setup.getGoal()).simplifyMax(setup.getSolutionPath());
         into.shortened.push_back(get_seconds() - found);
         into.solved++;
-        judge(of, space->make_states(setup.getSolutionPath(), start), into);
+        judge(of, *space, setup.getSolutionPath(), into);
     }
     if (who.peer) who.peer->destroy(self);
 }
@@ -219,13 +286,15 @@ double get_sum(const std::vector<double> &of) {
 /// 0: one of ovoid's own paths is not proven.
 bool report(const char *robot, const std::vector<contestant> &who, const std::vector<results> &all) {
     std::printf("\n| %s | plans | solved | ms to plan, median | s to plan, all | ms to shorten, median | proven free | "
-                "hit | open | deepest, mm |\n|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n",
+                "hits at a sample | hits between samples | open | deepest, mm |\n"
+                "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n",
                 robot);
     for (std::size_t i = 0; i < who.size(); i++) {
         const results &r = all[i];
-        std::printf("| %s | %zu | %u | %.2f | %.3f | %.2f | %u | %u | %u | %.2f |\n", who[i].name, r.planned.size(),
-                    r.solved, 1e3 * get_median(r.planned), get_sum(r.planned), 1e3 * get_median(r.shortened), r.proven,
-                    r.hit, r.open, 1e3 * r.deepest);
+        if (r.planned.empty()) continue;
+        std::printf("| %s | %zu | %u | %.2f | %.3f | %.2f | %u | %u | %u | %u | %.2f |\n", who[i].name.c_str(),
+                    r.planned.size(), r.solved, 1e3 * get_median(r.planned), get_sum(r.planned),
+                    1e3 * get_median(r.shortened), r.proven, r.hit_at_samples, r.hit_between, r.open, 1e3 * r.deepest);
     }
     return all[0].proven == all[0].solved;
 }
@@ -242,7 +311,7 @@ bool run_robot(const machine_files &files, const std::vector<contestant> &who, c
             for (unsigned seed = 1; seed <= how.seeds; seed++)
                 for (std::size_t k = 0; k < who.size(); k++) {
                     const std::size_t turn = (k + i) % who.size();
-                    plan(of, who[turn], seed, how.seconds, all[turn]);
+                    plan(of, who[turn], seed, how, all[turn]);
                 }
         } else {
             left_out++;
@@ -262,6 +331,10 @@ bool read_options(int count, char **words, settings &how) {
             how.scenes = 1;
             continue;
         }
+        if (std::strcmp(words[i], "--alone") == 0) {
+            how.is_alone = true;
+            continue;
+        }
         if (!value) return false;
         if (std::strcmp(words[i], "--scenes") == 0)
             how.scenes = unsigned(std::strtoul(value, nullptr, 10));
@@ -273,6 +346,12 @@ bool read_options(int count, char **words, settings &how) {
             how.only = value;
         else if (std::strcmp(words[i], "--data") == 0)
             how.data = value;
+        else if (std::strcmp(words[i], "--peer") == 0 && robots_field_load(&how.modules, value))
+            ;
+        else if (std::strcmp(words[i], "--planner") == 0 && std::strcmp(value, "RRTConnect") == 0)
+            how.is_bit_star = false;
+        else if (std::strcmp(words[i], "--planner") == 0 && std::strcmp(value, "BITstar") == 0)
+            how.is_bit_star = true;
         else
             return false;
         i++;
@@ -295,9 +374,13 @@ int main(int count, char **words) {
     (void)std::setvbuf(stdout, nullptr, _IOLBF, 0);
     // Hulls as ovoid has them; FCL's second contestant.
     const robot_peer *convex = bench_get_robot_peers()[1];
-    const std::vector<contestant> who = {
-        {"ovoid, proven", nullptr, 0}, {"FCL convex, 1 %", convex, 0.01}, {"FCL convex, 0.5 %", convex, 0.005}};
-    std::printf("RRTConnect, OMPL; %s\n", get_build());
+    std::vector<contestant> who = {{"ovoid, proven", nullptr, 0}};
+    if (!how.is_alone)
+        for (const auto &[name, part] : {std::pair{"FCL convex, 1 %", 0.01}, {"FCL convex, 0.5 %", 0.005}})
+            who.push_back({name, convex, part});
+    for (std::uint32_t i = 0; i < how.modules.count; i++)
+        who.push_back({how.modules.peers[i]->name, how.modules.peers[i], 0.005});
+    std::printf("%s, OMPL; %s\n", how.is_bit_star ? "BITstar" : "RRTConnect", get_build());
     bool is_good = true;
     for (const auto &robot : files)
         if (std::strstr(robot.name, how.only)) is_good = run_robot(robot, who, how) && is_good;

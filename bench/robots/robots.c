@@ -2,7 +2,6 @@
 #include "robots/robots.h"
 
 #include "common/build.h"
-#include "pairs/field.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -13,25 +12,16 @@ robots_plan robots_plan_make(void) { return (robots_plan){700, 256, 1, 10, 10000
 
 robots_plan robots_plan_make_smoke(void) { return (robots_plan){1, 2, 1, 2, 50, 10, NULL, NULL}; }
 
-typedef const robot_peer *const *(*get_robot_peers)(void);
-
-static int load(robots_field *all, const char *path) {
-    get_robot_peers get = (get_robot_peers)module_load(path, "bench_get_robot_peers");
-    if (!get) return 0;
-    for (const robot_peer *const *p = get(); *p && all->count < ROBOT_PEERS_MOST; p++) all->peers[all->count++] = *p;
-    return 1;
-}
-
 static int load_all(robots_field *all, const char *const *modules, uint32_t count, int alone) {
     static const struct { const char *name, *path; } built[] = {OVOID_BENCH_ROBOT_MODULES{"", ""}};
     for (size_t i = 0; !alone && i + 1 < sizeof built / sizeof built[0]; i++) {
         if (built[i].path[0])
-            (void)load(all, built[i].path);
+            (void)robots_field_load(all, built[i].path);
         else
             printf("without %s: it was not found when this was built\n", built[i].name);
     }
     for (uint32_t i = 0; i < count; i++)
-        if (!load(all, modules[i])) return 0;
+        if (!robots_field_load(all, modules[i])) return 0;
     return 1;
 }
 

@@ -31,6 +31,9 @@ typedef struct robots_field {
     uint32_t count;
 } robots_field;
 
+/// Adds the peers of a module; 0, with a line on stderr, where it cannot be loaded.
+int robots_field_load(robots_field *all, const char *path);
+
 /// A robot, and what peers are told of it.
 typedef struct machine {
     char name[64];

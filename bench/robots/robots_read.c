@@ -3,6 +3,7 @@
 #include "robots/robots.h"
 
 #include "common/bodies.h"
+#include "common/module.h"
 #include "common/random.h"
 
 #include <stdio.h>
@@ -13,6 +14,15 @@
 enum { SOLIDS_MOST = 512 };
 
 static const double half_turn = 3.14159265358979323846;
+
+typedef const robot_peer *const *(*get_robot_peers)(void);
+
+int robots_field_load(robots_field *all, const char *path) {
+    get_robot_peers get = (get_robot_peers)module_load(path, "bench_get_robot_peers");
+    if (!get) return 0;
+    for (const robot_peer *const *p = get(); *p && all->count < ROBOT_PEERS_MOST; p++) all->peers[all->count++] = *p;
+    return 1;
+}
 
 // ---- solids
 
