@@ -130,14 +130,24 @@ static void warn_parts(const cli_robot *robot) {
     free(text);
 }
 
-int robot_open_beside(const cli_command *command, const char *urdf, const robot_settings *settings, cli_robot *robot) {
+/// What the options hold, in memory: it would be 20 KB of the stack below the library's queries.
+typedef struct option_lists {
     package_list packages;
     scale_list scales;
+} option_lists;
+
+int robot_open_beside(const cli_command *command, const char *urdf, const robot_settings *settings, cli_robot *robot) {
     *robot = (cli_robot){NULL, NULL, 0};
-    int code = split_packages(command, &settings->packages, &packages);
-    if (!code) code = split_scales(command, &settings->scales, &scales);
-    if (!code) code = read_file(urdf, settings, &packages, &scales, robot);
-    free_packages(&packages);
+    option_lists *lists = calloc(1, sizeof *lists);
+    if (!lists) {
+        message_error("out of memory");
+        return EXIT_INPUT;
+    }
+    int code = split_packages(command, &settings->packages, &lists->packages);
+    if (!code) code = split_scales(command, &settings->scales, &lists->scales);
+    if (!code) code = read_file(urdf, settings, &lists->packages, &lists->scales, robot);
+    free_packages(&lists->packages);
+    free(lists);
     return code;
 }
 
