@@ -6,7 +6,7 @@ PYTHON_FOLDER ?= build/python
 PYTHON ?= $(firstword $(wildcard /usr/bin/python3) python3)
 BUILD := build/release
 
-.PHONY: all help demo check check-all test abi coverage python cluster bits ports wasm page mutate bench soak soak-world soak-solid trust fuzz docs site install deb deb-root format lint clean
+.PHONY: all help demo check check-all test abi coverage python cluster bits ports wasm page mutate bench soak soak-world soak-solid soak-robot trust fuzz docs site install deb deb-root format lint clean
 
 all: ## the libraries and the tool, in build/release, with the page of --html where Node.js is here
 	@scripts/setup.sh build
@@ -90,6 +90,10 @@ soak-world: ## worlds of bodies that come, move and go, beside all pairs one by 
 soak-solid: ## solids before the exact judge and beside brute force, a million answers, half an hour
 	@$(call build,build,test_judge_solid)
 	@$(BUILD)/tests/test_judge_solid --answers 1e6 --seed $$(date +%s)
+
+soak-robot: ## states and edges of robots before a judge in long double, 10^7 and 10^5 of each kind, some hours
+	@$(call build,build,test_robot_judge)
+	@$(BUILD)/tests/test_robot_judge --states 1e7 --edges 1e5 --seed $$(date +%s)
 
 LIARS := test_query_altered test_compound_altered test_judge_solid_altered test_solid_impact_altered test_impact_altered \
     test_compound_impact_altered test_robot_path_altered

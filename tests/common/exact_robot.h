@@ -8,6 +8,7 @@
 #include <math.h>
 #include <string.h>
 
+enum { EXACT_LINKS = 128, EXACT_VARIABLES = 256 };
 typedef long double real;
 typedef struct exact_frame {
     real r[3][3], p[3];
@@ -50,17 +51,17 @@ static inline void plane_axes(const real n[3], real x[3], real y[3]) {
 }
 
 // The value of a joint of one variable.
-static inline real find_value(const ovoid_robot_description *d, const ovoid_robot *r, uint32_t i, const double *q) {
+static inline real find_value(const ovoid_robot_description *d, const ovoid_robot *r, uint32_t i, const real *q) {
     const ovoid_robot_joint *j = &d->joints[i];
     if (j->mimic == OVOID_ROBOT_NONE) return q[ovoid_robot_get_joint_variable(r, i)];
     return j->multiplier * find_value(d, r, j->mimic, q) + j->offset;
 }
 
-static inline void exact_joint(const ovoid_robot_description *d, const ovoid_robot *r, uint32_t i, const double *q,
+static inline void exact_joint(const ovoid_robot_description *d, const ovoid_robot *r, uint32_t i, const real *q,
                                exact_frame *local) {
     const ovoid_robot_joint *j = &d->joints[i];
     real n[3] = {0, 0, 1}, x[3], y[3], t[3] = {0, 0, 0}, spin[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, o[3][3];
-    const double *v = q + (j->type == OVOID_JOINT_FIXED ? 0 : ovoid_robot_get_joint_variable(r, i));
+    const real *v = q + (j->type == OVOID_JOINT_FIXED ? 0 : ovoid_robot_get_joint_variable(r, i));
     if (j->type != OVOID_JOINT_FIXED && j->type != OVOID_JOINT_FLOATING) unit_axis(j->axis, n);
     exact_rotation(j->origin.rotation, o);
     if (j->type == OVOID_JOINT_REVOLUTE || j->type == OVOID_JOINT_CONTINUOUS)
@@ -74,27 +75,41 @@ static inline void exact_joint(const ovoid_robot_description *d, const ovoid_rob
     }
     if (j->type == OVOID_JOINT_FLOATING) {
         for (int k = 0; k < 3; k++) t[k] = v[k];
-        exact_rotation((ovoid_quat){v[3], v[4], v[5], v[6]}, spin);
+        exact_rotation((ovoid_quat){(double)v[3], (double)v[4], (double)v[5], (double)v[6]}, spin);
     }
     const double p[3] = {j->origin.position.x, j->origin.position.y, j->origin.position.z};
     for (int k = 0; k < 3; k++) local->p[k] = p[k] + o[k][0] * t[0] + o[k][1] * t[1] + o[k][2] * t[2];
     multiply(o, spin, local->r);
 }
 
-static inline void exact_poses(const ovoid_robot *r, const double *q, exact_frame *frames) {
+/// The frames of all links at a state. Joints of the robot may come in any order.
+static inline void exact_poses_at(const ovoid_robot *r, const real *q, exact_frame *frames) {
     ovoid_robot_description d = ovoid_robot_get_description(r);
     exact_frame world = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {0, 0, 0}};
+    unsigned char is_placed[EXACT_LINKS] = {0};
     frames[ovoid_robot_get_root(r)] = world;
-    // The tests' joints come with parents before children.
-    for (uint32_t i = 0; i < d.joint_count; i++) {
-        const exact_frame *up = &frames[d.joints[i].parent];
-        exact_frame local, f;
-        exact_joint(&d, r, i, q, &local);
-        multiply((real(*)[3])(uintptr_t)up->r, local.r, f.r);
-        for (int k = 0; k < 3; k++)
-            f.p[k] = up->p[k] + up->r[k][0] * local.p[0] + up->r[k][1] * local.p[1] + up->r[k][2] * local.p[2];
-        frames[d.joints[i].child] = f;
+    is_placed[ovoid_robot_get_root(r)] = 1;
+    for (size_t left = d.joint_count, before = left + 1; left && left < before;) {
+        before = left;
+        for (uint32_t i = 0; i < d.joint_count; i++) {
+            if (!is_placed[d.joints[i].parent] || is_placed[d.joints[i].child]) continue;
+            const exact_frame *up = &frames[d.joints[i].parent];
+            exact_frame local, f;
+            exact_joint(&d, r, i, q, &local);
+            multiply((real(*)[3])(uintptr_t)up->r, local.r, f.r);
+            for (int k = 0; k < 3; k++)
+                f.p[k] = up->p[k] + up->r[k][0] * local.p[0] + up->r[k][1] * local.p[1] + up->r[k][2] * local.p[2];
+            frames[d.joints[i].child] = f;
+            is_placed[d.joints[i].child] = 1;
+            left--;
+        }
     }
+}
+
+static inline void exact_poses(const ovoid_robot *r, const double *q, exact_frame *frames) {
+    real exact[EXACT_VARIABLES];
+    for (size_t i = 0; i < ovoid_robot_get_variable_count(r); i++) exact[i] = q[i];
+    exact_poses_at(r, exact, frames);
 }
 
 #endif

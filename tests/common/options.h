@@ -22,11 +22,11 @@ static inline int option_take(const test_option *o, const char *value) {
     char *end = NULL;
     if (o->text) return *o->text = value, 1;
     // A whole number may be written as 1e9.
-    double real = strtod(value, &end);
+    double number = strtod(value, &end);
     int is_number = end != value && !*end;
-    if (o->real) return *o->real = real, is_number;
-    if (!is_number || !(real >= 0)) return 0;
-    *o->whole = strspn(value, "0123456789") == strlen(value) ? strtoull(value, NULL, 10) : (uint64_t)real;
+    if (o->real) return *o->real = number, is_number;
+    if (!is_number || !(number >= 0)) return 0;
+    *o->whole = strspn(value, "0123456789") == strlen(value) ? strtoull(value, NULL, 10) : (uint64_t)number;
     return 1;
 }
 
