@@ -23,13 +23,13 @@ typedef struct ovoid_ellipsoid {
 /**
  * The result of an offline step.
  *
- * What is proven, for the doubles returned. Outer, any rank: Q - (v - center)(v - center)' is positive semidefinite for
- * every vertex v, hence h(n) >= n . v in every direction n, whether Q is singular or not. A flat body gets the
- * thickness that this takes: none if it lies in a coordinate plane or along an axis, else about 1e-8 of its size, since
- * Q is stored in six doubles. Inner and phases, rank 3: the ellipsoid lies in the convex hull of the vertices and Q is
- * positive definite; only of a body thinner than a few roundings is Q zero, with a vertex as center. Rank below 3: the
- * ellipse in the polygon's plane or the segment itself, for information and drawing; nothing is proven to lie inside,
- * as the rounded center may miss the plane.
+ * The following is proven for the returned doubles. Outer, any rank: Q - (v - center)(v - center)' is positive
+ * semidefinite for every vertex v, hence h(n) >= n . v in every direction n, whether Q is singular or not. The
+ * ellipsoid of a flat body gets the thickness that this needs: none if the body lies in a coordinate plane or along an
+ * axis, else about 1e-8 of its size, since Q is stored in six doubles. Inner and phases, rank 3: the ellipsoid lies in
+ * the convex hull of the vertices and Q is positive definite; only for a body thinner than a few roundings Q is zero,
+ * with a vertex as center. Rank below 3: the ellipse in the polygon's plane or the segment itself, for information and
+ * drawing, without a proof, as the rounded center may miss the plane.
  */
 typedef struct ovoid_fit {
     ovoid_ellipsoid ellipsoid;
@@ -37,12 +37,12 @@ typedef struct ovoid_fit {
     double gap;          /**< proven relative gap of that volume to the optimum, infinity where none is; NaN for the
                               phases, which have none; flat bodies: true up to their deviation from the plane */
     uint32_t iterations; /**< of the solver or bisection */
-    uint32_t converged;  /**< 1 if the requested gap was reached; what is said above is proven in either case */
+    uint32_t converged;  /**< 1 if the requested gap was reached; the proof above holds in either case */
     double beta;         /**< phase 2 only: the final beta, 0 where the stretch is stuck */
     uint32_t facet;      /**< phase 2 only: the farthest facet that s was taken from (flat: edge or end) */
 } ovoid_fit;
 
-/** Options of the ellipsoids of smallest and of largest volume; all zero is the default, and NULL means that. */
+/** Options of the ellipsoids of smallest and of largest volume; all zero, or NULL, is the default. */
 typedef struct ovoid_ellipsoid_options {
     double gap;                       /**< relative volume gap to reach; 0 means 1e-6 */
     const ovoid_allocator *allocator; /**< of the working memory; NULL: malloc and free */
@@ -94,34 +94,34 @@ OVOID_API ovoid_ellipsoid ovoid_ellipsoid_compute_posed(const ovoid_ellipsoid *e
 /** Nearest points of two ellipsoids, or of a point and one. */
 typedef struct ovoid_nearest {
     ovoid_vec3 point_a, point_b;
-    ovoid_vec3 normal; /**< unit, from a to b; the direction that separates best where they are apart */
+    ovoid_vec3 normal; /**< unit, from a to b; if they are apart, the direction of the largest gap */
     double distance;   /**< |point_b - point_a|; 0 where they overlap */
     double lower;      /**< proven: the gap of the two supports along normal; negative where they overlap */
     uint32_t iterations;
     uint32_t overlap; /**< 1: they share a point (point_a = point_b is one) */
 } ovoid_nearest;
 
-/** The point of the ellipsoid nearest to a point (the point itself where it is inside); point_b is the given point. */
+/** The point of the ellipsoid nearest to a point (the point itself if it is inside); point_b is the given point. */
 OVOID_API ovoid_nearest ovoid_ellipsoid_compute_nearest_to_point(const ovoid_ellipsoid *ellipsoid, ovoid_vec3 point);
 
 /**
- * The paper's X* and Y*: a is mapped to the unit sphere; the point of the mapped b nearest to the sphere's centre and
- * the sphere's point on the same line are mapped back. A good direction; not the Euclidean nearest points, and distance
- * is only an upper bound of theirs. Q of a must be positive definite, else the Euclidean result is returned.
+ * The paper's X* and Y*: a is mapped to the unit sphere; then the point of the mapped b nearest to the sphere's centre,
+ * and the sphere's point on the same line, are mapped back. They give a good direction, but are not the Euclidean
+ * closest points: `distance` is only an upper bound. Q of a must be positive definite, else the Euclidean result is
+ * returned.
  */
 OVOID_API ovoid_nearest ovoid_ellipsoid_compute_nearest_by_sphere(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b);
 
 /**
- * The Euclidean nearest points of two ellipsoids, flat or not, to about 1e-12 of their size (where rounding left a
- * flat Q not quite positive semidefinite, to the root of what it lacks). D. Eberly, Distance from a point to an
- * ellipse, an ellipsoid, or a hyperellipsoid, 2013, for one body; docs/ellipsoid-proximity.md for two. At most 200
- * iterations.
+ * The Euclidean closest points of two ellipsoids, flat or not, to about 1e-12 of their size (if rounding made a flat Q
+ * slightly indefinite, only to the root of that defect). D. Eberly, Distance from a point to an ellipse, an ellipsoid,
+ * or a hyperellipsoid, 2013, for one body; docs/ellipsoid-proximity.md for two. At most 200 iterations.
  */
 OVOID_API ovoid_nearest ovoid_ellipsoid_compute_nearest(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b);
 
 /**
  * 1 if the ellipsoids are proven to share a point: *point (if not NULL) lies strictly inside both, rounding included;
- * of a flat ellipsoid it is the centre. 0 if they are apart or it is not known. J. W. Perram and M. S. Wertheim,
+ * for a flat ellipsoid it is the centre. 0 if they are apart or nothing is proven. J. W. Perram and M. S. Wertheim,
  * Statistical mechanics of hard ellipsoids I: overlap algorithm and the contact function, 1985.
  */
 OVOID_API int ovoid_ellipsoid_is_overlapping(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b, ovoid_vec3 *point);

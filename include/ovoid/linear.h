@@ -22,12 +22,13 @@ typedef struct ovoid_quat {
 } ovoid_quat;
 
 /**
- * Where a body is: world = position + R(rotation) local. The rotation meant is that of the normalised quaternion,
- * R(q)/|q|^2, which is rational in q: a posed shape is an exact mathematical object, whatever the norm of q.
+ * The position and rotation of a body: world = position + R(rotation) local. R is the rotation of the normalised
+ * quaternion, R(q)/|q|^2, which is rational in q: a posed shape is an exact mathematical object, whatever the norm of
+ * q.
  *
- * A pose of zeros is no pose: its quaternion is zero, and every function that takes it refuses it (POSE_A, POSE_B,
- * ROTATION). So memory that was cleared and forgotten is never a place in silence; where a body is not turned or moved,
- * say ovoid_pose_make_identity(). The one exception is said there: ovoid_moving_shape.part of zeros means no part.
+ * A pose of zeros is not valid: its quaternion is zero, and every function that takes it refuses it (POSE_A, POSE_B,
+ * ROTATION). So cleared memory never passes for a pose; for a body that is neither rotated nor moved, use
+ * ovoid_pose_make_identity(). There is one exception: ovoid_moving_shape.part of zeros means no part.
  */
 typedef struct ovoid_pose {
     ovoid_vec3 position;
@@ -53,33 +54,33 @@ OVOID_API ovoid_pose ovoid_pose_make_identity(void);
 OVOID_API ovoid_pose ovoid_pose_make_rpy(ovoid_vec3 xyz, ovoid_vec3 rpy);
 
 /**
- * How far an entry of M'M may be from the identity's for a matrix M to be taken as a rotation: products of rotations in
- * single precision and matrices written with six digits pass, a scale of 1.001 does not.
+ * The largest difference between an entry of M'M and of the identity for which a matrix M counts as a rotation:
+ * products of rotations in single precision and matrices written with six digits pass, a scale of 1.001 does not.
  */
 #define OVOID_ROTATION_TOLERANCE 1e-5
 
 /**
  * The pose of a 3x3 rotation matrix, entry (row, column) at matrix[3 row + column], and a position: world = position +
- * matrix local. A matrix stored by columns (Eigen, glm, OpenGL) has to be transposed first; not done, it means the
- * inverse rotation, which nothing here can notice. The rotation is the one nearest to the matrix (in the Frobenius
- * norm), off by at most 24 u in operator norm, u = 2^-53; the quaternion is unit to 4 u, w >= 0. Refused, with a
- * sentence in *error (may be NULL), and *pose is as it was: NOT_FINITE (place: the entry; -1: the position), ROTATION
- * (M'M is further from the identity than OVOID_ROTATION_TOLERANCE, or M is a reflection), RANGE (the position),
- * ARGUMENT (NULL).
+ * matrix local. Transpose a matrix that is stored by columns (Eigen, glm, OpenGL) first; otherwise it means the inverse
+ * rotation, which cannot be detected. The rotation is the one nearest to the matrix (in the Frobenius norm), off by at
+ * most 24 u in operator norm, u = 2^-53; the quaternion is unit to 4 u, w >= 0. Errors, with a sentence in *error (may
+ * be NULL) and *pose unchanged: NOT_FINITE (place: the entry; -1: the position), ROTATION (M'M is further from the
+ * identity than OVOID_ROTATION_TOLERANCE, or M is a reflection), RANGE (the position), ARGUMENT (NULL).
  */
 OVOID_API ovoid_code ovoid_pose_make_matrix(const double matrix[9], ovoid_vec3 position, ovoid_pose *pose,
                                             ovoid_error *error);
 
 /**
- * The same from a 4x4 homogeneous matrix, entry (row, column) at matrix[4 row + column]: its last row must be exactly
- * 0 0 0 1 (else ROTATION), so that one stored by columns is refused unless its position is zero.
+ * The pose of a 4x4 homogeneous matrix, entry (row, column) at matrix[4 row + column]; otherwise as
+ * ovoid_pose_make_matrix. The last row must be exactly 0 0 0 1 (else ROTATION), so a matrix that is stored by columns
+ * is refused unless its position is zero.
  */
 OVOID_API ovoid_code ovoid_pose_make_transform(const double matrix[16], ovoid_pose *pose, ovoid_error *error);
 
 /**
- * The pose at a position, turned by an angle in radians about an axis of any length but zero, counter-clockwise as seen
- * from the axis' tip. The rotation is off by at most 16 u in operator norm, u = 2^-53, where the sine and the cosine
- * are within an ulp. Refused, and *pose is as it was: NOT_FINITE, ROTATION (an axis of zero), RANGE (the position),
+ * The pose at a position, rotated by an angle in radians about an axis of any length but zero, counter-clockwise as
+ * seen from the axis' tip. The rotation is off by at most 16 u in operator norm, u = 2^-53, if the sine and the cosine
+ * are within an ulp. Errors, with *pose unchanged: NOT_FINITE, ROTATION (an axis of zero), RANGE (the position),
  * ARGUMENT (NULL).
  */
 OVOID_API ovoid_code ovoid_pose_make_axis_angle(ovoid_vec3 position, ovoid_vec3 axis, double angle, ovoid_pose *pose);
@@ -90,7 +91,10 @@ OVOID_API ovoid_code ovoid_pose_make_axis_angle(ovoid_vec3 position, ovoid_vec3 
  */
 OVOID_API void ovoid_pose_compute_matrix(const ovoid_pose *pose, double matrix[9]);
 
-/** The 4x4 homogeneous matrix of a pose, entry (row, column) at matrix[4 row + column], last row 0 0 0 1; as above. */
+/**
+ * The 4x4 homogeneous matrix of a pose, entry (row, column) at matrix[4 row + column], last row 0 0 0 1; errors as in
+ * ovoid_pose_compute_matrix.
+ */
 OVOID_API void ovoid_pose_compute_transform(const ovoid_pose *pose, double matrix[16]);
 
 /** The local point in the world frame, rounded: error at most 64 ulp of |position| + |point|. */
@@ -100,10 +104,10 @@ OVOID_API ovoid_vec3 ovoid_pose_compute_point(const ovoid_pose *pose, ovoid_vec3
 OVOID_API ovoid_vec3 ovoid_pose_compute_local_point(const ovoid_pose *pose, ovoid_vec3 world);
 
 /**
- * The pose of a part that is posed by `inner` in a body that is posed by `outer`: its points are, to rounding, those of
- * inner moved by outer. This product defines where a part of a body is; it has the same bits everywhere. Its rotation
- * is that of the exact product to 16 u in operator norm, u = 2^-53; its position is off by at most 46 u
- * |inner.position| + 2 u |outer.position|. Neither pose may be one that ovoid_pose_validate refuses.
+ * The pose of a part of a body: the part is posed by `inner` in the body, the body by `outer`. Its points are, to
+ * rounding, those of inner moved by outer. This product defines where a part of a body is; it has the same bits
+ * everywhere. Its rotation is that of the exact product to 16 u in operator norm, u = 2^-53; its position is off by at
+ * most 46 u |inner.position| + 2 u |outer.position|. Neither pose may be one that ovoid_pose_validate refuses.
  */
 OVOID_API ovoid_pose ovoid_pose_compute_product(const ovoid_pose *outer, const ovoid_pose *inner);
 

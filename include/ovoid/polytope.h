@@ -1,6 +1,6 @@
 /**
  * @file polytope.h
- * The polyhedron itself: vertices, faces, adjacency, planes, measures.
+ * A polyhedron: vertices, faces, adjacency, planes, measures.
  */
 #ifndef OVOID_POLYTOPE_H
 #define OVOID_POLYTOPE_H
@@ -11,7 +11,10 @@
 extern "C" {
 #endif
 
-/** A plane { x : normal . x = offset } with a unit outward normal, rounded. An approximation, never a proof. */
+/**
+ * A plane { x : normal . x = offset } with a unit outward normal, rounded. It approximates a facet and is never used as
+ * a proof.
+ */
 typedef struct ovoid_plane {
     ovoid_vec3 normal;
     double offset;
@@ -47,15 +50,15 @@ typedef struct ovoid_polytope {
     uint32_t rank;        /**< 0 point, 1 segment, 2 flat, 3 solid */
 } ovoid_polytope;
 
-/** What the constructor did with the points given. points = vertices + duplicates + interior. */
+/** What the constructor did with the given points. points = vertices + duplicates + interior. */
 typedef struct ovoid_report {
     uint64_t points;     /**< points given */
     uint64_t vertices;   /**< vertices kept */
     uint64_t duplicates; /**< points dropped because an equal point (same three doubles) came before */
-    uint64_t interior;   /**< points dropped because exact arithmetic showed them inside the hull of the vertices */
-    uint64_t coplanar;   /**< of the interior ones, those that lie on a face, exactly */
-    uint64_t faces;      /**< faces given, 0 for points only */
-    uint32_t rank;       /**< 0 point, 1 segment, 2 flat, 3 solid */
+    uint64_t interior; /**< points dropped because exact arithmetic proves that they are in the hull of the vertices */
+    uint64_t coplanar; /**< of the interior points, those exactly on a face */
+    uint64_t faces;    /**< faces given, 0 for points only */
+    uint32_t rank;     /**< 0 point, 1 segment, 2 flat, 3 solid */
 } ovoid_report;
 
 /** Measures of the polyhedron without its rounding radius; body frame, unit density. */

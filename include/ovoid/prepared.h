@@ -1,10 +1,10 @@
 /**
  * @file prepared.h
- * Shapes prepared at their poses, for those who ask about one body many times: its rotation and, of a small body, its
- * vertices turned into the world's axes are computed once, for instance once a frame, and not by each query.
+ * Shapes prepared at their poses, to query one body often. The rotation of the body and, for a small body, its vertices
+ * rotated into the world's axes are computed once, for instance once a frame, and not in each query.
  *
- * The queries give the verdict, and the rest where it is asked for. What they say has the bits of <ovoid/query.h>'s
- * queries of the same pair. For pairs that their spheres part or that a few steps decide this takes a third to two
+ * The queries return the verdict, and points, proof or answer on request, with the bits of the queries of
+ * <ovoid/query.h> for the same pair. Pairs that their spheres separate or that few steps decide take a third to two
  * thirds of the time; docs/performance.md has the numbers.
  */
 #ifndef OVOID_PREPARED_H
@@ -16,32 +16,35 @@
 extern "C" {
 #endif
 
-/** Most vertices of a body whose vertices are turned beforehand; others have their rotation prepared only. */
+/**
+ * The largest number of vertices of a body whose vertices are rotated beforehand; of larger bodies only the rotation is
+ * prepared.
+ */
 #define OVOID_PREPARED_VERTICES 32
 
 /**
- * A posed shape, prepared. Plain data that may be copied and read by any number of threads; all but `body` is the
- * library's, and nothing of it may be changed: for another pose it is made again.
+ * A prepared posed shape. It is plain data that may be copied and read by any number of threads. All fields but `body`
+ * belong to the library and must not be changed; to change the pose, prepare the shape again.
  */
 typedef struct ovoid_prepared_shape {
     ovoid_posed_shape body;
-    double rotation[9];    /**< to the world, by rows */
-    ovoid_vec3 center;     /**< of the enclosing sphere, from the origin of the body frame, in the world's axes */
-    ovoid_vec3 first;      /**< vertex 0, from that origin, in those axes */
-    uint32_t is_ready;     /**< 0: refused, or to be placed afresh by each query (docs/query.md) */
+    double rotation[9]; /**< to the world, by rows */
+    ovoid_vec3 center;  /**< of the enclosing sphere, relative to the origin of the body frame, in the world's axes */
+    ovoid_vec3 first;   /**< vertex 0, relative to that origin, in those axes */
+    uint32_t is_ready;  /**< 0: the shape is refused, or each query has to place it (docs/query.md) */
     uint32_t turned_count; /**< of `turned`, a multiple of 8; 0: none */
     double
         turned[3 * OVOID_PREPARED_VERTICES]; /**< x, then y, then z of the vertices, from that origin, in those axes */
 } ovoid_prepared_shape;
 
 /**
- * Prepares a posed shape, whose shape must outlive it. Never fails: a pose or a shape (NULL) that cannot be is refused
- * by the queries. Cost: 15 to 40 ns.
+ * Prepares a posed shape, whose shape must outlive it. It never fails: the queries refuse an invalid pose or a NULL
+ * shape. Cost: 15 to 40 ns.
  */
 OVOID_API void ovoid_prepared_shape_make(const ovoid_posed_shape *body, ovoid_prepared_shape *prepared);
 
 /**
- * What a query is to write beside its verdict. All NULL, or NULL for the whole: nothing.
+ * What a query writes beside its verdict. All NULL, or NULL for the whole: nothing.
  */
 typedef struct ovoid_evidence {
     ovoid_proof *proof;     /**< the earlier proof of this pair (all zero: none), replaced by the new answer's */
@@ -67,8 +70,7 @@ OVOID_API ovoid_verdict ovoid_prepared_distance(ovoid_prepared_pair pair, const 
 OVOID_API ovoid_verdict ovoid_prepared_depth(ovoid_prepared_pair pair, const ovoid_options *options,
                                              const ovoid_evidence *evidence);
 
-/** ovoid_answer_is_within of a verdict: 1: proven within the margin; 0: proven farther; -1: the bracket straddles it.
- */
+/** 1: proven within the margin; 0: proven farther; -1: neither is proven. As ovoid_answer_is_within. */
 OVOID_API int ovoid_verdict_is_within(const ovoid_verdict *verdict, double margin);
 
 #ifdef __cplusplus

@@ -19,47 +19,49 @@ typedef struct ovoid_pair {
     ovoid_pose pose_a, pose_b;
 } ovoid_pair;
 
-/** What is proven of the signed distance d (positive apart, negative the penetration depth). */
+/** What is proven about the signed distance d (positive: the distance; negative: minus the penetration depth). */
 typedef enum ovoid_status {
     OVOID_UNDECIDED = 0, /**< the sign of d is not proven; ovoid_answer.limit says why */
     OVOID_SEPARATED,     /**< lower > 0 */
-    OVOID_TOUCHING, /**< lower <= 0 <= upper, and upper - lower is at most the options' tolerance, to which the bodies'
-                       allowances add nothing */
-    OVOID_OVERLAPPING /**< upper < 0 */
+    OVOID_TOUCHING,      /**< lower <= 0 <= upper, and upper - lower is at most the options' tolerance; the bodies'
+                            allowances do not widen it */
+    OVOID_OVERLAPPING    /**< upper < 0 */
 } ovoid_status;
 
-/** What decided. */
+/** The stage that decided. */
 typedef enum ovoid_stage {
     OVOID_STAGE_NONE = 0,
     OVOID_STAGE_PROOF,   /**< the earlier proof handed in */
-    OVOID_STAGE_SPHERE,  /**< bounding spheres */
+    OVOID_STAGE_SPHERE,  /**< the earlier proof that the caller passed */
     OVOID_STAGE_OUTER,   /**< outer ellipsoids */
     OVOID_STAGE_SUPPORT, /**< the polyhedra's supports along the ellipsoids' direction */
     OVOID_STAGE_INNER,   /**< inner ellipsoids */
     OVOID_STAGE_GJK,     /**< exact: Gilbert, Johnson, Keerthi 1988 */
-    OVOID_STAGE_EPA,     /**< exact: expanding polytope, van den Bergen 2001; of two boxes all faces at once */
-    OVOID_STAGE_REFINE   /**< in pairs of doubles, where doubles cannot tell the sign or reach the tolerance */
+    OVOID_STAGE_EPA,   /**< exact: expanding polytope, van den Bergen 2001; for two boxes all faces of the difference at
+                          once */
+    OVOID_STAGE_REFINE /**< in pairs of doubles, where doubles cannot tell the sign or reach the tolerance */
 } ovoid_stage;
 
 /** Why a query stopped before its bracket was narrower than the tolerance. */
 typedef enum ovoid_limit {
-    OVOID_LIMIT_NONE = 0,   /**< it did not: answered in full, the bodies' allowances aside */
+    OVOID_LIMIT_NONE = 0,   /**< the bracket is as narrow as asked, except for the bodies' allowances */
     OVOID_LIMIT_ANSWERED,   /**< the query (collide, within, bounds) is answered; the bracket is true but wide */
     OVOID_LIMIT_CAP,        /**< proven farther than options.cap */
     OVOID_LIMIT_ITERATIONS, /**< options.iterations used up */
-    OVOID_LIMIT_PRECISION,  /**< no further progress, in pairs of doubles either; of bodies with allowances also an
-                               overlap  that the few pairs of a proof do not show, and ovoid_depth may */
+    OVOID_LIMIT_PRECISION,  /**< no further progress, in pairs of doubles either; for bodies with allowances also an
+                               overlap that the few pairs of vertices in a proof cannot prove, but ovoid_depth may */
     OVOID_LIMIT_CAPACITY,   /**< the depth search filled its fixed working memory */
     OVOID_LIMIT_POSE_A,     /**< refused: pose_a has NaN, infinity, a length out of range or a zero quaternion */
     OVOID_LIMIT_POSE_B,     /**< refused: pose_b, for the same reasons */
     OVOID_LIMIT_OPTIONS,    /**< refused: NaN or a negative tolerance in the options */
-    OVOID_LIMIT_SHAPE_A,  /**< refused: there is no shape_a (NULL); a body with neither a shape nor a compound, or both
-                           */
-    OVOID_LIMIT_SHAPE_B,  /**< refused: shape_b, for the same reasons */
-    OVOID_LIMIT_ALLOWANCE /**< the shapes' allowances leave the sign of d, or the margin, open; no search narrows it */
+    OVOID_LIMIT_SHAPE_A, /**< refused: there is no shape_a (NULL); or a body has neither a shape nor a compound, or both
+                          */
+    OVOID_LIMIT_SHAPE_B, /**< refused: shape_b, for the same reasons */
+    OVOID_LIMIT_ALLOWANCE /**< the shapes' allowances leave the sign of d, or the margin, open; no search can narrow the
+                             bracket */
 } ovoid_limit;
 
-/** What the upper bound rests on. */
+/** The kind of evidence for the upper bound. */
 typedef enum ovoid_proof_kind {
     OVOID_PROOF_NONE = 0, /**< no upper bound: upper is infinity */
     OVOID_PROOF_POINTS,   /**< a point of A and a point of B, convex combinations of vertices: d <= their distance */
@@ -70,14 +72,16 @@ typedef enum ovoid_proof_kind {
 } ovoid_proof_kind;
 
 /**
- * Most pairs of vertices in a proof. A point inside a hull is strictly inside the hull of at most six of its points (E.
- * Steinitz, Bedingt konvergente Reihen und konvexe Systeme, 1913), and the centre of an octahedron needs all six.
+ * The largest number of pairs of vertices in a proof. A point inside a hull is strictly inside the hull of at most six
+ * of its points (E. Steinitz, Bedingt konvergente Reihen und konvexe Systeme, 1913); the centre of an octahedron needs
+ * all six.
  */
 #define OVOID_PROOF_PAIRS 6
 
 /**
- * A proof: plain data that ovoid_answer_verify, or anyone with exact arithmetic, can check, and the warm start of the
- * next query of the pair. Indices are vertices of ovoid_polytope. Rounding radii are subtracted from both bounds.
+ * A proof: plain data that ovoid_answer_verify, or any program with exact arithmetic, can check. It is also the warm
+ * start of the pair's next query. Indices are vertices of ovoid_polytope. Rounding radii are subtracted from both
+ * bounds.
  *
  * Lower bound: for every unit n, d >= min over B of n.x - max over A of n.x - radii; normal + normal_low is that n
  * (nearly unit: divide by its norm). Zero where there is no lower bound.
@@ -88,7 +92,7 @@ typedef enum ovoid_proof_kind {
  */
 typedef struct ovoid_proof {
     ovoid_vec3 normal;     /**< world frame, from A to B */
-    ovoid_vec3 normal_low; /**< the direction is the exact sum normal + normal_low; zero but for stage REFINE */
+    ovoid_vec3 normal_low; /**< the direction is the exact sum normal + normal_low; zero except for stage REFINE */
     ovoid_proof_kind kind;
     uint32_t count; /**< entries used of the arrays */
     uint32_t a[OVOID_PROOF_PAIRS], b[OVOID_PROOF_PAIRS];
@@ -97,13 +101,13 @@ typedef struct ovoid_proof {
     ovoid_vec3 inner_b; /**< INNER_POINTS: the point of B, body frame of B */
 } ovoid_proof;
 
-/** Most points of a cover. */
+/** The largest number of points of a cover. */
 #define OVOID_COVER_POINTS 512
 
 /**
- * What proves a depth from below: differences x(b[i]) - x(a[i]) and triangles over them that form a closed oriented
- * surface which winds around the origin. No point of the surface is nearer to the origin than r, hence the ball of
- * radius r lies inside the Minkowski difference and d <= -r - radii.
+ * The proof of the upper bound of an overlap's signed distance: differences x(b[i]) - x(a[i]) and triangles over them
+ * that form a closed oriented surface which winds around the origin. No point of the surface is nearer to the origin
+ * than r, hence the ball of radius r lies inside the Minkowski difference and d <= -r - radii.
  */
 typedef struct ovoid_cover {
     uint32_t point_count, triangle_count;
@@ -111,12 +115,12 @@ typedef struct ovoid_cover {
     uint16_t triangles[2 * OVOID_COVER_POINTS][3];
 } ovoid_cover;
 
-/** Options of a query; all zero is the default, and NULL means that. */
+/** Options of a query; all zero, or NULL, is the default. */
 typedef struct ovoid_options {
     double absolute_tolerance; /**< stop when upper - lower is at most this, or at most the relative one; default 0 */
-    double relative_tolerance; /**< of the pair's size: the largest vertex norms of both shapes in their body frames,
-                                  the distance of those frames' origins, and the radii; 0 means 1e-9 */
-    double cap;                /**< stop when proven farther than this; 0 means no cap */
+    double relative_tolerance; /**< of the pair's size: the sum of the largest vertex norms of both shapes in their body
+                                  frames, the distance of those frames' origins, and the radii; 0 means 1e-9 */
+    double cap;                /**< stop when proven farther apart than this; 0 means no cap */
     uint32_t iterations;       /**< most iterations of each exact method; 0 means 1000 */
 } ovoid_options;
 
@@ -125,20 +129,20 @@ typedef struct ovoid_answer {
     ovoid_status status;
     ovoid_stage stage;
     ovoid_limit limit;
-    uint32_t iterations;         /**< of the exact methods */
-    double lower, upper;         /**< bracket of the signed distance; -infinity and infinity where refused */
-    ovoid_vec3 point_a, point_b; /**< witness points, world frame: on their bodies to rounding. Distance and depth:
-                                      point_b - point_a = d normal to the tolerance; of a depth whose search a limit
-                                      ended, for a d of the bracket where kind is COVER, else a common point.
-                                      Other queries: the points behind upper, a common point where an overlap is
-                                      proven; not the nearest ones. */
-    ovoid_vec3 normal;           /**< unit, world frame, from A to B; the direction of the lower bound */
+    uint32_t iterations; /**< of the exact methods */
+    double lower, upper; /**< bracket of the signed distance; -infinity and infinity where refused */
+    ovoid_vec3 point_a,
+        point_b; /**< witness points, world frame, on their bodies to rounding. Distance and depth: point_b - point_a =
+                    d normal, to the tolerance; if a limit ended a search for the depth, this holds for some d of the
+                    bracket where kind is COVER, else they are a common point. Other queries: the points behind upper, a
+                    common point if an overlap is proven; not the closest points. */
+    ovoid_vec3 normal; /**< unit, world frame, from A to B; the direction of the lower bound */
     ovoid_proof proof;
 } ovoid_answer;
 
 /**
- * Do the bodies touch? Stops as soon as the sign of d is proven. earlier: a proof of this pair, or NULL; one that is
- * all zero says nothing and is as good as NULL.
+ * Do the bodies touch? Stops as soon as the sign of d is proven. earlier: a proof of this pair, or NULL; a proof of
+ * zeros is the same as NULL.
  */
 OVOID_API ovoid_answer ovoid_collide(const ovoid_pair *pair, const ovoid_options *options, const ovoid_proof *earlier);
 
@@ -149,12 +153,12 @@ OVOID_API ovoid_answer ovoid_collide(const ovoid_pair *pair, const ovoid_options
 OVOID_API ovoid_answer ovoid_within(const ovoid_pair *pair, double margin, const ovoid_options *options,
                                     const ovoid_proof *earlier);
 
-/** The distance to the tolerance, where the bodies are apart; where they overlap only that is proven. */
+/** The distance to the tolerance if the bodies are apart; of an overlap only the sign is proven. */
 OVOID_API ovoid_answer ovoid_distance(const ovoid_pair *pair, const ovoid_options *options, const ovoid_proof *earlier);
 
 /**
- * The signed distance to the tolerance: the distance where the bodies are apart, minus the penetration depth where
- * they overlap. cover (may be NULL) receives the proof of the depth's lower bound; point_count 0 where none is needed.
+ * The signed distance to the tolerance: the distance if the bodies are apart, minus the penetration depth if they
+ * overlap. cover (may be NULL) receives the proof of the depth's lower bound; its point_count is 0 if none is needed.
  */
 OVOID_API ovoid_answer ovoid_depth(const ovoid_pair *pair, const ovoid_options *options, const ovoid_proof *earlier,
                                    ovoid_cover *cover);
@@ -170,7 +174,7 @@ typedef struct ovoid_couple {
     uint32_t a, b;
 } ovoid_couple;
 
-/** The beginning of an answer, as batches and worlds give it for many pairs: without points and proof. */
+/** Status and bracket of an answer, as batches and worlds give them for many pairs: without points and proof. */
 typedef struct ovoid_verdict {
     ovoid_status status;
     ovoid_stage stage;
@@ -185,11 +189,11 @@ typedef struct ovoid_witness {
 } ovoid_witness;
 
 /**
- * One query of many pairs. What is written for couple i has the bits that the query of that pair alone would give. To
- * use several threads, give each a part of the couples and of the arrays beside them; bodies may be shared.
- * Earlier proofs pay for couples near each other, and cost nothing beside the proofs that are written. For yes or no of
- * couples that are mostly far apart leave them out: what the spheres decide takes lanes a quarter of the time that
- * writing a proof does.
+ * One query of many pairs. The results of couple i have the bits of the query of that pair alone. To use several
+ * threads, give each a part of the couples and of the arrays beside them; bodies may be shared. Earlier proofs save
+ * time for couples near each other, at no further cost if proofs are written anyway. For yes or no about couples that
+ * are mostly far apart leave the proofs out: in lanes the spheres decide a couple in a quarter of the time that writing
+ * a proof takes.
  */
 typedef struct ovoid_batch {
     const ovoid_posed_shape *bodies;
@@ -214,9 +218,9 @@ OVOID_API ovoid_code ovoid_distance_batch(const ovoid_batch *batch, ovoid_error 
 OVOID_API ovoid_code ovoid_depth_batch(const ovoid_batch *batch, ovoid_error *error);
 
 /**
- * The gap along a direction from A to B (world, any length but zero): min over B of n.x - max over A of n.x - radii, n
- * the unit vector along it. A proven lower bound of the signed distance, rounding and allowances counted; -infinity
- * where a body, a pose or the direction is refused. Cost: a support of each body.
+ * The gap along a direction from A to B (world, any length but zero): min over B of n.x - max over A of n.x - radii,
+ * where n is the unit vector along the direction. It is a proven lower bound of the signed distance, with rounding and
+ * allowances included; -infinity if a body, a pose or the direction is refused. Cost: a support of each body.
  */
 OVOID_API double ovoid_pair_compute_gap(const ovoid_pair *pair, ovoid_vec3 direction);
 
@@ -224,16 +228,16 @@ OVOID_API double ovoid_pair_compute_gap(const ovoid_pair *pair, ovoid_vec3 direc
 OVOID_API ovoid_answer ovoid_pair_compute_bounds(const ovoid_pair *pair);
 
 /**
- * The signed distance as one number, for those who want no bracket: lower, which is never above the true one and within
- * the tolerance (and the bodies' allowances) of it. NaN where the bracket is wider (limit is neither NONE nor
- * ALLOWANCE), as of an overlap that ovoid_distance found, whose depth ovoid_depth gives, or of a yes or no.
+ * The signed distance as one number, for callers who need no bracket: lower, which is never above the true distance and
+ * within the tolerance (and the bodies' allowances) of it. NaN if the bracket is wider (limit is neither NONE nor
+ * ALLOWANCE), for example of an overlap from ovoid_distance (use ovoid_depth), or of a yes or no.
  */
 OVOID_API double ovoid_answer_get_distance(const ovoid_answer *answer);
 
-/** 1: proven within the margin (upper <= margin); 0: proven farther (lower > margin); -1: the bracket straddles it. */
+/** 1: proven within the margin (upper <= margin); 0: proven farther (lower > margin); -1: neither is proven. */
 OVOID_API int ovoid_answer_is_within(const ovoid_answer *answer, double margin);
 
-/** What an answer is verified with, beside its own proof; all zero is the default, and NULL means that. */
+/** What ovoid_answer_verify uses beside the answer; all zero, or NULL, is the default. */
 typedef struct ovoid_answer_basis {
     const ovoid_options *options; /**< those of the query; NULL: the default, as of ovoid_pair_compute_bounds */
     const ovoid_cover *cover;     /**< that of ovoid_depth, or NULL */
@@ -241,7 +245,7 @@ typedef struct ovoid_answer_basis {
 
 /**
  * Verifies an answer against its pair without any search: every bound is recomputed from the proof alone, with directed
- * error bounds, and the status must be what the bracket and the options' tolerance say. OVOID_OK, or PROOF with a
+ * error bounds, and the status must follow from the bracket and the options' tolerance. OVOID_OK, or PROOF with a
  * sentence in *error (may be NULL).
  */
 OVOID_API ovoid_code ovoid_answer_verify(const ovoid_pair *pair, const ovoid_answer *answer,

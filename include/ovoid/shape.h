@@ -13,8 +13,8 @@ extern "C" {
 
 /**
  * A convex body: the convex hull of its vertices, enlarged by a rounding radius >= 0. A point with a radius is a
- * sphere, a segment a capsule, a flat polygon a rounded plate. Holds faces, both ellipsoids, measures and a table of
- * supports.
+ * sphere, a segment a capsule, a flat polygon a rounded plate. It holds faces, both ellipsoids, measures and a table
+ * for its support function.
  */
 typedef struct ovoid_shape ovoid_shape;
 
@@ -25,26 +25,26 @@ typedef enum ovoid_inner_method {
 } ovoid_inner_method;
 
 /**
- * What is known of the true body that a shape stands for, where the shape is not exact: two lengths >= 0. Every point
- * of the true body, which is convex and not empty, is within `outside` of the shape, and every point of the shape,
- * rounding radius included, is within `inside` of the true body. So lower - outside <= d <= upper + inside for the true
- * d of two bodies, lower and upper being those of the shapes and both lengths summed over both (docs/allowances.md):
- * that is the bracket of every answer. Points and normals are those of the shapes. `outside` is no rounding radius,
- * which is part of the body: it moves lower bounds alone.
+ * How far the true body may differ from a shape that approximates it: two lengths >= 0. Every point of the true body,
+ * which is convex and not empty, is within `outside` of the shape, and every point of the shape, rounding radius
+ * included, is within `inside` of the true body. So lower - outside <= d <= upper + inside holds for the true distance
+ * d of two bodies, where lower and upper are those of the shapes and both lengths are summed over both bodies
+ * (docs/allowances.md). This is the bracket of every answer. Points and normals are those of the shapes. `outside`
+ * differs from a rounding radius, which is part of the body: it changes only lower bounds.
  *
- * With an axis, the true body stands out across it alone: every point of the true body is within `outside` of a point
- * of the shape that has the same height along the axis. Along the axis the shape is then exact: a lower bound by a
- * normal n loses outside |n x axis| in place of outside.
+ * With an axis, the true body exceeds the shape only across the axis: every point of the true body is within `outside`
+ * of a point of the shape that has the same height along the axis. Along the axis the shape is then exact: a lower
+ * bound by a normal n loses outside |n x axis| in place of outside.
  */
 typedef struct ovoid_allowance {
-    double outside;  /**< by how much the true body may stand out of the shape */
-    double inside;   /**< by how much the shape may stand out of the true body; more than its own diameter and `outside`
-                        says  nothing more, and is stored as about that */
-    ovoid_vec3 axis; /**< of any length, which is stored as 1, in the user's local frame; zero: `outside` is for all
-                        directions. Stored as zero where `outside` is zero */
+    double outside; /**< how far the true body may exceed the shape */
+    double inside; /**< how far the shape may exceed the true body; a length above its own diameter plus `outside` means
+                      the same as that, and is stored as about that */
+    ovoid_vec3 axis; /**< of any length, stored as 1, in the user's local frame; zero: `outside` holds for all
+                        directions. Stored as zero if `outside` is zero */
 } ovoid_allowance;
 
-/** Options of all functions that create a shape; all zero is the default, as is NULL. */
+/** Options of all functions that create a shape; all zero, or NULL, is the default. */
 typedef struct ovoid_shape_options {
     double radius;             /**< rounding radius, >= 0, added around the hull */
     double gap;                /**< relative volume gap of the ellipsoids; 0 means 1e-6 */
@@ -55,12 +55,11 @@ typedef struct ovoid_shape_options {
 } ovoid_shape_options;
 
 /**
- * The convex hull of points. xyz: count points, xyz of point i at 3 i, finite. The array is not kept.
- * An extreme point is never lost: a point is dropped only if it equals another or if exact arithmetic shows it inside
- * the hull of those kept. Returns NULL on failure with *error filled (error may be NULL): EMPTY, NOT_FINITE (place: the
- * point), RANGE, RADIUS, LIMIT, HULL, MEMORY. The caller destroys the shape. Cost: n log n.
- * At most 2^24 points. Hull: C. B. Barber, D. P. Dobkin, H. Huhdanpaa, The quickhull algorithm for convex hulls, 1996,
- * with every decision in exact arithmetic.
+ * The convex hull of points. xyz: count points, xyz of point i at 3 i, finite. The array is not kept. No extreme point
+ * is lost: a point is dropped only if it equals another or if exact arithmetic proves that it is in the hull of those
+ * kept. Returns NULL on failure with *error filled (error may be NULL): EMPTY, NOT_FINITE (place: the point), RANGE,
+ * RADIUS, LIMIT, HULL, MEMORY. The caller destroys the shape. Cost: n log n. At most 2^24 points. Hull: C. B. Barber,
+ * D. P. Dobkin, H. Huhdanpaa, The quickhull algorithm for convex hulls, 1996, with every decision in exact arithmetic.
  */
 OVOID_API ovoid_shape *ovoid_shape_create_from_points(const double *xyz, size_t count,
                                                       const ovoid_shape_options *options, ovoid_error *error);
@@ -75,11 +74,11 @@ typedef struct ovoid_faces {
 } ovoid_faces;
 
 /**
- * From vertices and faces that claim to be convex: checked, never trusted; then the hull of the vertices. Checked are
- * the indices, that every edge is run through once in each direction (equal points count as one), and that no vertex is
- * above any face's plane by more than the face's own corners are off it, or 64 roundings of the largest coordinate.
- * Errors: INDEX (place: the face), NOT_CONVEX (place: the face), and those of ovoid_shape_create_from_points; EMPTY
- * where there are no faces.
+ * A shape from vertices and faces that are stated to be convex; this is checked, then the hull of the vertices is
+ * computed. The checks: the indices are valid, each edge occurs once in each direction (equal points count as one), and
+ * no vertex is above any face's plane by more than the distance of the face's own corners from it, or 64 roundings of
+ * the largest coordinate. Errors: INDEX (place: the face), NOT_CONVEX (place: the face), and those of
+ * ovoid_shape_create_from_points; EMPTY if there are no faces.
  */
 OVOID_API ovoid_shape *ovoid_shape_create_from_faces(const ovoid_faces *faces, const ovoid_shape_options *options,
                                                      ovoid_error *error);
@@ -95,12 +94,11 @@ OVOID_API ovoid_shape *ovoid_shape_create_capsule(double radius, double half_len
                                                   ovoid_error *error);
 
 /**
- * The cylinder along z, held by an inscribed prism with an allowance: brackets are those of the true cylinder, and at
- * least as wide as the allowance. The fewest sides that meet options->tolerance are taken, 32 by default; LIMIT where
- * these are more than 2^16. Both lengths are added to those of
- * options->allowance; the sum has the axis z, so that the flat ends are exact, unless options->allowance has an
- * `outside` that is not along z. Errors: NOT_FINITE, RADIUS, RANGE, ARGUMENT (tolerance), and those of
- * ovoid_shape_create_from_points.
+ * The cylinder along z, stored as an inscribed prism with an allowance: brackets are those of the true cylinder, and at
+ * least as wide as the allowance. It takes the fewest sides that meet options->tolerance, 32 by default; LIMIT if these
+ * are more than 2^16. Both lengths are added to those of options->allowance; the sum has the axis z, so that the flat
+ * ends are exact, unless options->allowance has an `outside` that is not along z. Errors: NOT_FINITE, RADIUS, RANGE,
+ * ARGUMENT (tolerance), and those of ovoid_shape_create_from_points.
  */
 OVOID_API ovoid_shape *ovoid_shape_create_cylinder(double radius, double half_length,
                                                    const ovoid_shape_options *options, ovoid_error *error);
@@ -125,19 +123,19 @@ OVOID_API ovoid_shape *ovoid_shape_create_pyramid(const ovoid_prism *prism, cons
                                                   ovoid_error *error);
 
 /**
- * The shape with its vertices moved: the hull of the new points, its ellipsoids looked for from those of the shape.
- * What comes out is proven like that of ovoid_shape_create_from_points; it only comes sooner where the body changed
- * little. xyz: one point for each vertex of ovoid_polytope, in its order, in the user's local frame. Points that are no
- * longer extreme are dropped. Errors as there, and ARGUMENT (no shape).
+ * The shape with its vertices moved: the hull of the new points. The search for its ellipsoids starts from those of the
+ * shape, so it is faster if the body changed little; the result is proven as in ovoid_shape_create_from_points. xyz:
+ * one point for each vertex of ovoid_polytope, in its order, in the user's local frame. Points that are no longer
+ * extreme are dropped. Errors as in ovoid_shape_create_from_points, and ARGUMENT (no shape).
  */
 OVOID_API ovoid_shape *ovoid_shape_create_deformed(const ovoid_shape *shape, const double *xyz,
                                                    const ovoid_shape_options *options, ovoid_error *error);
 
-/** What a plane cuts a shape into. The caller destroys both. */
+/** The two parts into which a plane cuts a shape. The caller destroys both. */
 typedef struct ovoid_shape_halves {
-    ovoid_code code;    /**< OVOID_OK; else why there are none */
-    ovoid_shape *below; /**< where normal . x <= offset; NULL where nothing but the plane itself is left */
-    ovoid_shape *above; /**< where normal . x >= offset; NULL as there */
+    ovoid_code code;    /**< OVOID_OK; else the reason why there are no parts */
+    ovoid_shape *below; /**< the part with normal . x <= offset; NULL if only points of the plane itself are left */
+    ovoid_shape *above; /**< the part with normal . x >= offset; NULL as for `below` */
 } ovoid_shape_halves;
 
 /**
@@ -149,13 +147,13 @@ typedef struct ovoid_shape_halves {
 OVOID_API ovoid_shape_halves ovoid_shape_create_divided(const ovoid_shape *shape, const ovoid_plane *plane,
                                                         const ovoid_shape_options *options, ovoid_error *error);
 
-/** A copy with memory of its own; of the options the allocator alone counts. Errors: ARGUMENT (no shape), MEMORY. */
+/** A copy with memory of its own; only the allocator of the options is used. Errors: ARGUMENT (no shape), MEMORY. */
 OVOID_API ovoid_shape *ovoid_shape_create_copy(const ovoid_shape *shape, const ovoid_shape_options *options,
                                                ovoid_error *error);
 
 /**
- * A copy with the allowance of the options, axis included; of the others the allocator alone counts. Errors: ARGUMENT
- * (no shape), NOT_FINITE, RANGE (the allowance), MEMORY.
+ * A copy with the allowance of the options, axis included; of the other options only the allocator is used. Errors:
+ * ARGUMENT (no shape), NOT_FINITE, RANGE (the allowance), MEMORY.
  */
 OVOID_API ovoid_shape *ovoid_shape_create_allowed(const ovoid_shape *shape, const ovoid_shape_options *options,
                                                   ovoid_error *error);
@@ -169,7 +167,7 @@ OVOID_API ovoid_polytope ovoid_shape_get_polytope(const ovoid_shape *shape);
 OVOID_API double ovoid_shape_get_radius(const ovoid_shape *shape);
 /** The allowance. */
 OVOID_API ovoid_allowance ovoid_shape_get_allowance(const ovoid_shape *shape);
-/** What the constructor did with the points given. */
+/** What the constructor did with the given points. */
 OVOID_API ovoid_report ovoid_shape_get_report(const ovoid_shape *shape);
 /** The outer ellipsoid of the polyhedron (without the radius), with its gap. Body frame. */
 OVOID_API ovoid_fit ovoid_shape_get_outer(const ovoid_shape *shape);
@@ -181,16 +179,17 @@ OVOID_API ovoid_measures ovoid_shape_get_measures(const ovoid_shape *shape);
 OVOID_API size_t ovoid_shape_get_size(const ovoid_shape *shape);
 
 /**
- * The shape as bytes of a versioned, little-endian file (".ovoid") with a checksum; of solids of 512 vertices or more
- * the hull's triangles are in it. Writes at most capacity bytes to buffer and returns the number of bytes needed;
- * nothing is written where capacity is too small.
+ * The shape as bytes of a versioned, little-endian file (".ovoid") with a checksum; for solids of 512 vertices or more
+ * the file contains the hull's triangles. Writes at most capacity bytes to buffer and returns the number of bytes
+ * needed; nothing is written if capacity is too small.
  */
 OVOID_API size_t ovoid_shape_write(const ovoid_shape *shape, void *buffer, size_t capacity);
 
 /**
- * A shape from such bytes, of any version, each of them checked: magic, version, sizes, checksum, indices, finiteness,
- * that the triangles are the hull, and that the ellipsoids enclose and are enclosed. It is the shape that was written,
- * bit for bit. Of the options the allocator alone counts. Errors: FORMAT (place: byte offset), MEMORY.
+ * A shape from the bytes of a file of any version. Every byte is checked: magic, version, sizes, checksum, indices,
+ * finiteness, that the triangles are the hull, and that the ellipsoids enclose and are enclosed. The result is the
+ * shape that was written, bit for bit. Of the options only the allocator is used. Errors: FORMAT (place: byte offset),
+ * MEMORY.
  */
 OVOID_API ovoid_shape *ovoid_shape_read(const void *bytes, size_t size, const ovoid_shape_options *options,
                                         ovoid_error *error);
