@@ -1,6 +1,6 @@
 /**
  * @file body.h
- * The proximity of two bodies, each a shape, a compound or a solid: the questions of <ovoid/query.h>, answered by one
+ * The proximity of two bodies, each a shape, a compound or a solid: the queries of <ovoid/query.h>, answered by one
  * pair of their parts and proven for all of them.
  * Queries allocate nothing and keep no state. Stack as in <ovoid/query.h>, with a solid 16 KB more, so a thread of 128
  * KB will do.
@@ -42,9 +42,9 @@ typedef struct ovoid_body_proof {
 } ovoid_body_proof;
 
 /**
- * Why pairs of parts do not decide: each part of a at [first_a, end_a) of its tree's order has a signed distance of at
- * least `lower` from each part of b at [first_b, end_b), as the normal shows (normal + normal_low as in ovoid_proof;
- * normal_low is zero but for single pairs). Of a shape the range is [0, 1).
+ * A proof that pairs of parts do not decide: each part of a at [first_a, end_a) of its tree's order has a signed
+ * distance of at least `lower` from each part of b at [first_b, end_b), along the normal (normal + normal_low as in
+ * ovoid_proof; normal_low is zero except for single pairs). The range of a shape is [0, 1).
  */
 typedef struct ovoid_exclusion {
     uint32_t first_a, end_a, first_b, end_b;
@@ -54,22 +54,24 @@ typedef struct ovoid_exclusion {
 
 /**
  * Memory for the proof of a query's answer beside the deciding pair's own proof: sorted exclusions, which with the
- * deciding pair cover all pairs of parts; and for a depth the deciding pair's cover (NULL: none is wanted; of a solid
- * it is not used). How many there are is known at the end of a query only. With `grows` the query makes room for them;
- * without, `count` tells how many there are, and the query may be repeated with that capacity.
+ * deciding pair cover all pairs of parts; and for a depth the deciding pair's cover (NULL: not written; a query with a
+ * solid does not use it). Their number is known only at the end of a query. With `grows` the query allocates room for
+ * them; without it, repeat the query with a capacity of `count` if there was too little.
  */
 typedef struct ovoid_exclusions {
-    ovoid_exclusion *items; /**< capacity of them; may be NULL where capacity is 0. The caller's, or see grows */
+    ovoid_exclusion *items; /**< capacity of them; may be NULL if capacity is 0. Owned by the caller, but see grows */
     size_t capacity;
-    size_t count; /**< written: how many there are; more than capacity: the items are not all there */
+    size_t count; /**< written: how many there are; if more than capacity, some are missing */
     ovoid_cover *cover;
-    int grows; /**< 1: a query that finds too little room takes more from the allocator and releases the items that it
-                  was given, which must be NULL or the allocator's. ovoid_exclusions_release ends them. Where memory is
-                  out count is above capacity; the answer holds nonetheless. */
+    int grows; /**< 1: a query that needs more room allocates it and releases the items that it was given, which must be
+                  NULL or from the allocator. Free them with ovoid_exclusions_release. If memory runs out, count is
+                  above capacity; the answer is still right. */
     const ovoid_allocator *allocator; /**< of items that grow; NULL: the default one. Must outlive the items */
 } ovoid_exclusions;
 
-/** Releases items that grow; then there are none, and no room. Nothing where `grows` is 0, or exclusions is NULL. */
+/**
+ * Frees items that grow and sets their number and capacity to 0. Does nothing if `grows` is 0 or exclusions is NULL.
+ */
 OVOID_API void ovoid_exclusions_release(ovoid_exclusions *exclusions);
 
 /** Which body has a point of the other inside, if that is what proves an overlap. */
@@ -83,45 +85,48 @@ typedef enum ovoid_body_inside {
 /**
  * The answer to a query: lower <= d <= upper.
  *
- * Without a solid d is the smallest signed distance over the pairs of a part of a and a part of b: the distance where
- * the bodies are apart, minus the depth of the deepest pair where they overlap. `deciding` is the answer of the
- * deciding pair with the bracket of the bodies, and nothing is inside.
+ * Without a solid d is the smallest signed distance over the pairs of a part of a and a part of b: the distance if the
+ * bodies are apart, minus the depth of the deepest pair if they overlap. `deciding` is the answer of the deciding pair
+ * with the bracket of the bodies, and `inside` is NONE.
  *
- * With a solid d is positive apart, else minus the least translation that parts the bodies; a compound is the union of
- * its parts. `deciding` is the answer of the deciding pair of triangles (of a shape the whole of it, of a compound a
- * part), but its lower end holds for all pairs. SEPARATED: that bracket is d's. OVERLAPPING: deciding.upper < 0, two
- * triangles cross (or one reaches into a shape or a part); or `inside` says which body has a component in the other, at
- * least deciding.lower away from its surface, or that a point lies in both. Else rounding leaves open whether the
- * surfaces cross: upper is theirs, lower what parts the bodies; TOUCHING where that bracket is as narrow as the
- * tolerance, and UNDECIDED where it is not, as of bodies that interlock, or touch around a corner.
+ * With a solid d is the distance if the bodies are apart, else minus the length of the shortest translation that
+ * separates them; a compound is the union of its parts. `deciding` is the answer of the deciding pair of triangles (a
+ * shape, or a part of a compound, stands in the place of a triangle), but its lower end holds for all pairs. SEPARATED:
+ * that bracket is the one of d. OVERLAPPING: deciding.upper < 0, so two triangles cross (or one reaches into a shape or
+ * a part); or `inside` says which body has a component in the other, at least deciding.lower away from its surface, or
+ * that a point lies in both. Otherwise rounding leaves open whether the surfaces cross: upper is that of the surfaces,
+ * lower comes from a separating translation. Then the status is TOUCHING if the bracket is as narrow as the tolerance,
+ * else UNDECIDED, for example for bodies that interlock, or touch around a corner.
  */
 typedef struct ovoid_body_answer {
     ovoid_status status;
-    ovoid_limit limit;        /**< as in ovoid_answer; of an overlap of solids NONE though no depth is searched for */
-    double lower, upper;      /**< of d; -infinity and infinity where refused */
+    ovoid_limit limit;   /**< as in ovoid_answer; NONE for an overlap of solids, although no depth is searched for */
+    double lower, upper; /**< of d; -infinity and infinity if refused */
     uint32_t part_a, part_b;  /**< the deciding pair: 0 for a shape, of a solid the triangle */
-    uint32_t visited;         /**< pairs of nodes, and of triangles, whose bounds were looked at */
+    uint32_t visited;         /**< pairs of nodes, and of triangles, whose bounds were computed */
     uint32_t tested;          /**< pairs of parts queried */
     ovoid_body_inside inside; /**< of solids */
     uint32_t component;       /**< the component that is inside; else 0 */
-    ovoid_vec3 parting;       /**< of solids: unit, world frame; along it `lower` is shown where it is below 0 */
+    ovoid_vec3 parting;       /**< of solids: unit, world frame; the direction of the separating translation that proves
+                                 `lower` if it is below 0 */
     ovoid_vec3 common;        /**< COMMON_POINT: the point, frame of a; else 0 */
     ovoid_answer deciding;    /**< of the deciding pair, with points, normal and proof */
 } ovoid_body_answer;
 
 /*
- * Options as in <ovoid/query.h>; the relative tolerance is of the pair of bodies' size: the largest |part position| +
- * vertex norm + radius of both (of a shape vertex norm + radius, of a solid the largest point norm) and the distance of
- * their frames' origins. Refused as there, SHAPE_A or SHAPE_B where a body has not exactly one of shape, compound and
- * solid, and POSE_A or POSE_B where a part would lie beyond OVOID_LENGTH_MAX.
- * evidence: NULL, or what is known of this pair of bodies and what is wanted; the exclusions' ranges are of the trees'
- * orders. Two shapes get the bits that ovoid_collide and its sisters give. Cost: a traversal of both trees.
+ * Options as in <ovoid/query.h>; the relative tolerance is of the size of the pair of bodies: the sum of the largest
+ * |part position| + vertex norm + radius of each (of a shape vertex norm + radius, of a solid the largest point norm)
+ * and the distance of their frames' origins. Refused as there, and SHAPE_A or SHAPE_B if a body has not exactly one of
+ * shape, compound and solid, and POSE_A or POSE_B if a part would lie beyond OVOID_LENGTH_MAX.
+ * evidence: NULL, or the warm start of this pair of bodies and room for the proof; the ranges of exclusions are of the
+ * trees' orders. For two shapes the answer has the bits of ovoid_collide and its sisters. Cost: a traversal of both
+ * trees.
  */
 
-/** What a query of bodies begins with, and what it writes beside its answer. */
+/** The warm start of a query of bodies, and room for what it writes beside its answer. */
 typedef struct ovoid_body_evidence {
     const ovoid_body_proof *earlier; /**< of this pair of bodies; NULL: none */
-    ovoid_exclusions *exclusions;    /**< receive what proves the answer for all pairs of parts; NULL: not wanted */
+    ovoid_exclusions *exclusions;    /**< receive the proof of the answer for all pairs of parts; NULL: not written */
 } ovoid_body_evidence;
 
 /** Do the bodies touch? Stops at the first two parts that overlap. */
@@ -133,40 +138,45 @@ OVOID_API ovoid_body_answer ovoid_body_collide(const ovoid_body_pair *pair, cons
  */
 OVOID_API ovoid_body_answer ovoid_body_within(const ovoid_body_pair *pair, double margin, const ovoid_options *options,
                                               const ovoid_body_evidence *evidence);
-/** The distance to the tolerance and the nearest parts; where two overlap only that is proven, of solids with a depth.
+/**
+ * The distance to the tolerance and the nearest parts. Of an overlap only the sign is proven, for solids also a bracket
+ * of the depth.
  */
 OVOID_API ovoid_body_answer ovoid_body_distance(const ovoid_body_pair *pair, const ovoid_options *options,
                                                 const ovoid_body_evidence *evidence);
 /**
- * The signed distance to the tolerance: where the bodies overlap, minus the depth of the deepest pair of parts. With a
- * solid as ovoid_body_distance, as the depth of triangles is not searched for.
+ * The signed distance to the tolerance: if the bodies overlap, minus the depth of the deepest pair of parts. With a
+ * solid the same as ovoid_body_distance, as the depth of triangles is not searched for.
  */
 OVOID_API ovoid_body_answer ovoid_body_depth(const ovoid_body_pair *pair, const ovoid_options *options,
                                              const ovoid_body_evidence *evidence);
 
-/** 1: proven within the margin (upper <= margin); 0: proven farther (lower > margin); -1: the bracket straddles it. */
+/** 1: proven within the margin (upper <= margin); 0: proven farther (lower > margin); -1: neither is proven. */
 OVOID_API int ovoid_body_answer_is_within(const ovoid_body_answer *answer, double margin);
 /** The warm start of the pair's next query. */
 OVOID_API ovoid_body_proof ovoid_body_answer_get_proof(const ovoid_body_answer *answer);
-/** The answer as that of two shapes: the deciding pair's, with status, limit and bracket of the bodies. */
+/**
+ * The answer in the form of an answer of two shapes: that of the deciding pair, with status, limit and bracket of the
+ * bodies.
+ */
 OVOID_API ovoid_answer ovoid_body_answer_get_answer(const ovoid_body_answer *answer);
-/** The answer of two bodies without a solid from that of their deciding pair, as it was kept in a file, say. */
+/** The answer of two bodies without a solid from that of their deciding pair, for example from a file. */
 OVOID_API ovoid_body_answer ovoid_body_answer_make(const ovoid_answer *deciding, uint32_t part_a, uint32_t part_b);
 
-/** What an answer is verified with, beside its own proof; all zero is the default, and NULL means that. */
+/** What an answer is verified with, beside its own proof; all zero, or NULL, is the default. */
 typedef struct ovoid_body_basis {
     const ovoid_options *options;       /**< those of the query; NULL: the default */
     const ovoid_exclusions *exclusions; /**< those of the query; NULL is enough for two shapes */
 } ovoid_body_basis;
 
 /**
- * Verifies an answer without any search: the deciding pair as ovoid_answer_verify does, each exclusion by all its parts
- * along its normal, that with the deciding pair they leave out no pair of parts, what is inside by the winding numbers
- * of all components, a common point by its distance from all triangles, a depth of solids by all points along
- * `parting`; and that status and limit follow from their brackets and the tolerance. Not claims, and not verified:
- * visited, tested, `parting` of what is apart or has no solid, why a bracket is wide (a limit other than NONE).
- * OVOID_OK, or PROOF with a sentence in *error (may be NULL; place: the exclusion). Cost: the parts of all exclusions,
- * and for each component that is not outside of the other's box all triangles.
+ * Verifies an answer without any search: the deciding pair as in ovoid_answer_verify; each exclusion by all its parts
+ * along its normal; that exclusions and deciding pair leave out no pair of parts; containment by the winding numbers of
+ * all components; a common point by its distance from all triangles; a depth of solids by all points along `parting`;
+ * and that status and limit follow from the brackets and the tolerance. Not verified, since they claim nothing:
+ * visited, tested, `parting` of bodies that are apart or have no solid, the reason of a wide bracket (a limit other
+ * than NONE). OVOID_OK, or PROOF with a sentence in *error (may be NULL; place: the exclusion). Cost: the parts of all
+ * exclusions, and all triangles for each component that is not outside of the other body's box.
  */
 OVOID_API ovoid_code ovoid_body_verify(const ovoid_body_pair *pair, const ovoid_body_answer *answer,
                                        const ovoid_body_basis *basis, ovoid_error *error);

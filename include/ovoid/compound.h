@@ -12,21 +12,22 @@
 extern "C" {
 #endif
 
-/** Most parts of a compound. */
+/** The largest number of parts of a compound. */
 #define OVOID_COMPOUND_PARTS_MAX ((size_t)1 << 24)
 
 /**
  * Parts (a shape and its pose in the compound's frame) and a tree over them, in one block of memory. The shapes are
- * borrowed and must outlive it. Parts may overlap, touch or be the same; a part may be a point, a segment or flat.
+ * borrowed and must outlive it. Parts may overlap, touch or be equal; a part may be a point, a segment or flat.
  *
- * Where part i is in the world, in a body of pose P, is ovoid_pose_compute_product(&P, &part.pose) by definition, with
- * its rounding. So each part is an exact mathematical object, and two parts are an ordinary ovoid_pair.
+ * In a body of pose P, the pose of part i in the world is ovoid_pose_compute_product(&P, &part.pose) by definition,
+ * with its rounding. So each part is an exact mathematical object, and two parts are an ordinary ovoid_pair.
  */
 typedef struct ovoid_compound ovoid_compound;
 
-/** Options of a compound; all zero is the default, and NULL means that. */
+/** Options of a compound; all zero, or NULL, is the default. */
 typedef struct ovoid_compound_options {
-    const ovoid_allocator *allocator; /**< NULL: malloc and free; copied. Working memory comes from it and goes back */
+    const ovoid_allocator *allocator; /**< NULL: malloc and free; copied. Working memory comes from it too, and is freed
+                                         before the call returns */
 } ovoid_compound_options;
 
 /**
@@ -43,7 +44,10 @@ OVOID_API void ovoid_compound_destroy(ovoid_compound *compound);
 OVOID_API size_t ovoid_compound_get_part_count(const ovoid_compound *compound);
 /** Part i < part count, with its pose in the compound's frame. */
 OVOID_API ovoid_posed_shape ovoid_compound_get_part(const ovoid_compound *compound, size_t i);
-/** The parts in the order of the tree: part count indices. Exclusions name ranges of it. A view into the compound. */
+/**
+ * The parts in the order of the tree: part count indices. Exclusions name ranges of this array. A view into the
+ * compound.
+ */
 OVOID_API const uint32_t *ovoid_compound_get_order(const ovoid_compound *compound);
 /** An ellipsoid that encloses all parts, radii included, proven after rounding. Compound's frame. */
 OVOID_API ovoid_ellipsoid ovoid_compound_get_outer(const ovoid_compound *compound);

@@ -46,7 +46,7 @@ typedef struct ovoid_mesh_part {
     ovoid_faces faces; /**< points and polygons; point clouds have no faces */
 } ovoid_mesh_part;
 
-/** How to read a mesh; all zero is the default, and NULL means that. */
+/** How to read a mesh; all zero, or NULL, is the default. */
 typedef struct ovoid_read_options {
     double scale; /**< each coordinate is multiplied by it; > 0; 0 means 1 */
     const char
@@ -527,7 +527,7 @@ typedef struct ovoid_picture {
     const char *unit;  /**< of the lengths written, for example "m"; may be NULL */
 } ovoid_picture;
 
-/** How to draw; all zero is the default, and NULL means that. */
+/** How to draw; all zero, or NULL, is the default. */
 typedef struct ovoid_picture_options {
     uint32_t width, height; /**< pixels; 0 means 1200 and 800 */
     ovoid_vec3 view;        /**< from the scene to the eye; zero means three quarters from above: (1, -1.6, 0.9) */

@@ -1,8 +1,8 @@
 /**
  * @file robot_compare.h
- * A robot beside a model of it, such as one of spheres: in which states do the two disagree? A planner that asks the
- * model alone passes through what it misses, and goes around what it invents. docs/robot-spheres.md tells how far real
- * models are from their robots.
+ * Comparison of a robot with a model of it, for example of spheres: in which states do the two disagree? A planner that
+ * uses only the model passes through collisions that the model misses, and goes around collisions that it invents.
+ * docs/robot-spheres.md shows how far real models are from their robots.
  */
 #ifndef OVOID_ROBOT_COMPARE_H
 #define OVOID_ROBOT_COMPARE_H
@@ -13,7 +13,7 @@
 extern "C" {
 #endif
 
-/** What a robot and its model say of a state. */
+/** The statuses of a robot and its model in a state. */
 typedef enum ovoid_robot_agreement {
     OVOID_ROBOT_COMPARED_OPEN = 0,  /**< one of the two is undecided, or refuses the state */
     OVOID_ROBOT_COMPARED_BOTH_FREE, /**< both are free, proven */
@@ -34,17 +34,17 @@ typedef struct ovoid_robot_comparison_batch {
     const double *q;                    /**< state i from i * variable count on */
     size_t count;
     const ovoid_robot_query_options *options; /**< of both; NULL: the default. Pairs of links or obstacles may be left
-                                                   out, so that the two are told apart by two calls */
-    ovoid_robot_agreement *agreements;        /**< count, or NULL: only counts are wanted */
+                                                 out, so two calls can tell them apart */
+    ovoid_robot_agreement *agreements;        /**< count, or NULL: only counts are written */
 } ovoid_robot_comparison_batch;
 
-/** How two robots agree over states. All zero is the beginning. */
+/** Counts of the agreements of two robots over states. Set it to zero before the first batch. */
 typedef struct ovoid_robot_comparison {
     size_t states;                         /**< how many were compared */
     size_t counts[OVOID_ROBOT_AGREEMENTS]; /**< of these, by agreement */
-    size_t deepest_state;                  /**< of the missed ones that with the deepest overlap, counted from the
-                                                first state of the first batch. Where none was missed: 0 */
-    ovoid_robot_near deepest;              /**< its pair, which is of the robot: -upper is proven missed */
+    size_t deepest_state; /**< of the missed states the one with the deepest overlap, counted from the first state of
+                             the first batch. 0 if none was missed */
+    ovoid_robot_near deepest; /**< its pair, which is of the robot; the model misses at least -upper, proven */
 } ovoid_robot_comparison;
 
 /**

@@ -1,12 +1,13 @@
 /**
  * @file robot_io.h
  * Robots from files: URDF and SRDF, scenes of obstacles (MoveIt's YAML, ovoid's JSON) and planning problems. A part of
- * libovoid_robot, which stands on libovoid_io, expat and libyaml. docs/robot.md says what each format means here.
+ * libovoid_robot, which needs libovoid_io, expat and libyaml. docs/robot.md describes the formats.
  *
  * Every function returns a code or NULL and fills *error (which may be NULL); message is "path:line: what is wrong,
- * what to do", place the line. What is no error but should be known is a note: see ovoid_robot_note. Nothing prints,
- * exits or leaks; memory and time are bounded by a small multiple of the sizes of the files. Memory comes from malloc,
- * but that of shapes. Not for concurrent use of one object while it is read; what was read is immutable.
+ * what to do", place the line. Facts that are no errors but should be known are reported as notes: see
+ * ovoid_robot_note. Nothing prints, exits or leaks; memory and time are bounded by a small multiple of the sizes of the
+ * files. Memory comes from malloc, except that of shapes. One object must not be used by several threads while it is
+ * read; afterwards it is immutable.
  */
 #ifndef OVOID_ROBOT_IO_H
 #define OVOID_ROBOT_IO_H
@@ -18,21 +19,21 @@
 extern "C" {
 #endif
 
-/** Where a package lies, for addresses of the form package://NAME/PATH. */
+/** The folder of a package, for addresses of the form package://NAME/PATH. */
 typedef struct ovoid_robot_package {
-    const char *name; /**< what stands behind package://; may hold more than one folder: "robots/panda_description" */
+    const char *name; /**< the name behind package://; may hold more than one folder: "robots/panda_description" */
     const char *folder;
 } ovoid_robot_package;
 
 /** Enlarges or shrinks a link's geometry. */
 typedef struct ovoid_robot_link_scale {
     const char *link; /**< NULL: every link that no other item names */
-    double factor; /**< > 0: of each shape's size, about the origin of its element; of meshes on top of their scale */
+    double factor;    /**< > 0: of each shape's size, about the origin of its element; multiplies the scale of meshes */
 } ovoid_robot_link_scale;
 
 /**
- * Something to be told that is no error by itself, in the order of the files: an unknown name of an SRDF, an element
- * without effect, each of several meshes that are absent. Valid during the call only.
+ * A fact that is no error by itself, in the order of the files: an unknown name in an SRDF, an element without effect,
+ * each of several absent meshes. Valid only during the call.
  */
 typedef struct ovoid_robot_note {
     const char *path; /**< of the file */
@@ -40,23 +41,23 @@ typedef struct ovoid_robot_note {
     const char *text; /**< a sentence of any length */
 } ovoid_robot_note;
 
-/** How to read a robot; all zero is the default, and NULL means that. */
+/** How to read a robot; all zero, or NULL, is the default. */
 typedef struct ovoid_robot_read_options {
-    const ovoid_robot_package *packages; /**< looked at before all other places; the longest name that fits is taken */
+    const ovoid_robot_package *packages; /**< searched before all other places; the longest name that fits is taken */
     size_t package_count;
-    const char *ros_package_path;  /**< folders with colons between; NULL: the environment's ROS_PACKAGE_PATH */
-    const char *ament_prefix_path; /**< the same; NULL: the environment's AMENT_PREFIX_PATH */
-    int parts;                     /**< 0: a mesh is one body; 1: the hulls of its objects (OBJ `o`, nodes) */
-    int visual;                    /**< 1: a link without collision geometry takes its visual one */
-    int fixed_base;                /**< 1: the SRDF's virtual joint adds nothing: the root link is the base */
-    int trusted;                   /**< as in ovoid_read_options */
-    double tolerance; /**< of cylinders: the most that `outside` of their allowance may be; 0: radius/200 */
-    const ovoid_robot_link_scale *scales; /**< NULL: every factor is 1; a link comes once at most */
+    const char *ros_package_path;         /**< folders with colons between; NULL: the environment's ROS_PACKAGE_PATH */
+    const char *ament_prefix_path;        /**< the same; NULL: the environment's AMENT_PREFIX_PATH */
+    int parts;                            /**< 0: a mesh is one body; 1: the hulls of its objects (OBJ `o`, nodes) */
+    int visual;                           /**< 1: a link without collision geometry takes its visual one */
+    int fixed_base;                       /**< 1: the SRDF's virtual joint adds nothing: the root link is the base */
+    int trusted;                          /**< as in ovoid_read_options */
+    double tolerance;                     /**< of cylinders: the largest `outside` of their allowance; 0: radius/200 */
+    const ovoid_robot_link_scale *scales; /**< NULL: every factor is 1; a link occurs at most once */
     size_t scale_count;
     const ovoid_shape_options *shape; /**< of all shapes; their radius must be 0; NULL: the default */
-    int hull; /**< 0: a mesh counts as what it is (ovoid_triangles_compute_hull_match): its hull, exactly or with an
-                 allowance that keeps brackets true of it; the solid that its triangles enclose; or, where they are not
-                 closed, their surface, of which a note tells. 1: as its hull. Without effect on `parts` */
+    int hull; /**< 0: a mesh is what its triangles are (ovoid_triangles_compute_hull_match): its hull, exactly or with
+                 an allowance that keeps brackets true; the solid that they enclose; or, if they are not closed, their
+                 surface, which a note reports. 1: its hull. Without effect with `parts` */
     void (*note)(void *context, const ovoid_robot_note *note); /**< NULL: notes are dropped */
     void *context;
 } ovoid_robot_read_options;
@@ -65,37 +66,37 @@ typedef struct ovoid_robot_read_options {
 typedef struct ovoid_robot_file ovoid_robot_file;
 
 /**
- * Reads a URDF, the meshes of its collision geometry and, where srdf is not NULL, an SRDF. Meshes are what
- * ovoid_mesh_read reads; one of the same file and scale is read once and its shapes shared. Boxes, spheres, capsules
- * are exact, cylinders have an allowance. All lengths are metres, as URDF has it.
+ * Reads a URDF, the meshes of its collision geometry and, if srdf is not NULL, an SRDF. Meshes are read as by
+ * ovoid_mesh_read; each file and scale is read once and its shapes shared. Boxes, spheres, capsules are exact,
+ * cylinders have an allowance. All lengths are metres, as in URDF.
  *
- * Errors: FILE (also: absent meshes, each a note with the places that were looked at), FORMAT (what does not follow the
- * format; a loop, a link without a joint, two roots, a name twice, a mimic of itself or in a ring, limits upside down),
- * NOT_FINITE, RANGE, ROTATION (an axis of zero), RADIUS, ARGUMENT (an option; a scale of a link that there is not),
- * LIMIT, MEMORY and those of ovoid_mesh_read. xacro files are
- * refused with the command that expands them. Cost: n log n in the links, plus the shapes.
+ * Errors: FILE (also absent meshes, each reported by a note with the places that were searched), FORMAT (input that
+ * does not follow the format; a loop, a link without a joint, two roots, a duplicate name, a mimic of itself or in a
+ * ring, lower above upper limits), NOT_FINITE, RANGE, ROTATION (an axis of zero), RADIUS, ARGUMENT (an option; a scale
+ * of an unknown link), LIMIT, MEMORY and those of ovoid_mesh_read. xacro files are refused with the command that
+ * expands them. Cost: n log n in the links, plus the shapes.
  */
 OVOID_API ovoid_robot_file *ovoid_robot_file_read(const char *urdf, const char *srdf,
                                                   const ovoid_robot_read_options *options, ovoid_error *error);
 /** Frees it and its shapes; NULL is allowed. */
 OVOID_API void ovoid_robot_file_destroy(ovoid_robot_file *file);
 /**
- * What ovoid_robot_create takes: a view. Links and joints in the order of the file. An SRDF's virtual joint, unless it
- * is fixed_base, adds a link, its parent frame, which is then the root, and a joint, each after those of the URDF.
+ * The argument of ovoid_robot_create: a view. Links and joints are in the order of the file. An SRDF's virtual joint,
+ * unless fixed_base is set, adds a link, its parent frame, which is then the root, and a joint, each after those of the
+ * URDF.
  */
 OVOID_API ovoid_robot_description ovoid_robot_file_get_description(const ovoid_robot_file *file);
 
 /** One mesh file, at one scale: a view. */
 typedef struct ovoid_robot_mesh {
-    const char *path;    /**< where it was found */
-    const char *address; /**< what the URDF says */
-    ovoid_vec3 scale;    /**< negative factors mirror */
-    size_t part_count;   /**< hulls: 1, or with options->parts the objects */
-    size_t use_count;    /**< collision elements that share them */
-    ovoid_convexity
-        convexity;        /**< summed over the parts; is_nonconvex: of any; mesh_volume NaN where one is not known */
-    ovoid_mesh_kind kind; /**< as which it counts: HULL, PARTS, SOLID or SURFACE */
-    double allowance;     /**< of HULL: the `inside` of the shape's allowance, 0 where the mesh is the hull exactly */
+    const char *path;          /**< where it was found */
+    const char *address;       /**< what the URDF says */
+    ovoid_vec3 scale;          /**< negative factors mirror */
+    size_t part_count;         /**< hulls: 1, or with options->parts the objects */
+    size_t use_count;          /**< collision elements that share them */
+    ovoid_convexity convexity; /**< summed over the parts; mesh_volume is NaN if one is not known */
+    ovoid_mesh_kind kind;      /**< the kind as which it is queried: HULL, PARTS, SOLID or SURFACE */
+    double allowance; /**< of HULL: the `inside` of the shape's allowance, 0 where the mesh is the hull exactly */
 } ovoid_robot_mesh;
 
 /** How many meshes there are. */
@@ -104,8 +105,8 @@ OVOID_API size_t ovoid_robot_file_get_mesh_count(const ovoid_robot_file *file);
 OVOID_API ovoid_robot_mesh ovoid_robot_file_get_mesh(const ovoid_robot_file *file, size_t i);
 
 /**
- * Elements that were not read, by where they stand, "link/inertial", "robot/transmission", "robot/end_effector"; and
- * attributes without effect of elements that were, "limit@uper".
+ * Elements that were not read, by their path, "link/inertial", "robot/transmission", "robot/end_effector"; and
+ * attributes without effect of elements that were read, "limit@uper".
  */
 typedef struct ovoid_robot_ignored {
     const char *name;
@@ -117,7 +118,7 @@ OVOID_API size_t ovoid_robot_file_get_ignored_count(const ovoid_robot_file *file
 /** Kind i < that count, in the order of their names. */
 OVOID_API ovoid_robot_ignored ovoid_robot_file_get_ignored(const ovoid_robot_file *file, size_t i);
 
-/** Mimics on fixed joints, which some public files have: they mean nothing and are dropped. */
+/** The number of mimics on fixed joints, which some public files have: they mean nothing and are dropped. */
 OVOID_API size_t ovoid_robot_file_get_fixed_mimic_count(const ovoid_robot_file *file);
 
 /** A group of an SRDF, its subgroups and chains resolved: indices of the description, ascending. A view. */

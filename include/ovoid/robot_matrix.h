@@ -28,7 +28,7 @@ typedef enum ovoid_robot_touch {
 /** "open", "never", "sampled never", "always", "sampled always", "sometimes", "rigid"; never NULL. */
 OVOID_API const char *ovoid_robot_touch_get_name(ovoid_robot_touch touch);
 
-/** How a matrix is made; all zero is the default, and NULL means that. */
+/** How a matrix is made; all zero, or NULL, is the default. */
 typedef struct ovoid_robot_matrix_options {
     size_t samples;    /**< random states, for all pairs; 0: 10 000 */
     size_t budget;     /**< most cells of joint space that a pair's proof looks at; 0: 100 000 */

@@ -49,7 +49,7 @@ typedef struct ovoid_robot_step {
                           root's. Not of OUTER and SOLID: zero */
 } ovoid_robot_step;
 
-/** How a path is checked; all zero is the default, and NULL means that. */
+/** How a path is checked; all zero, or NULL, is the default. */
 typedef struct ovoid_robot_path_options {
     ovoid_robot_query_options query; /**< margin, limits, which pairs */
     double tolerance; /**< of hit_at - free_until, in s; 0 means 2^-20. Where a body's allowance hides when it is met,

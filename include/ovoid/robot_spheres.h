@@ -33,7 +33,7 @@ typedef struct ovoid_robot_sphere_model {
     size_t count;
 } ovoid_robot_sphere_model;
 
-/** Options of an audit; all zero is the default, and NULL means that. */
+/** Options of an audit; all zero, or NULL, is the default. */
 typedef struct ovoid_robot_audit_options {
     double tolerance;    /**< a length: the depth's bracket need not be narrower; 0: 1e-5 of the link's size */
     size_t depth_cells;  /**< most cells held in the search for the deepest point, at least 64; 0: 2^16, 12 MB */
@@ -74,7 +74,7 @@ OVOID_API ovoid_code ovoid_robot_compute_sphere_audit(const ovoid_robot_sphere_m
                                                       const ovoid_robot_audit_options *options,
                                                       ovoid_robot_sphere_audit *audit, ovoid_error *error);
 
-/** Options of a cover; all zero is the default, and NULL means that. */
+/** Options of a cover; all zero, or NULL, is the default. */
 typedef struct ovoid_robot_cover_options {
     double excess; /**< a length: the fewest spheres are looked for of which none stands out of the link by more;
                         0: as many spheres as there is room for */

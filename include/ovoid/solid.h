@@ -12,7 +12,7 @@
 extern "C" {
 #endif
 
-/** Most triangles of a solid. */
+/** The largest number of triangles of a solid. */
 #define OVOID_SOLID_TRIANGLES_MAX ((size_t)1 << 26)
 
 /** Triangles and their points, borrowed. */
@@ -26,40 +26,41 @@ typedef struct ovoid_triangles {
 /**
  * Triangles and a tree of boxes over them, in one block of memory.
  *
- * The triangles are closed if their edges cancel: each piece of a line is run through as often in one direction as in
- * the other, exactly. Equal points count as one, an edge may be matched by several shorter ones that make it up, and a
- * triangle without area has no edges that count. If the triangles are closed, the body is all points of them and all
- * points around which they wind: how they are oriented does not matter, nor that some are there twice. If they are not,
- * the body is the surface itself, which has no inside.
+ * The triangles are closed if their edges cancel: each piece of a line occurs as often in one direction as in the
+ * other, exactly. Equal points count as one, an edge may be matched by several shorter edges that make it up, and the
+ * edges of a triangle without area do not count. If the triangles are closed, the body is the set of all points of them
+ * and all points around which they wind; their orientation does not matter, and duplicates do not either. If they are
+ * not closed, the body is the surface itself, which has no inside.
  */
 typedef struct ovoid_solid ovoid_solid;
 
-/** What was found of the triangles. */
+/** Facts about the triangles. */
 typedef struct ovoid_solid_report {
     uint64_t points;          /**< points that triangles use; equal ones count once */
     uint64_t triangles;       /**< as given */
     uint64_t components;      /**< sets of triangles that share points */
-    uint64_t edges_unmatched; /**< edges, or pieces of them, not run through as often in each direction; 0: the surface
-                                   is closed */
+    uint64_t edges_unmatched; /**< edges, or pieces of them, that do not occur as often in each direction; 0: the
+                                 surface is closed */
     uint64_t edges_crowded;   /**< edges of more than two triangles */
-    uint64_t degenerate;      /**< triangles without area, as far as pairs of doubles tell: two corners that are the
-                                   same, or three on a line */
-    uint64_t duplicates;      /**< triangles with the three points of an earlier one, in any order */
-    int is_closed;            /**< 1: a solid; 0: a surface */
-    double volume;            /**< with its sign: below 0 where inside out; of a closed one, rounded; else 0 */
-    int is_flat;              /**< 1: closed, and encloses nothing but what rounding may have left: its mean thickness,
-                                   twice the volume over the area, is below 2^-39 of its size. A sheet with two sides */
-    double area;              /**< rounded */
-    ovoid_box box;            /**< of the points; solid's frame */
+    uint64_t degenerate; /**< triangles without area, as far as pairs of doubles can tell: two equal corners, or three
+                            on a line */
+    uint64_t duplicates; /**< triangles with the three points of an earlier one, in any order */
+    int is_closed;       /**< 1: a solid; 0: a surface */
+    double volume;       /**< signed: below 0 if the solid is inside out; rounded; 0 if it is not closed */
+    int is_flat; /**< 1: closed, but encloses no more than rounding may have left: its mean thickness, twice the volume
+                    over the area, is below 2^-39 of its size. A sheet with two sides */
+    double area; /**< rounded */
+    ovoid_box box; /**< of the points; solid's frame */
 } ovoid_solid_report;
 
-/** Options of a solid; all zero is the default, and NULL means that. */
+/** Options of a solid; all zero, or NULL, is the default. */
 typedef struct ovoid_solid_options {
-    const ovoid_allocator *allocator; /**< NULL: malloc and free; copied. Working memory comes from it and goes back */
+    const ovoid_allocator *allocator; /**< NULL: malloc and free; copied. Working memory comes from it too, and is freed
+                                         before the call returns */
 } ovoid_solid_options;
 
 /**
- * A solid of one triangle or more, which are copied. Every triangle is kept, also what has no area. Returns NULL with
+ * A solid of one triangle or more, which are copied. Every triangle is kept, also one without area. Returns NULL with
  * *error filled (may be NULL): ARGUMENT, EMPTY, LIMIT, NOT_FINITE (place: the point), RANGE, INDEX (place: the
  * triangle), MEMORY. The caller destroys it. Cost: n log n.
  */
@@ -68,44 +69,44 @@ OVOID_API ovoid_solid *ovoid_solid_create_from_triangles(const ovoid_triangles *
 /** Frees it; NULL is allowed. No query may be using it. */
 OVOID_API void ovoid_solid_destroy(ovoid_solid *solid);
 
-/** What was found of the triangles. */
+/** Facts about the triangles. */
 OVOID_API ovoid_solid_report ovoid_solid_get_report(const ovoid_solid *solid);
 /** The points: xyz of point i at 3 i, report.points of them. A view into the solid. */
 OVOID_API const double *ovoid_solid_get_points(const ovoid_solid *solid);
-/** The points of triangle i < report.triangles, in the order given. */
+/** The points of triangle i < report.triangles, in their given order. */
 OVOID_API void ovoid_solid_get_triangle(const ovoid_solid *solid, size_t i, uint32_t points[3]);
-/** The triangles in the order of the tree. Exclusions name ranges of it. A view into the solid. */
+/** The triangles in the order of the tree. Exclusions name ranges of this array. A view into the solid. */
 OVOID_API const uint32_t *ovoid_solid_get_order(const ovoid_solid *solid);
 /** Size of the block in bytes. */
 OVOID_API size_t ovoid_solid_get_size(const ovoid_solid *solid);
 
 /**
- * How often a closed solid winds around a point of its frame, exactly: 0 outside, 1 inside one that is oriented as it
- * should be, -1 inside one that is inside out. 1 where *winding is written; 0 where the solid is not closed, the point
- * is on its surface (to within the underflow of exact signs) or not finite. Coordinates above OVOID_LENGTH_MAX count as
- * outside. Cost: the boxes along a ray.
+ * How often a closed solid winds around a point of its frame, exactly: 0 outside, 1 inside a solid with outward
+ * orientation, -1 inside one that is inside out. Returns 1 if *winding is written; 0 if the solid is not closed, the
+ * point is on its surface (to within the underflow of exact signs) or not finite. Points with coordinates above
+ * OVOID_LENGTH_MAX count as outside. Cost: the boxes along a ray.
  */
 OVOID_API int ovoid_solid_compute_winding(const ovoid_solid *solid, ovoid_vec3 point, int64_t *winding);
 
-/** What triangles are beside the convex hull of their points. */
+/** How the body of triangles differs from the convex hull of their points. */
 typedef struct ovoid_hull_match {
-    int is_closed;            /**< as of a solid's report */
-    uint64_t edges_unmatched; /**< as there */
-    int is_hull;              /**< 1: the hull may stand for the body that the triangles enclose, with `allowance` */
-    double allowance;         /**< of a hull: 0 where it is that body; else the body lies in the hull, and there is a
-                                   convex body in it whose supports are nowhere lower by more than this: as the
-                                   `inside` of the hull's allowance it keeps every bracket true of the body, depths
-                                   included */
+    int is_closed;            /**< as in a solid's report */
+    uint64_t edges_unmatched; /**< as in a solid's report */
+    int is_hull;              /**< 1: the hull, with `allowance`, may replace the body that the triangles enclose */
+    double allowance; /**< 0 if the hull is that body. Else the body lies in the hull, and contains a convex body whose
+                         supports are nowhere lower than the hull's by more than this: as the `inside` of the hull's
+                         allowance it keeps every bracket true for the body, depths included */
 } ovoid_hull_match;
 
 /**
  * Is the body of these triangles the convex hull of their points, exactly or nearly? hull: made of the same points.
- * Exactly: the triangles are closed, wind around the hull's centroid, and each of them with area lies in a plane that
- * the hull does not cross, by exact signs. Nearly: each lies so little below such a plane that the allowance is at most
- * a millionth of the diagonal of the hull's box and four ten millionths of its largest coordinate (a few roundings to
- * single precision, which STL files have), and no more than a ten thousandth of the diagonal. A hull of rank below 3
- * encloses nothing and is none. Errors: those of ovoid_solid_create_from_triangles, ARGUMENT (no hull). Cost: linear
- * but for the matching of edges that are open; of triangles that are no hull mostly less.
+ * Exactly means that the triangles are closed, wind around the hull's centroid, and each of them with area lies in a
+ * plane that the hull does not cross, by exact signs. Nearly means that each lies so little below a plane like that
+ * that the allowance is at most a millionth of the diagonal of the hull's box plus four ten millionths of its largest
+ * coordinate (a few roundings to single precision, as in STL files), and at most a ten thousandth of the diagonal. A
+ * hull of rank below 3 encloses nothing, so the answer is no. Errors: those of ovoid_solid_create_from_triangles,
+ * ARGUMENT (no hull). Cost: linear, except for the matching of open edges; mostly less if the triangles are not the
+ * hull.
  */
 OVOID_API ovoid_code ovoid_triangles_compute_hull_match(const ovoid_triangles *triangles, const ovoid_shape *hull,
                                                         ovoid_hull_match *match, ovoid_error *error);
