@@ -1,14 +1,13 @@
 /**
  * @file io.h
- * Files: meshes, shapes, scenes, lists, pairs, results and pictures. A second library, libovoid_io, because what it
- * stands on (jansson, Assimp) is not the core's. docs/formats.md and docs/scene.md describe every format.
+ * Files: meshes, shapes, scenes, lists, pairs, results and pictures. A second library, libovoid_io, so that the core
+ * does not depend on jansson and Assimp. docs/formats.md and docs/scene.md describe every format.
  *
- * Every function returns a code or NULL and fills *error (which may be NULL); message is "path:line: what is wrong"
- * and place the line of a text file, the vertex or face of a binary one. Where a path is given to be read, "-" is
- * standard input, but for .ovoid files; a byte order mark (UTF-8) before a text is passed over. Nothing prints, exits
- * or leaks, and no file makes a reader allocate more than a small multiple of its own size. Memory comes from malloc.
- * Numbers are read and written with a point whatever the locale. Not for concurrent use of one object; different
- * objects are independent.
+ * Every function returns a code or NULL and fills *error (which may be NULL); message is "path:line: what is wrong" and
+ * place the line of a text file, the vertex or face of a binary one. The path "-" reads standard input, except for
+ * .ovoid files; a byte order mark (UTF-8) before a text is skipped. Nothing prints, exits or leaks, and no file makes a
+ * reader allocate more than a small multiple of its own size. Memory comes from malloc. Numbers are read and written
+ * with a point in every locale. Do not use one object in several threads at once; different objects are independent.
  */
 #ifndef OVOID_IO_H
 #define OVOID_IO_H
@@ -23,26 +22,26 @@
 extern "C" {
 #endif
 
-/** Largest file that is read as a mesh, shape or list, bytes. */
+/** The largest file that is read as a mesh, shape or list, bytes. */
 #define OVOID_FILE_SIZE_MAX ((size_t)1 << 30)
 
-/** Largest scene, bytes: JSON takes up to 80 times as much in memory. */
+/** The largest scene, bytes: JSON takes up to 80 times as much in memory. */
 #define OVOID_SCENE_SIZE_MAX ((size_t)1 << 26)
 
-/** Most parts of a mesh file. */
+/** The largest number of parts of a mesh file. */
 #define OVOID_MESH_PARTS_MAX 65536
 
-/** Most points, after equal ones are merged, of a mesh file. */
+/** The largest number of points of a mesh file, after equal ones are merged. */
 #define OVOID_MESH_POINTS_MAX 20000000
 
 /* ---- meshes ---- */
 
-/** A mesh as a file holds it: one part or several. Owned by the caller. */
+/** The mesh of a file: one part or several. Owned by the caller. */
 typedef struct ovoid_mesh ovoid_mesh;
 
 /** One part: a view into the mesh. */
 typedef struct ovoid_mesh_part {
-    const char *name;  /**< the file's name of it; "" where it has none; never NULL */
+    const char *name;  /**< its name in the file; "" if it has none; never NULL */
     ovoid_faces faces; /**< points and polygons; point clouds have no faces */
 } ovoid_mesh_part;
 
@@ -53,12 +52,11 @@ typedef struct ovoid_read_options {
         *unit; /**< in which coordinates are wanted, a word of ovoid_unit_get_scale: files that say their unit
                     (COLLADA, which is read in metres) are converted, all others are in it; NULL: no conversion */
     int parts; /**< 0: everything is one part; 1: each object of the file is a part (OBJ `o`, STL `solid`, nodes) */
-    int hull;  /**< of shapes from meshes: 1: each is the convex hull, asked for as such; 0: where the mesh is the hull
-                    only nearly, the shape has the allowance that keeps brackets true of the mesh
-                    (ovoid_convexity.allowance), and ovoid_shape_read_file refuses what is not its hull; without effect
-                    on parts, whose hulls are the body */
-    int solid; /**< of ovoid_shapes_read_file: 1: the triangles are wanted of a mesh that is its hull, too */
-    int trusted; /**< 0: Assimp's importers run in a child process; 1: in this one, which their faults may crash */
+    int hull; /**< for shapes from meshes: 1: each is the convex hull; 0: if the mesh is its hull only nearly, the shape
+                 has the allowance that keeps brackets true for the mesh (ovoid_convexity.allowance), and
+                 ovoid_shape_read_file refuses other meshes; without effect on parts, whose hulls are the body */
+    int solid; /**< of ovoid_shapes_read_file: 1: also for a mesh that is its hull the triangles are read as a solid */
+    int trusted; /**< 0: Assimp's importers run in a child process; 1: in this process, which their faults may crash */
 } ovoid_read_options;
 
 /**
@@ -68,15 +66,15 @@ typedef struct ovoid_read_options {
 OVOID_API double ovoid_unit_get_scale(const char *from, const char *to);
 
 /**
- * Reads a mesh: STL (text, binary), OBJ, OFF, PLY (text, binary) by readers of our own; COLLADA (.dae), glTF (.gltf,
- * .glb), 3DS, X3D, FBX, 3MF through Assimp where it was built in, with the transforms of their nodes applied. What a
- * file is, is decided by its first bytes where they tell, else by its extension; standard input is OBJ else.
- * One part: every point of the file. Several: the points that the object's faces use; of an object without faces those
- * that it declares; objects without points are left out. STL's equal points are merged, nothing else.
- * Assimp's importers are not safe with hostile bytes. They run in a child process (fork) with limits on memory and
- * time, and their output is checked as any file is: a crash there is an error here. The host receives a SIGCHLD. Where
- * fork must not be used, or not while other threads run, set options->trusted for files that are. docs/formats.md says
- * more. Errors: FILE, FORMAT, EMPTY (no points), NOT_FINITE, RANGE, INDEX, LIMIT, ARGUMENT (scale), MEMORY.
+ * Reads a mesh. STL (text, binary), OBJ, OFF, PLY (text, binary) have readers here; COLLADA (.dae), glTF (.gltf, .glb),
+ * 3DS, X3D, FBX, 3MF are read through Assimp, if it was built in, with the transforms of their nodes applied. The first
+ * bytes of a file decide its format, else its extension; standard input is OBJ unless its bytes say otherwise. One
+ * part: every point of the file. Several: the points that the object's faces use; for an object without faces the
+ * points that it declares; objects without points are left out. Only STL's equal points are merged. Assimp's importers
+ * are not safe with hostile bytes. They run in a child process (fork) with limits on memory and time, and their output
+ * is checked like a file: a crash there is an error here. The host receives a SIGCHLD. If fork must not be used, or not
+ * while other threads run, set options->trusted for files that you trust. docs/formats.md says more. Errors: FILE,
+ * FORMAT, EMPTY (no points), NOT_FINITE, RANGE, INDEX, LIMIT, ARGUMENT (scale), MEMORY.
  */
 OVOID_API ovoid_mesh *ovoid_mesh_read(const char *path, const ovoid_read_options *options, ovoid_error *error);
 /** Frees it; NULL is allowed. */
@@ -86,43 +84,43 @@ OVOID_API size_t ovoid_mesh_get_part_count(const ovoid_mesh *mesh);
 /** Part i < part count. */
 OVOID_API ovoid_mesh_part ovoid_mesh_get_part(const ovoid_mesh *mesh, size_t i);
 
-/** 1 where ovoid_mesh_read can use Assimp. */
+/** 1 if ovoid_mesh_read can use Assimp. */
 OVOID_API int ovoid_io_has_assimp(void);
 
-/** What a mesh is taken as. */
+/** The kind of body as which a mesh is queried. */
 typedef enum ovoid_mesh_kind {
-    OVOID_MESH_HULL = 0, /**< its convex hull; a shape of any other origin, too */
+    OVOID_MESH_HULL = 0, /**< its convex hull; also any shape that does not come from a mesh */
     OVOID_MESH_PARTS,    /**< a compound of its parts' hulls */
-    OVOID_MESH_SOLID,    /**< what its triangles enclose */
+    OVOID_MESH_SOLID,    /**< the body that its triangles enclose */
     OVOID_MESH_SURFACE   /**< its triangles, which enclose nothing */
 } ovoid_mesh_kind;
 /** "hull", "parts", "solid" or "surface". */
 OVOID_API const char *ovoid_mesh_kind_get_name(ovoid_mesh_kind kind);
 
-/** What a mesh is, beside its hull. */
+/** What kind of body a mesh is, compared with its hull. */
 typedef struct ovoid_convexity {
-    ovoid_mesh_kind kind;     /**< what it is taken as where nobody asks for another: HULL, SOLID or SURFACE; HULL of
-                                   points without faces, and of no mesh */
-    double allowance;         /**< of HULL: 0, or the `inside` of the hull's allowance that keeps brackets true of the
-                                   mesh itself, as ovoid_triangles_compute_hull_match proves */
-    uint64_t edges_unmatched; /**< of SURFACE: the edges that are open */
-    double mesh_volume;       /**< for information: what the triangles enclose, counted as often as they wind around it;
-                                   NaN where they are not closed, or there are none */
-    double hull_volume;       /**< of the hull without its rounding radius; 0 where it is not solid; NaN: of no mesh */
+    ovoid_mesh_kind kind; /**< the kind unless the caller asks for another: HULL, SOLID or SURFACE; HULL for points
+                             without faces, and if there is no mesh */
+    double allowance; /**< for HULL: 0, or the `inside` of the hull's allowance that keeps brackets true for the mesh
+                         itself, as ovoid_triangles_compute_hull_match proves */
+    uint64_t edges_unmatched; /**< for SURFACE: the number of open edges */
+    double mesh_volume; /**< for information: the enclosed volume, counted as often as the triangles wind around it; NaN
+                           if they are not closed, or there are none */
+    double hull_volume; /**< of the hull without its rounding radius; 0 if it is flat; NaN if there is no mesh */
 } ovoid_convexity;
 
 /**
- * What a part of a mesh is: the hull, a solid or a surface, by exact signs (ovoid_triangles_compute_hull_match). hull:
- * of its points. A part with a face that cannot be cut into triangles counts as a solid, which ovoid_mesh_create_solid
- * refuses with the reason. Errors: MEMORY. Cost: as there.
+ * The kind of a part of a mesh: hull, solid or surface, by exact signs (ovoid_triangles_compute_hull_match). hull: of
+ * its points. A part with a face that cannot be cut into triangles counts as a solid, which ovoid_mesh_create_solid
+ * refuses with the reason. Errors: MEMORY. Cost: that of ovoid_triangles_compute_hull_match.
  */
 OVOID_API ovoid_code ovoid_mesh_part_compute_convexity(const ovoid_mesh_part *part, const ovoid_shape *hull,
                                                        ovoid_convexity *convexity, ovoid_error *error);
 
 /**
- * The triangles of a part as a solid; of a part that is not closed they are a surface, as its report says. A polygon is
- * cut into triangles from its first corner from which all of them face as the polygon does. Errors: those of
- * ovoid_solid_create_from_triangles; EMPTY (no faces), FORMAT (place: a face that no corner cuts so). The caller
+ * The triangles of a part as a solid; if the part is not closed they are a surface, as its report says. A polygon is
+ * cut into triangles from the first corner for which all of them face as the polygon does. Errors: those of
+ * ovoid_solid_create_from_triangles; EMPTY (no faces), FORMAT (place: a face without such a corner). The caller
  * destroys it.
  */
 OVOID_API ovoid_solid *ovoid_mesh_create_solid(const ovoid_mesh *mesh, size_t part, ovoid_error *error);
@@ -139,47 +137,47 @@ OVOID_API ovoid_solid *ovoid_solid_read_file(const char *path, const ovoid_read_
 OVOID_API int ovoid_path_is_shape(const char *path);
 
 /**
- * A shape from a file: a `.ovoid` file, checked byte by byte, or a mesh file that is its convex hull, or nearly so:
- * then the shape has the allowance that keeps brackets true of the mesh. Any other mesh, closed and not convex or open,
- * is refused (NOT_CONVEX), unless read->hull asks for the hull. Points without faces are their hull. For a `.ovoid`
- * file a scale other than 1 or a radius is refused (ARGUMENT). read->parts is ignored. The caller destroys it. Cost:
- * beside the hull's that of ovoid_mesh_part_compute_convexity, unless read->hull.
+ * A shape from a file: a `.ovoid` file, of which every byte is checked, or a mesh file that is its convex hull, exactly
+ * or nearly; in the second case the shape has the allowance that keeps brackets true for the mesh. Any other mesh,
+ * closed and not convex or open, is refused (NOT_CONVEX), unless read->hull asks for the hull. Points without faces
+ * give their hull. For a `.ovoid` file a scale other than 1 or a radius is refused (ARGUMENT). read->parts is ignored.
+ * The caller destroys it. Cost: that of the hull and of ovoid_mesh_part_compute_convexity, unless read->hull.
  */
 OVOID_API ovoid_shape *ovoid_shape_read_file(const char *path, const ovoid_read_options *read,
                                              const ovoid_shape_options *options, ovoid_error *error);
 
-/** Writes a `.ovoid` file through an ovoid_output: all of it, or the path is as it was. */
+/** Writes a `.ovoid` file through an ovoid_output: completely, or the path is unchanged. */
 OVOID_API ovoid_code ovoid_shape_write_file(const ovoid_shape *shape, const char *path, ovoid_error *error);
 
 /** Shapes with names. Owned by the caller. */
 typedef struct ovoid_shapes ovoid_shapes;
 
-/** One of them: a view. */
+/** A named shape: a view. */
 typedef struct ovoid_named_shape {
-    const char *name; /**< of the part, or "part 3" where it has none (counted from 0); of a whole file: its path */
+    const char *name; /**< of the part, or "part 3" if it has none (counted from 0); of a whole file: its path */
     const ovoid_shape *shape;
-    ovoid_convexity convexity; /**< of the mesh: a shape is the hull, whatever its mesh is; HULL for a `.ovoid` file */
-    const ovoid_solid *solid;  /**< the triangles of a mesh that is not its hull; NULL: it is, or its hull was asked for
-                                    (options->hull, options->parts), or it is of a list */
+    ovoid_convexity convexity; /**< of the mesh: the shape is the hull of any mesh; HULL for a `.ovoid` file */
+    const ovoid_solid *solid;  /**< the triangles of a mesh that is not its hull; NULL: it is, or the caller asked for
+                                  its hull (options->hull, options->parts), or it is from a list */
 } ovoid_named_shape;
 
 /**
- * The shapes of one file: one, or with read->parts one for each part. Each is a hull: whether that is what the mesh is
- * stands in its convexity.
+ * The shapes of one file: one, or with read->parts one for each part. Each is a hull; its convexity says whether the
+ * mesh is its hull.
  */
 OVOID_API ovoid_shapes *ovoid_shapes_read_file(const char *path, const ovoid_read_options *read,
                                                const ovoid_shape_options *options, ovoid_error *error);
 
 /**
  * The shapes of a LIST: a text file with one path a line, relative to the list's folder. Empty lines and lines that
- * begin with '#' are skipped and not counted. A path that comes twice is read once. read->parts is ignored.
+ * begin with '#' are skipped and not counted. A path that occurs twice is read once. read->parts is ignored.
  */
 OVOID_API ovoid_shapes *ovoid_shapes_read_list(const char *path, const ovoid_read_options *read,
                                                const ovoid_shape_options *options, ovoid_error *error);
 
 /**
- * The compound whose parts are these shapes, in this order, each where its file has it. It borrows them: destroy it
- * first. Errors as those of ovoid_compound_create. allocator: NULL for malloc.
+ * The compound whose parts are these shapes, in this order, each at its place in the file. It borrows them: destroy it
+ * first. Errors: those of ovoid_compound_create. allocator: NULL for malloc.
  */
 OVOID_API ovoid_compound *ovoid_shapes_create_compound(const ovoid_shapes *shapes,
                                                        const ovoid_compound_options *options, ovoid_error *error);
@@ -219,42 +217,42 @@ typedef struct ovoid_scene ovoid_scene;
 /** One object: a view. */
 typedef struct ovoid_scene_object {
     const char *name;
-    const ovoid_shape *shape;       /**< NULL for a compound; of a solid its hull, for what takes no solids */
+    const ovoid_shape *shape;       /**< NULL for a compound; for a solid its hull, for callers without solids */
     const ovoid_compound *compound; /**< NULL for all but compounds */
     ovoid_pose pose;
-    const char *mesh;          /**< the path of its mesh or `.ovoid` file; NULL: it has none of its own */
-    ovoid_read_options read;   /**< how that was read */
-    const ovoid_solid *solid;  /**< NULL for all but solids. Objects of equal geometry share all three */
-    ovoid_mesh_kind kind;      /**< what it is taken as; HULL for a shape of any origin, PARTS for a compound */
-    ovoid_convexity convexity; /**< of a mesh of one part, whatever it is taken as; else both volumes are NaN */
+    const char *mesh;         /**< the path of its mesh or `.ovoid` file; NULL: it has none */
+    ovoid_read_options read;  /**< how that was read */
+    const ovoid_solid *solid; /**< NULL for all but solids. Objects of equal geometry share all three */
+    ovoid_mesh_kind kind; /**< the kind as which it is queried; HULL for a shape of any origin, PARTS for a compound */
+    ovoid_convexity convexity; /**< of a mesh of one part, whatever its kind; else both volumes are NaN */
     int is_asked;              /**< 1: the scene asks for the solid ("solid": true) */
 } ovoid_scene_object;
 
 /** Reads a scene and the meshes it names. options: of all shapes; their radius must be 0. The caller destroys it. */
 OVOID_API ovoid_scene *ovoid_scene_read(const char *path, const ovoid_shape_options *options, ovoid_error *error);
-/** Reads a scene in which a mesh is its convex hull, unless the scene says "solid": true or "hull": false of it. */
+/** Reads a scene in which a mesh is its convex hull, unless the scene says "solid": true or "hull": false for it. */
 OVOID_API ovoid_scene *ovoid_scene_read_hulls(const char *path, const ovoid_shape_options *options, ovoid_error *error);
 /** Frees it; NULL is allowed. */
 OVOID_API void ovoid_scene_destroy(ovoid_scene *scene);
 /** How many objects there are. */
 OVOID_API size_t ovoid_scene_get_count(const ovoid_scene *scene);
-/** The unit of all its lengths, a word of ovoid_unit_get_scale; "" where it names none. */
+/** The unit of all its lengths, a word of ovoid_unit_get_scale; "" if it names none. */
 OVOID_API const char *ovoid_scene_get_unit(const ovoid_scene *scene);
 /** Object i < count. */
 OVOID_API ovoid_scene_object ovoid_scene_get(const ovoid_scene *scene, size_t i);
 /** The object as a body at a pose: its solid, compound or shape. */
 OVOID_API ovoid_body ovoid_scene_get_body(const ovoid_scene *scene, size_t i, const ovoid_pose *pose);
-/** How many hulls of meshes there are, each part of a file and each scale by itself. */
+/** The number of hulls of meshes; each part of a file counts, and each scale. */
 OVOID_API size_t ovoid_scene_get_mesh_count(const ovoid_scene *scene);
 /** Hull i < mesh count, of an object or of a part of a compound, with the name of its part of the file. */
 OVOID_API ovoid_named_shape ovoid_scene_get_mesh(const ovoid_scene *scene, size_t i);
-/** The solid that counts in the place of that hull; NULL: the hull does. */
+/** The solid that is queried instead of that hull; NULL: the hull is queried. */
 OVOID_API const ovoid_solid *ovoid_scene_get_mesh_solid(const ovoid_scene *scene, size_t i);
 /** The object of that name, or (size_t)-1. */
 OVOID_API size_t ovoid_scene_find(const ovoid_scene *scene, const char *name);
 /** 1 if "ignore" names the pair, in either order. */
 OVOID_API int ovoid_scene_is_ignored(const ovoid_scene *scene, size_t a, size_t b);
-/** How many pairs of objects there are that "ignore" does not name. */
+/** The number of pairs of objects that "ignore" does not name. */
 OVOID_API size_t ovoid_scene_get_pair_count(const ovoid_scene *scene);
 
 /* ---- pairs ---- */
@@ -276,13 +274,13 @@ OVOID_API ovoid_pairs_reader *ovoid_pairs_reader_open(const char *path, size_t s
 /** The next pair. 1: *pair is filled; 0: the end; -1: *error is filled. */
 OVOID_API int ovoid_pairs_reader_read(ovoid_pairs_reader *reader, ovoid_indexed_pair *pair, ovoid_error *error);
 /**
- * Before the first pair is read: only part `part`, from 0 on, of `parts`: the lines that begin in an equal share of the
- * file's bytes. All parts together have each line once. What is before the part is not read. Errors: ARGUMENT (no such
- * part, no regular file), FILE.
+ * Restricts the reader, before the first pair is read, to part `part` of `parts`, counted from 0: the lines that begin
+ * in an equal share of the file's bytes. All parts together have each line once. The bytes before the part are not
+ * read. Errors: ARGUMENT (no such part, not a regular file), FILE.
  */
 OVOID_API ovoid_code ovoid_pairs_reader_set_part(ovoid_pairs_reader *reader, size_t part, size_t parts,
                                                  ovoid_error *error);
-/** Leaves that many pairs out, or what there is of them, without looking into their lines. Errors: FILE, LIMIT. */
+/** Skips that many pairs, or all that are left, without parsing their lines. Errors: FILE, LIMIT. */
 OVOID_API ovoid_code ovoid_pairs_reader_skip(ovoid_pairs_reader *reader, uint64_t count, ovoid_error *error);
 /** Frees it; NULL is allowed. */
 OVOID_API void ovoid_pairs_reader_close(ovoid_pairs_reader *reader);
@@ -295,7 +293,7 @@ typedef enum ovoid_motion_columns {
     OVOID_MOTION_COLUMNS_VELOCITY  /**< time,body,vx,vy,vz,wx,wy,wz */
 } ovoid_motion_columns;
 
-/** One line: the pose of a body of the scene at a time, or its velocity from then on. */
+/** A line: the pose of a body of the scene at a time, or its velocity from then on. */
 typedef struct ovoid_motion_line {
     double time;
     size_t body;                /**< object of the scene */
@@ -328,51 +326,51 @@ typedef enum ovoid_record_field {
     OVOID_RECORD_TIME = 1,    /**< of a frame, or of an impact */
     OVOID_RECORD_PARTS = 2,   /**< the parts of compounds to which the answer belongs */
     OVOID_RECORD_IMPACT = 4,  /**< that the time is that of an impact, and its bracket; also the margin */
-    OVOID_RECORD_MARGIN = 8,  /**< the margin that was asked about */
+    OVOID_RECORD_MARGIN = 8,  /**< the margin of the query */
     OVOID_RECORD_PROOF = 16,  /**< of CSV: the proof, as the last column; JSON always has it */
     OVOID_RECORD_MESHES = 32, /**< the volumes of the bodies' meshes and of their hulls */
     OVOID_RECORD_SOLIDS = 64  /**< of CSV: the triangles that decide, and what is inside; JSON has them with `solid` */
 } ovoid_record_field;
 
-/** Most exclusions, steps and groups, all together, of a record in a line of JSON. */
+/** The largest number of exclusions, steps and groups, all together, of a record in a line of JSON. */
 #define OVOID_RECORD_ITEMS_MAX ((size_t)1 << 16)
 
-/** Longest line of results that is read, bytes: more than a record of OVOID_RECORD_ITEMS_MAX items takes. */
+/** The longest line of results that is read, bytes: more than a record of OVOID_RECORD_ITEMS_MAX items takes. */
 #define OVOID_RECORD_SIZE_MAX ((size_t)1 << 25)
 
-/** The part of a body that is no compound. */
+/** The part of a body that is not a compound. */
 #define OVOID_RECORD_NO_PART UINT32_MAX
 
-/** The answer for one pair of bodies, as results files hold it. */
+/** The answer for one pair of bodies, as in results files. */
 typedef struct ovoid_record {
     const char *a, *b;       /**< names; NULL: the indices identify the bodies */
-    size_t index_a, index_b; /**< of a batch; ignored where there are names */
+    size_t index_a, index_b; /**< of a batch; ignored if there are names */
     ovoid_answer answer;
-    const ovoid_cover *cover; /**< of ovoid_depth; NULL where there is none */
+    const ovoid_cover *cover; /**< of ovoid_depth; NULL if there is none */
     unsigned fields;          /**< ovoid_record_field bits: which of the following are given; 0: none */
     double time;
     double frame;            /**< of an impact: the time of the frame before, the origin of the next times; NaN: none */
-    double margin;           /**< what was asked about; of an impact also that of the next two */
+    double margin;           /**< of the query; for an impact also of the next two fields */
     double free_for;         /**< until frame + free_for the pair is proven farther apart than the margin */
     double hit_after;        /**< at frame + hit_after, rounded `time`, it is within the margin, proven by the answer.
                                   Infinite: nothing is proven from frame + free_for, rounded `time`, to the next
                                   frame; the answer is that at free_for, its limit says why the search ended */
-    uint32_t part_a, part_b; /**< 0-based; OVOID_RECORD_NO_PART: the body is no compound */
+    uint32_t part_a, part_b; /**< 0-based; OVOID_RECORD_NO_PART: the body is not a compound */
     const ovoid_exclusion *exclusions; /**< the proof of a compound's answer beside the parts' own; NULL: none */
     size_t exclusion_count;
     const ovoid_step *steps; /**< the proof of free_for; NULL: none */
     size_t step_count;
     const ovoid_step_group *groups; /**< of compounds: to which parts the steps belong; NULL: none */
     size_t group_count;
-    ovoid_mesh_kind kind_a, kind_b; /**< what the bodies are taken as; always written */
+    ovoid_mesh_kind kind_a, kind_b; /**< the kinds of the bodies; always written */
     ovoid_convexity mesh_a, mesh_b; /**< of their meshes: the allowance, written where it is not 0 and the kind is HULL;
                                          the volumes, NaN where there is no mesh, or it has none */
     const ovoid_body_answer *solid; /**< the answer of solids, beside `answer`; NULL: there is none */
 } ovoid_record;
 
 /**
- * Makes a record that of solids: `solid` is the answer, which must live as long, and `answer` that of the deciding pair
- * with the bracket, status and limit of the bodies. The meshes' kinds and the exclusions are left to the caller.
+ * Makes a record one of solids: `solid` is the answer, which must live as long, and `answer` that of the deciding pair
+ * with the bracket, status and limit of the bodies. The caller fills in the meshes' kinds and the exclusions.
  */
 OVOID_API void ovoid_record_set_solid(ovoid_record *record, const ovoid_body_answer *answer);
 
@@ -389,24 +387,25 @@ OVOID_API void ovoid_record_set_solid(ovoid_record *record, const ovoid_body_ans
 OVOID_API ovoid_code ovoid_record_write_json(FILE *file, const ovoid_record *record);
 
 /**
- * The same columns as CSV: vectors are three columns, the proof, if it is wanted, is one field of JSON. fields: of all
- * records; TIME, IMPACT, MESHES, SOLIDS and PROOF choose columns, all others are always there.
+ * Writes the header of CSV, with the columns of ovoid_record_write_json: vectors are three columns, the proof, if it is
+ * wanted, is one field of JSON. fields: of all records; TIME, IMPACT, MESHES, SOLIDS and PROOF choose columns, all
+ * others are always there.
  */
 OVOID_API ovoid_code ovoid_record_write_csv_header(FILE *file, unsigned fields);
-/** Writes one line of CSV, with the columns that its fields choose; a column without a value is empty. */
+/** Writes one line of CSV, with the columns that the record's fields choose; a column without a value is empty. */
 OVOID_API ovoid_code ovoid_record_write_csv(FILE *file, const ovoid_record *record);
 
 /**
- * The signed distance for people, in at most 63 characters: the decimal of fewest digits in the bracket; where it is
- * wider than 1e-6 of its larger end, or undecided, both ends to six digits, "1.26795 .. 3". Returns the length.
+ * The signed distance as text for people, in at most 63 characters: the decimal of fewest digits in the bracket; if it
+ * is wider than 1e-6 of its larger end, or undecided, both ends to six digits, "1.26795 .. 3". Returns the length.
  */
 OVOID_API size_t ovoid_answer_write_distance(char text[64], const ovoid_answer *answer);
 
 /**
- * A table for people, in the order given, with a column for the time where the first record has one; the part of a
- * compound follows its name, as in "arm[3]"; of the bracket the distance as above, and its width. unit: of the lengths,
- * for the title; NULL or "": none. Behind the numbers stands what a record's margin makes of it, and the limit that
- * left a bracket wide.
+ * A table for people, in the given order, with a column for the time if the first record has one. The part of a
+ * compound follows its name, as in "arm[3]"; the columns of the bracket are the distance, as in
+ * ovoid_answer_write_distance, and the width. unit: of the lengths, for the title; NULL or "": none. Behind the numbers
+ * are the result for a record's margin, and the limit that left a bracket wide.
  */
 OVOID_API ovoid_code ovoid_records_write_table(FILE *file, const ovoid_record *records, size_t count, const char *unit);
 
@@ -424,7 +423,7 @@ OVOID_API void ovoid_results_reader_close(ovoid_results_reader *reader);
 
 /* ---- proofs of decompositions ---- */
 
-/** A proof of <ovoid/decompose.h> as a file has it, and of how many triangles and parts it is. */
+/** A proof of <ovoid/decompose.h> in a file, and its numbers of triangles and parts. */
 typedef struct ovoid_decomposition_record {
     ovoid_decomposition_proof proof; /**< cells: 0 */
     uint64_t triangles, parts;
@@ -433,57 +432,65 @@ typedef struct ovoid_decomposition_record {
 /** Writes a proof as one line of JSON: its two lengths, and the numbers of triangles and parts. FILE. */
 OVOID_API ovoid_code ovoid_decomposition_write_json(FILE *file, const ovoid_decomposition *decomposition,
                                                     const ovoid_decomposition_proof *proof);
-/** Reads one, strictly; ovoid_decomposition_verify says whether it is true. FILE, FORMAT, LIMIT, MEMORY. */
+/** Reads a proof, strictly; ovoid_decomposition_verify checks whether it is true. FILE, FORMAT, LIMIT, MEMORY. */
 OVOID_API ovoid_code ovoid_decomposition_read_json(const char *path, ovoid_decomposition_record *record,
                                                    ovoid_error *error);
-/** 1 if the file begins as such a proof does; 0 for standard input. */
+/** 1 if the file begins like a proof of a decomposition; 0 for standard input. */
 OVOID_API int ovoid_decomposition_is_proof(const char *path);
 
 /* ---- texts of files, written and read ---- */
 
 /**
- * How many bytes the first character of the text has; 0 where it should not be shown as it is: it is no UTF-8, controls
- * terminals (C0, DEL, C1), turns the text round (U+202A and others) or is not seen (no width).
+ * The number of bytes of the first character of the text; 0 if it should not be shown: it is not UTF-8, controls
+ * terminals (C0, DEL, C1), changes the direction of the text (U+202A and others) or has no width.
  */
 OVOID_API size_t ovoid_text_get_visible_length(const char *text);
 
-/** Writes a text of JSON, in quotes. What should not be shown is escaped; bytes that are no UTF-8 become U+FFFD. */
+/**
+ * Writes a text of JSON, in quotes. Characters that should not be shown are escaped; bytes that are not UTF-8 become
+ * U+FFFD.
+ */
 OVOID_API void ovoid_text_write_json(FILE *file, const char *text);
 
 /**
- * Writes a field of CSV that no spreadsheet takes for a formula: in quotes where it has a comma, a semicolon, a quote
- * or blanks at an end; with an apostrophe before it where its first character, blanks apart, is one of = + - @ ' or the
- * wide forms of these four; each byte of what should not be shown as `\xHH`, and so the backslash of what looks like
- * that. ovoid_text_read_csv undoes all of it.
+ * Writes a field of CSV that no spreadsheet takes for a formula. It is in quotes if it has a comma, a semicolon, a
+ * quote or blanks at an end. It has an apostrophe before it if its first character, blanks aside, is one of = + - @ '
+ * or the wide forms of these four. Each byte that should not be shown is written as `\xHH`, and so is the backslash of
+ * a text that looks like that. ovoid_text_read_csv reverses all of it.
  */
 OVOID_API void ovoid_text_write_csv(FILE *file, const char *text);
 
 /**
  * Reads the first field of a line of CSV that ends with a zero byte, or before it with "\n" or "\r\n", into text, which
- * has room for `room` bytes; a line's length and one will do. Returns what is behind the field: the comma, or the end.
- * NULL and FORMAT: quotes that do not close, or in a text without them; an escape of zero; no room.
+ * has room for `room` bytes; the line's length and one is enough. Returns the position behind the field: the comma, or
+ * the end. NULL and FORMAT: quotes that do not close, or in a text without them; an escape of zero; no room.
  */
 OVOID_API const char *ovoid_text_read_csv(const char *line, char *text, size_t room, ovoid_error *error);
 
 /* ---- output files ---- */
 
-/** A file that appears whole or not at all: written under another name in the same folder, then renamed. */
+/** A file that appears completely or not at all: written under another name in the same folder, then renamed. */
 typedef struct ovoid_output ovoid_output;
 
-/** Starts one. A path that exists and is no regular file (a device, a pipe) is written to directly; "-": stdout. */
+/**
+ * Opens an output. A path that exists and is not a regular file (a device, a pipe) is written to directly; "-": stdout.
+ */
 OVOID_API ovoid_output *ovoid_output_open(const char *path, ovoid_error *error);
 /** The stream to write to; the caller must not close it. */
 OVOID_API FILE *ovoid_output_get_file(ovoid_output *output);
-/** The path of the unfinished file, for signal handlers that must remove it; NULL where it is written to directly. */
+/** The path of the unfinished file, for signal handlers that must remove it; NULL if it is written to directly. */
 OVOID_API const char *ovoid_output_get_temporary(const ovoid_output *output);
-/** Flushes and puts the file in its place; FILE if anything was not written (a full disk), the path is as it was. */
+/**
+ * Flushes the file and renames it to its path; FILE if anything was not written (a full disk), and the path is
+ * unchanged.
+ */
 OVOID_API ovoid_code ovoid_output_commit(ovoid_output *output, ovoid_error *error);
-/** Frees it; what was not committed is removed. NULL is allowed. */
+/** Frees it; an uncommitted file is removed. NULL is allowed. */
 OVOID_API void ovoid_output_close(ovoid_output *output);
 
 /* ---- pictures ---- */
 
-/** What is drawn. */
+/** The layers of a picture. */
 typedef enum ovoid_picture_layer {
     OVOID_PICTURE_OUTER = 1,   /**< outer ellipsoids: outlines and a few lines on them */
     OVOID_PICTURE_INNER = 2,   /**< inner ellipsoids */
@@ -491,7 +498,7 @@ typedef enum ovoid_picture_layer {
     OVOID_PICTURE_WITNESS = 8, /**< witness points, the line between them and its length */
     OVOID_PICTURE_NAMES = 16,  /**< names at the bodies */
     OVOID_PICTURE_LEGEND = 32, /**< legend and scale bar */
-    OVOID_PICTURE_MESHES = 64  /**< the bodies' meshes, where they have one, in the place of polyhedra */
+    OVOID_PICTURE_MESHES = 64  /**< the bodies' meshes, if they have one, instead of polyhedra */
 } ovoid_picture_layer;
 
 /** Of ovoid_picture_body.is_mesh: the mesh is the body and closed. */
@@ -503,12 +510,12 @@ typedef struct ovoid_picture_body { // NOLINT(clang-analyzer-optin.performance.P
     const char *name;               /**< may be NULL */
     const ovoid_shape *shape;
     ovoid_pose pose;
-    uint32_t group; /**< bodies of one group, as the parts of a compound, have one colour; 0: a colour of its own */
-    const ovoid_faces *mesh; /**< of which the shape is the hull, in the frame that the pose moves; NULL: none; not
-                                  drawn of a shape with a rounding radius */
-    int is_mesh;             /**< 1: the mesh is the body, and the shape only its hull: the mesh is drawn whatever the
-                                  layers, and no inner ellipsoid. OVOID_PICTURE_CLOSED: it is closed besides, and faces
-                                  that look away are left out */
+    uint32_t
+        group; /**< bodies of one group, for example the parts of a compound, have one colour; 0: a colour of its own */
+    const ovoid_faces *mesh; /**< whose hull the shape is, in the frame that the pose moves; NULL: none; not drawn for a
+                                shape with a rounding radius */
+    int is_mesh; /**< 1: the mesh is the body, and the shape only its hull: the mesh is drawn for all layers, and no
+                    inner ellipsoid. OVOID_PICTURE_CLOSED: it is also closed, and faces that look away are left out */
 } ovoid_picture_body;
 
 /** A pair of a picture: its witness points are drawn. */
@@ -531,8 +538,8 @@ typedef struct ovoid_picture {
 typedef struct ovoid_picture_options {
     uint32_t width, height; /**< pixels; 0 means 1200 and 800 */
     ovoid_vec3 view;        /**< from the scene to the eye; zero means three quarters from above: (1, -1.6, 0.9) */
-    uint32_t layers; /**< ovoid_picture_layer bits; 0 means all but the areas and meshes, and of more than 12 bodies
-                          meshes and no ellipsoids; where there are no inner ones, faces hide what is behind them */
+    uint32_t layers; /**< ovoid_picture_layer bits; 0 means all but the areas and meshes, and for more than 12 bodies
+                        meshes and no ellipsoids; without inner ellipsoids, faces hide what is behind them */
 } ovoid_picture_options;
 
 /** Writes an SVG picture through an ovoid_output. At most 1 000 000 triangles in all (LIMIT). */
@@ -543,7 +550,7 @@ OVOID_API ovoid_code ovoid_picture_write_svg(const char *path, const ovoid_pictu
 
 /** How a series is drawn. */
 typedef enum ovoid_series_kind {
-    OVOID_SERIES_LINE = 0, /**< points joined by lines, with marks where they are few */
+    OVOID_SERIES_LINE = 0, /**< points joined by lines, with marks if they are few */
     OVOID_SERIES_POINTS,   /**< marks only */
     OVOID_SERIES_BARS,     /**< bars from zero, side by side */
     OVOID_SERIES_STACK,    /**< bars on top of each other, in the order of the series */
@@ -555,10 +562,10 @@ typedef struct ovoid_series {
     const char *name; /**< for the legend; NULL: none */
     ovoid_series_kind kind;
     size_t count;
-    const double *x;          /**< NULL: 0, 1, 2, ... */
-    const double *y;          /**< count values */
-    const double *low, *high; /**< a band around the line, also where y leaves a gap, or a whisker on the bar; both or
-                                   NULL */
+    const double *x; /**< NULL: 0, 1, 2, ... */
+    const double *y; /**< count values */
+    const double *low,
+        *high; /**< a band around the line, also where y has a gap, or a whisker on the bar; both or NULL */
 } ovoid_series;
 
 /** A chart; all zero but the series is the default. The arrays and texts are borrowed. */
@@ -575,7 +582,7 @@ typedef struct ovoid_chart {
 
 /**
  * Writes the chart as one svg element, which is a file of its own or a part of an HTML page. The same chart gives the
- * same bytes. FILE if the stream failed, LIMIT above 12 series (there are no more colours to tell apart).
+ * same bytes. FILE if the stream failed, LIMIT for more than 12 series (there are no more distinct colours).
  */
 OVOID_API ovoid_code ovoid_chart_write_svg(FILE *file, const ovoid_chart *chart);
 

@@ -1,8 +1,8 @@
 /**
  * @file robot.hpp
  * Robots from C++: owners of robots, cells, checkers and collision matrices; audits and covers by spheres. Links
- * libovoid_robot. Descriptions, answers, pairs and spheres are the C structs of <ovoid/robot.h> and its neighbours.
- * What the C library refuses throws ovoid::error.
+ * libovoid_robot. Descriptions, answers, pairs and spheres are the C structs of <ovoid/robot.h> and the other robot
+ * headers. Errors of the C library throw ovoid::error.
  */
 #ifndef OVOID_ROBOT_HPP
 #define OVOID_ROBOT_HPP
@@ -35,7 +35,7 @@ struct robot_nears {
     std::vector<double> gradients;
 };
 
-/** A robot, owned. Its shapes must outlive it, unless they became its own. */
+/** A robot with an owner. Its shapes must outlive it, unless it owns them. */
 class robot : public detail::owner<detail::pointer<ovoid_robot>, ovoid_robot, ovoid_robot_destroy> {
   public:
     using owner::owner;
@@ -52,11 +52,11 @@ class robot : public detail::owner<detail::pointer<ovoid_robot>, ovoid_robot, ov
     std::uint32_t find_link(const char *name) const noexcept { return ovoid_robot_find_link(get(), name); }
     /** The joint of that name, or OVOID_ROBOT_NONE. */
     std::uint32_t find_joint(const char *name) const noexcept { return ovoid_robot_find_joint(get(), name); }
-    /** The link that hangs on no joint. */
+    /** The link that is not the child of a joint. */
     std::uint32_t root() const noexcept { return ovoid_robot_get_root(get()); }
     /** The joint above a link; OVOID_ROBOT_NONE for the root. */
     std::uint32_t parent_joint(std::uint32_t link) const noexcept { return ovoid_robot_get_parent_joint(get(), link); }
-    /** How many numbers a state has. */
+    /** The number of variables of a state. */
     std::size_t variable_count() const noexcept { return ovoid_robot_get_variable_count(get()); }
     /** Variable i of a state. */
     ovoid_robot_variable variable(std::size_t i) const noexcept { return ovoid_robot_get_variable(get(), i); }
@@ -68,7 +68,10 @@ class robot : public detail::owner<detail::pointer<ovoid_robot>, ovoid_robot, ov
     bool is_rigid_pair(std::uint32_t a, std::uint32_t b) const noexcept {
         return ovoid_robot_is_rigid_pair(get(), a, b) != 0;
     }
-    /** The poses of all links; errors: receives as many, or nullptr. Throws as ovoid_robot_compute_poses fails. */
+    /**
+     * The poses of all links; errors: receives the bounds of their errors, or nullptr. Throws as
+     * ovoid_robot_compute_poses fails.
+     */
     std::vector<ovoid_pose> compute_poses(span<const double> q,
                                           std::vector<ovoid_robot_pose_error> *errors = nullptr) const {
         std::vector<ovoid_pose> poses(link_count());
@@ -89,14 +92,14 @@ class robot : public detail::owner<detail::pointer<ovoid_robot>, ovoid_robot, ov
         detail::require(ovoid_robot_compute_poses_batch(get(), &batch, &e), e);
         return poses;
     }
-    /** Throws RANGE or NOT_FINITE where a variable is outside its limits by more than slack. */
+    /** Throws RANGE or NOT_FINITE if a variable is outside its limits by more than slack. */
     void validate_limits(span<const double> q, double slack = 0) const {
         ovoid_error e;
         detail::require(ovoid_robot_validate_limits(get(), q.data(), slack, &e), e);
     }
 };
 
-/** A robot among obstacles, owned. Borrows the robot and the bodies' shapes. */
+/** A robot among obstacles, with an owner. Borrows the robot and the bodies' shapes. */
 class robot_cell : public detail::owner<detail::pointer<ovoid_robot_cell>, ovoid_robot_cell, ovoid_robot_cell_destroy> {
   public:
     using owner::owner;
@@ -122,13 +125,13 @@ class robot_cell : public detail::owner<detail::pointer<ovoid_robot_cell>, ovoid
     }
     /** Removes an obstacle or an attached body. Throws INDEX. */
     void remove(id b) { call(ovoid_robot_cell_remove, b); }
-    /** Moves one. Throws INDEX and what is wrong with the pose. */
+    /** Moves an obstacle or an attached body. Throws INDEX and the errors of the pose. */
     void move(id b, const pose &to) { call(ovoid_robot_cell_move, b, &to); }
-    /** Lets two links touch, or takes that back. Throws INDEX, ARGUMENT, MEMORY. */
+    /** Allows two links to touch, or queries them again. Throws INDEX, ARGUMENT, MEMORY. */
     void set_allowed(std::uint32_t a, std::uint32_t b, bool allowed) {
         call(allowed ? ovoid_robot_cell_add_allowed : ovoid_robot_cell_remove_allowed, a, b);
     }
-    /** The same of a body and a link. */
+    /** Allows a body and a link to touch, or queries them again. Throws INDEX, MEMORY. */
     void set_body_allowed(id b, std::uint32_t link, bool allowed) {
         call(allowed ? ovoid_robot_cell_add_body_allowed : ovoid_robot_cell_remove_body_allowed, b, link);
     }
@@ -152,7 +155,7 @@ class robot_cell : public detail::owner<detail::pointer<ovoid_robot_cell>, ovoid
     }
 };
 
-/** What one thread needs to query states of a cell, owned. Borrows the cell. */
+/** What one thread needs to query states of a cell, with an owner. Borrows the cell. */
 class robot_checker
     : public detail::owner<detail::pointer<ovoid_robot_checker>, ovoid_robot_checker, ovoid_robot_checker_destroy> {
   public:
@@ -181,8 +184,10 @@ class robot_checker
         detail::require(ovoid_robot_collide_batch(&self, 1, &batch, &e), e);
         return answers;
     }
-    /** Is a path of `count` states free for all times in between? Steps are written where options say. Throws ARGUMENT,
-     * MEMORY. */
+    /**
+     * Is a path of `count` states free for all times in between? The options say whether steps are written. Throws
+     * ARGUMENT, MEMORY.
+     */
     ovoid_robot_path_answer find_hit(span<const double> states, std::size_t count,
                                      const ovoid_robot_path_options &o = robot_path_options()) {
         const ovoid_robot_path path = {states.data(), count};
@@ -234,7 +239,7 @@ class robot_checker
     }
 };
 
-/** Throws PROOF, with a sentence, where the steps do not prove the answer. */
+/** Throws PROOF, with a sentence, if the steps do not prove the answer. */
 inline void verify_robot_path(const robot_cell &cell, span<const double> states, std::size_t count,
                               const ovoid_robot_path_options &o, const ovoid_robot_path_answer &found,
                               span<const ovoid_robot_step> steps) {
@@ -243,7 +248,7 @@ inline void verify_robot_path(const robot_cell &cell, span<const double> states,
     const ovoid_robot_path_basis basis = {{&path, &o}, steps.data()};
     detail::require(ovoid_robot_path_verify(cell.get(), &found, &basis, &e), e);
 }
-/** How many pairs a cell has. */
+/** The number of pairs of a cell. */
 inline std::size_t pair_count(const robot_cell &cell) noexcept { return ovoid_robot_cell_get_pair_count(cell.get()); }
 /** The two sides of a pair. Throws INDEX. */
 inline std::pair<ovoid_robot_side, ovoid_robot_side> pair_sides(const robot_cell &cell, std::size_t pair) {
@@ -260,7 +265,7 @@ inline std::pair<ovoid_robot_side, ovoid_robot_side> pair_sides(const robot_cell
 /** How a matrix is made. */
 using robot_matrix_options = zeroed<ovoid_robot_matrix_options>;
 
-/** Which pairs of a robot's links can touch, owned. The robot is read while it is made only. */
+/** Which pairs of a robot's links can touch, with an owner. The robot is read only while the matrix is created. */
 class robot_matrix
     : public detail::owner<detail::pointer<ovoid_robot_matrix>, ovoid_robot_matrix, ovoid_robot_matrix_destroy> {
   public:
@@ -274,7 +279,7 @@ class robot_matrix
     std::size_t size() const noexcept { return ovoid_robot_matrix_get_count(get()); }
     /** Pair i < size: its states are views. */
     ovoid_robot_matrix_pair operator[](std::size_t i) const noexcept { return ovoid_robot_matrix_get_pair(get(), i); }
-    /** The pair of two links, or nullptr: one of them has no element, or they are one. */
+    /** The pair of two links, or nullptr: one of them has no element, or both are the same link. */
     const ovoid_robot_matrix_pair *find(std::uint32_t a, std::uint32_t b) const noexcept {
         return ovoid_robot_matrix_find_pair(get(), a, b);
     }
@@ -294,7 +299,7 @@ using robot_audit_options = zeroed<ovoid_robot_audit_options>;
 /** Options of a cover. */
 using robot_cover_options = zeroed<ovoid_robot_cover_options>;
 
-/** What is proven of spheres and a link. Throws as ovoid_robot_compute_sphere_audit fails. */
+/** What is proven about spheres and a link. Throws as ovoid_robot_compute_sphere_audit fails. */
 inline ovoid_robot_sphere_audit compute_sphere_audit(const robot &r, std::uint32_t link,
                                                      span<const ovoid_robot_sphere> spheres,
                                                      const ovoid_robot_audit_options &o = robot_audit_options()) {

@@ -48,10 +48,10 @@ typedef struct ovoid_robot_comparison {
 } ovoid_robot_comparison;
 
 /**
- * Compares states and adds them to *comparison: checks each with the robot and with the model, and of those missed
- * finds the pair that overlaps most. The same states in the same batches give the same bits. Errors: ARGUMENT (NULL,
- * options, numbers of variables that differ), MEMORY; then *comparison is as it was. Cost: two checks a state, and a
- * search of the nearest pair for one that is missed.
+ * Compares states and adds them to *comparison: checks each with the robot and with the model, and finds the deepest
+ * pair of each missed state. The same states in the same batches give the same bits. Errors: ARGUMENT (NULL, options,
+ * numbers of variables that differ), MEMORY; then *comparison is unchanged. Cost: two checks a state, and a search of
+ * the nearest pair for each missed state.
  */
 OVOID_API ovoid_code ovoid_robot_compare_states(const ovoid_robot_comparison_batch *batch,
                                                 ovoid_robot_comparison *comparison, ovoid_error *error);

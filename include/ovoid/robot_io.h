@@ -135,16 +135,16 @@ OVOID_API size_t ovoid_robot_file_get_group_count(const ovoid_robot_file *file);
 /** Group i < group count, in the order of the file. */
 OVOID_API ovoid_robot_group ovoid_robot_file_get_group(const ovoid_robot_file *file, size_t i);
 
-/** The numbers of one joint in a state. */
+/** The values of one joint in a state. */
 typedef struct ovoid_robot_value {
     uint32_t joint;
     uint32_t count;       /**< of variables: 1, or 3 and 7 for planar and floating joints */
     const double *values; /**< floating: x, y, z, quaternion w x y z */
 } ovoid_robot_value;
 
-/** A named state of an SRDF: some joints' numbers. A view. */
+/** A named state of an SRDF: the values of some joints. A view. */
 typedef struct ovoid_robot_state {
-    const char *name, *group; /**< group: "" where none is named */
+    const char *name, *group; /**< group: "" if none is named */
     const ovoid_robot_value *values;
     size_t value_count;
 } ovoid_robot_state;
@@ -164,89 +164,90 @@ OVOID_API const uint32_t *ovoid_robot_file_get_passive(const ovoid_robot_file *f
 /** Obstacles, from a scene. Owned by the caller. */
 typedef struct ovoid_obstacles ovoid_obstacles;
 
-/** One of them: a view. An object of several parts is several obstacles of one name. */
+/** An obstacle: a view. An object of several parts is several obstacles of one name. */
 typedef struct ovoid_obstacle {
     const char *name;
     const ovoid_shape *shape; /**< of a solid its hull */
-    ovoid_pose pose; /**< of an object with a pose and parts with poses: ovoid_pose_compute_product, by definition */
-    const ovoid_solid *solid; /**< a solid or a surface, which counts in the place of the hull; NULL: the shape does */
-    const char *frame;        /**< in which the pose is: a link or a fixed frame of the scene; NULL: the root link's */
-    const char *link;         /**< the link that holds it; NULL: it stands in the world */
+    ovoid_pose pose; /**< for an object with a pose and parts with poses: ovoid_pose_compute_product, by definition */
+    const ovoid_solid
+        *solid;        /**< a solid or a surface, which is queried instead of the hull; NULL: the shape is queried */
+    const char *frame; /**< the frame of the pose: a link or a fixed frame of the scene; NULL: the root link's */
+    const char *link;  /**< the link that holds it; NULL: none */
 } ovoid_obstacle;
 
 /**
- * Reads a scene: MoveIt's planning scene (.yaml, .yml), its text
- * (.scene, older and newer format), or ovoid's own (.json: ovoid_scene_read). Meshes count as
- * what they are, or with options->hull as their hulls; a scene that asks for a solid is refused then. Equal primitives
- * share a shape. docs/robot.md says what each key of a planning scene means, and which mean nothing; any other key, and
- * what cannot be obeyed (octomaps, planes, scaled links), is refused with its line. options: tolerance, shape, hull,
- * note. Errors as those of ovoid_robot_file_read.
+ * Reads a scene: MoveIt's planning scene (.yaml, .yml), its text (.scene, older and newer format), or ovoid's own
+ * (.json: ovoid_scene_read). Meshes are hulls, solids or surfaces by their triangles, or with options->hull their
+ * hulls; then a scene that asks for a solid is refused. Equal primitives share a shape. docs/robot.md describes each
+ * key of a planning scene, and which have no effect; any other key, and everything that cannot be obeyed (octomaps,
+ * planes, scaled links), is refused with its line. options: tolerance, shape, hull, note. Errors: those of
+ * ovoid_robot_file_read.
  */
 OVOID_API ovoid_obstacles *ovoid_obstacles_read(const char *path, const ovoid_robot_read_options *options,
                                                 ovoid_error *error);
 /** Frees them and their shapes; NULL is allowed. */
 OVOID_API void ovoid_obstacles_destroy(ovoid_obstacles *obstacles);
-/** How many there are; there may be none. */
+/** The number of obstacles; may be 0. */
 OVOID_API size_t ovoid_obstacles_get_count(const ovoid_obstacles *obstacles);
 /** Obstacle i < count, in the order of the file. */
 OVOID_API ovoid_obstacle ovoid_obstacles_get(const ovoid_obstacles *obstacles, size_t i);
 
-/** Where an obstacle came to be in a cell. */
+/** The pose of an obstacle in a cell. */
 typedef struct ovoid_placed_obstacle {
     ovoid_id id;
-    uint32_t link;   /**< that holds it; OVOID_ROBOT_NONE: it stands in the world */
+    uint32_t link;   /**< the link that holds it; OVOID_ROBOT_NONE: none */
     ovoid_pose pose; /**< in that link's frame, or in the root link's */
 } ovoid_placed_obstacle;
 
 /**
- * Puts a scene around a robot: adds its obstacles to the cell, attaches to links what these hold, pads links, and
- * allows the collisions that the scene allows. Where an obstacle's frame is a link, it stands where that link is in the
- * scene's robot_state, as MoveIt has it, and stays there. A scene with an allowed_collision_matrix replaces what the
- * SRDF disables; without, that holds. The obstacles are borrowed. placed: room for their count, or NULL. Errors, with
- * the line of the scene: FORMAT (a frame or a link that there is not; an entry of the matrix that cannot be told apart
- * from another), those of ovoid_robot_cell_add and ovoid_robot_cell_attach; then the cell has none of the obstacles.
+ * Puts a scene around a robot: adds its obstacles to the cell, attaches the bodies that links hold, pads links, and
+ * allows the collisions that the scene allows. If an obstacle's frame is a link, it is placed where that link is in the
+ * scene's robot_state, as in MoveIt, and stays there. The allowed_collision_matrix of a scene replaces the pairs that
+ * the SRDF disables; without one these remain disabled. The obstacles are borrowed. placed: room for their count, or
+ * NULL. Errors, with the line of the scene: FORMAT (an unknown frame or link; an ambiguous entry of the matrix), those
+ * of ovoid_robot_cell_add and ovoid_robot_cell_attach; then the cell has none of the obstacles.
  */
 OVOID_API ovoid_code ovoid_robot_cell_add_obstacles(ovoid_robot_cell *cell, const ovoid_obstacles *obstacles,
                                                     ovoid_placed_obstacle *placed, ovoid_error *error);
 
 /* ---- planning problems ---- */
 
-/** The number of one joint, by its name. */
+/** The value of one joint, by its name. */
 typedef struct ovoid_joint_position {
     const char *joint;
     double position;
 } ovoid_joint_position;
 
-/** A motion planning request of MoveIt: a start, and goals of which one is to be reached. Owned by the caller. */
+/** A motion planning request of MoveIt: a start, and alternative goals. Owned by the caller. */
 typedef struct ovoid_motion_request ovoid_motion_request;
 
 /**
- * Reads a request (YAML): start_state: joint_state, goal_constraints: joint_constraints, group_name. Keys that tell a
- * planner how to search mean nothing here; constraints of the path and reference trajectories are not read, and a note
- * names them. Any other key is refused with its line, as are goals that are not given by joints, and a base that is not
- * where its frame is.
+ * Reads a request (YAML): start_state: joint_state, goal_constraints: joint_constraints, group_name. Keys that
+ * configure a planner's search have no effect; constraints of the path and reference trajectories are not read, and a
+ * note names them. Any other key is refused with its line, as are goals that are not given by joints, and a base that
+ * is not at its frame.
  */
 OVOID_API ovoid_motion_request *ovoid_motion_request_read(const char *path, const ovoid_robot_read_options *options,
                                                           ovoid_error *error);
 /** Frees it; NULL is allowed. */
 OVOID_API void ovoid_motion_request_destroy(ovoid_motion_request *request);
-/** Its group_name; "" where it has none. */
+/** Its group_name; "" if it has none. */
 OVOID_API const char *ovoid_motion_request_get_group(const ovoid_motion_request *request);
-/** The joints' numbers at the start; *count of them. A view. */
+/** The joint values at the start; *count of them. A view. */
 OVOID_API const ovoid_joint_position *ovoid_motion_request_get_start(const ovoid_motion_request *request,
                                                                      size_t *count);
 /** How many goals there are. */
 OVOID_API size_t ovoid_motion_request_get_goal_count(const ovoid_motion_request *request);
-/** The joints' numbers at goal i < goal count; *count of them. A view. */
+/** The joint values at goal i < goal count; *count of them. A view. */
 OVOID_API const ovoid_joint_position *ovoid_motion_request_get_goal(const ovoid_motion_request *request, size_t i,
                                                                     size_t *count);
 
 /** The planning problems of a folder: pairs of a scene and a request. Owned by the caller. */
 typedef struct ovoid_problems ovoid_problems;
 
-/** One of them: paths, to be read by ovoid_obstacles_read and ovoid_motion_request_read. A view. */
+/** A problem: paths to be read by ovoid_obstacles_read and ovoid_motion_request_read. A view. */
 typedef struct ovoid_problem {
-    const char *name; /**< "box_panda/0001": the folder below the one given, and what the file names share */
+    const char *name; /**< "box_panda/0001": the folder below the given one, and the common part of the file names */
     const char *scene, *request;
 } ovoid_problem;
 

@@ -1,8 +1,8 @@
 /**
  * @file robot_io.hpp
  * Robots from files, from C++: URDF and SRDF, scenes of obstacles, planning problems. Links libovoid_robot and
- * libovoid_io. What cannot be read throws ovoid::error: its sentence is "path:line: what is wrong", its place the line.
- * What these objects hand out are views into them: C structs of <ovoid/robot_io.h>.
+ * libovoid_io. Files that cannot be read throw ovoid::error: its sentence is "path:line: what is wrong", its place the
+ * line. The objects return views into themselves: C structs of <ovoid/robot_io.h>.
  */
 #ifndef OVOID_ROBOT_IO_HPP
 #define OVOID_ROBOT_IO_HPP
@@ -28,7 +28,7 @@ class robot_file : public detail::owner<detail::pointer<ovoid_robot_file>, ovoid
         const char *second = srdf.empty() ? nullptr : srdf.c_str();
         return robot_file(detail::require(ovoid_robot_file_read(urdf.c_str(), second, &how, &e), e));
     }
-    /** What robot::create takes: a view. */
+    /** The argument of robot::create: a view. */
     ovoid_robot_description description() const noexcept { return ovoid_robot_file_get_description(get()); }
     /** The robot, which borrows the shapes of this file. Throws as ovoid_robot_create fails. */
     robot create_robot() const { return robot::create(description()); }
@@ -73,12 +73,14 @@ class obstacles : public detail::owner<detail::pointer<ovoid_obstacles>, ovoid_o
         ovoid_error e;
         return obstacles(detail::require(ovoid_obstacles_read(path.c_str(), &how, &e), e));
     }
-    /** How many there are. */
+    /** The number of obstacles. */
     std::size_t size() const noexcept { return ovoid_obstacles_get_count(get()); }
     /** Obstacle i < size. */
     ovoid_obstacle operator[](std::size_t i) const noexcept { return ovoid_obstacles_get(get(), i); }
-    /** Puts the scene around the robot of a cell, which borrows the obstacles: where each came to be, in order. Throws
-     * as ovoid_robot_cell_add_obstacles fails. */
+    /**
+     * Puts the scene around the robot of a cell, which borrows the obstacles. Returns the place of each, in order.
+     * Throws as ovoid_robot_cell_add_obstacles fails.
+     */
     std::vector<ovoid_placed_obstacle> add_to(robot_cell &cell) const {
         std::vector<ovoid_placed_obstacle> placed(size());
         ovoid_error e;
@@ -97,9 +99,9 @@ class motion_request
         ovoid_error e;
         return motion_request(detail::require(ovoid_motion_request_read(path.c_str(), &how, &e), e));
     }
-    /** Its group's name; "" where it has none. */
+    /** Its group's name; "" if it has none. */
     const char *group() const noexcept { return ovoid_motion_request_get_group(get()); }
-    /** The joints' numbers at the start. */
+    /** The joint values at the start. */
     span<const ovoid_joint_position> start() const noexcept {
         std::size_t count;
         const ovoid_joint_position *items = ovoid_motion_request_get_start(get(), &count);
@@ -107,7 +109,7 @@ class motion_request
     }
     /** Number of goals. */
     std::size_t goal_count() const noexcept { return ovoid_motion_request_get_goal_count(get()); }
-    /** The joints' numbers at goal i < goal_count. */
+    /** The joint values at goal i < goal_count. */
     span<const ovoid_joint_position> goal(std::size_t i) const noexcept {
         std::size_t count;
         const ovoid_joint_position *items = ovoid_motion_request_get_goal(get(), i, &count);
@@ -124,7 +126,7 @@ class problems : public detail::owner<detail::pointer<ovoid_problems>, ovoid_pro
         ovoid_error e;
         return problems(detail::require(ovoid_problems_find(folder.c_str(), &e), e));
     }
-    /** How many there are. */
+    /** The number of problems. */
     std::size_t size() const noexcept { return ovoid_problems_get_count(get()); }
     /** Problem i < size. */
     ovoid_problem operator[](std::size_t i) const noexcept { return ovoid_problems_get(get(), i); }

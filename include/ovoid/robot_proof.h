@@ -1,8 +1,8 @@
 /**
  * @file robot_proof.h
  * Files of path proofs, as `ovoid robot path --proofs` writes them: JSON Lines with the robot, the obstacles and the
- * options first, then for each path its states, its answer and its steps. docs/robot-path.md has the format. What is
- * read is a claim; ovoid_robot_path_verify says whether it holds.
+ * options first, then for each path its states, its answer and its steps. docs/robot-path.md has the format. A file
+ * only claims; ovoid_robot_path_verify says whether the claim holds.
  */
 #ifndef OVOID_ROBOT_PROOF_H
 #define OVOID_ROBOT_PROOF_H
@@ -18,15 +18,15 @@ typedef struct ovoid_robot_proof_side {
     const char *link;     /**< NULL: an obstacle */
     const char *obstacle; /**< NULL: a link */
     const char *name;     /**< of the link's element; NULL: it has none */
-    uint32_t number;      /**< of the element among those of the link, of the obstacle among those of its name */
+    uint32_t number;      /**< of the element among those of its link, of the obstacle among those of the same name */
 } ovoid_robot_proof_side;
 
-/** What the paths of a file are of. Texts are views, NULL where the file has none. */
+/** The robot, the obstacles and the options of the paths of a file. Texts are views, NULL if the file has none. */
 typedef struct ovoid_robot_proof_source {
     const char *robot, *srdf, *scene; /**< paths, as they were given */
     const char *const *packages;      /**< NAME=DIR */
     size_t package_count;
-    const char *const *scales, *const *paddings; /**< LINK=X, or X: of all links that have no other */
+    const char *const *scales, *const *paddings; /**< LINK=X, or X: of all other links */
     size_t scale_count, padding_count;
     int parts, hull, visual, fixed_base; /**< as in ovoid_robot_read_options */
     double tolerance;                    /**< of cylinders, as in ovoid_robot_read_options */
@@ -39,21 +39,21 @@ typedef struct ovoid_robot_proof_source {
     size_t pair_count;
 } ovoid_robot_proof_source;
 
-/** A path, what is said of it, and the steps that are to prove that. Views, valid until the next call. */
+/** A path, its answer, and the steps that prove it. Views, valid until the next call. */
 typedef struct ovoid_robot_proof {
-    size_t source;        /**< how many sources the file had before the one that the path is of */
-    size_t number;        /**< what the file says: 0 for the first path of a source, and so on */
+    size_t source;        /**< the number of sources in the file before the one of this path */
+    size_t number;        /**< the number in the file: 0 for the first path of a source, and so on */
     int64_t line;         /**< of the answer; step i is on line + 1 + i */
     const double *states; /**< state i from i * variable_count on */
     size_t count;
     const double *times; /**< of each state, in seconds; NULL: none */
     double margin;
-    ovoid_robot_path_answer answer;      /**< but for the sides of `hit`, its code and `refused` */
-    int has_pair;                        /**< HIT: 1; UNDECIDED: 0 where none was measured */
-    size_t segment;                      /**< has_pair: in which free_until is */
+    ovoid_robot_path_answer answer;      /**< except the sides of `hit`, its code and `refused` */
+    int has_pair;                        /**< HIT: 1; UNDECIDED: 0 if none was measured */
+    size_t segment;                      /**< has_pair: the segment of free_until */
     uint32_t pair;                       /**< has_pair */
     ovoid_robot_proof_side a, b;         /**< its sides */
-    double free_until_time, hit_at_time; /**< NaN where they are not there */
+    double free_until_time, hit_at_time; /**< NaN if the file has none */
     const ovoid_robot_step *steps;       /**< answer.step_count */
 } ovoid_robot_proof;
 
@@ -66,15 +66,16 @@ OVOID_API ovoid_robot_proofs_reader *ovoid_robot_proofs_reader_open(const char *
 OVOID_API void ovoid_robot_proofs_reader_close(ovoid_robot_proofs_reader *proofs);
 
 /**
- * Reads the next path, after the source where one comes before it. Strictly: the keys of the format, in any
- * order, each once, no other; whole numbers where counts are; as many steps as the answer says. 1; 0: the file ends;
- * -1: *error is filled (place: the line): FORMAT, FILE, MEMORY. NOT_FINITE where a state's number is none. Cost: linear
- * in the text.
+ * Reads the next path, and the source before it if there is one. Strict: the keys of the format, in any order, each
+ * once, no other; whole numbers for counts; as many steps as the answer says. 1; 0: the file ends; -1: *error is filled
+ * (place: the line): FORMAT, FILE, MEMORY. NOT_FINITE if a number of a state is not finite. Cost: linear in the text.
  */
 OVOID_API int ovoid_robot_proofs_reader_read(ovoid_robot_proofs_reader *proofs, ovoid_robot_proof *proof,
                                              ovoid_error *error);
-/** What the path read last is of: a view, valid until the next call of ovoid_robot_proofs_reader_read. NULL: none was
- * read. */
+/**
+ * The source of the path that was read last: a view, valid until the next call of ovoid_robot_proofs_reader_read. NULL:
+ * none was read.
+ */
 OVOID_API const ovoid_robot_proof_source *ovoid_robot_proofs_reader_get_source(const ovoid_robot_proofs_reader *proofs);
 /** The line that was read last. */
 OVOID_API int64_t ovoid_robot_proofs_reader_get_line(const ovoid_robot_proofs_reader *proofs);

@@ -12,15 +12,15 @@
 
 namespace ovoid {
 
-/** A compound that someone else owns: one pointer, passed by value. */
+/** A view of a compound that is owned elsewhere: one pointer, passed by value. */
 class compound_view {
   public:
     constexpr compound_view() noexcept = default;
-    /** Of a C compound. */
+    /** Wraps a C compound. */
     constexpr explicit compound_view(const ovoid_compound *from) noexcept : compound_(from) {}
-    /** The C compound, borrowed; nullptr where this is empty. */
+    /** The C compound, borrowed; nullptr if there is none. */
     constexpr const ovoid_compound *get() const noexcept { return compound_; }
-    /** False where there is none. No other function may then be called. */
+    /** False if there is none. No other function may then be called. */
     explicit constexpr operator bool() const noexcept { return compound_ != nullptr; }
 
     /** Number of parts. */
@@ -46,20 +46,22 @@ struct shared_part {
     ovoid::pose pose;                          /**< in the compound's frame */
 };
 
-/** A compound that is owned. Its shapes are borrowed and must outlive it; share keeps them. */
+/** A compound with an owner. Its shapes are borrowed and must outlive it; share keeps them. */
 class compound : public detail::owner<compound_view, ovoid_compound, ovoid_compound_destroy> {
   public:
     using owner::owner;
 
-    /** Of a contiguous container of posed_shape (or ovoid_posed_shape), copied. Throws EMPTY, LIMIT, ARGUMENT,
-     * NOT_FINITE, RANGE, ROTATION (place: the part), MEMORY. */
+    /**
+     * Makes a compound of a contiguous container of posed_shape (or ovoid_posed_shape), copied. Throws EMPTY, LIMIT,
+     * ARGUMENT, NOT_FINITE, RANGE, ROTATION (place: the part), MEMORY.
+     */
     template <class Parts> static compound create(const Parts &parts, const ovoid_allocator *allocator = nullptr) {
         const auto items = detail::items_of<ovoid_posed_shape>(parts);
         ovoid_error e;
         const ovoid_compound_options o = {allocator};
         return compound(detail::require(ovoid_compound_create(items.data(), items.size(), &o, &e), e));
     }
-    /** Of parts in braces. */
+    /** Makes a compound of parts in braces. */
     static compound create(std::initializer_list<ovoid::posed_shape> parts,
                            const ovoid_allocator *allocator = nullptr) {
         return create(span<const ovoid::posed_shape>(parts.begin(), parts.size()), allocator);

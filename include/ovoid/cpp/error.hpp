@@ -1,9 +1,9 @@
 /**
  * @file error.hpp
- * What all C++ headers stand on: errors as exceptions, owners of handles, arrays as views, options that begin as zero.
+ * Used by all C++ headers: errors as exceptions, owners of handles, arrays as views, options that begin as zero.
  *
- * Where exceptions are off (-fno-exceptions) everything compiles, and what would throw calls std::abort: there, create
- * with the C function, look at its ovoid_error, and let an owner adopt the handle, as in
+ * With -fno-exceptions everything compiles, and a function that would throw calls std::abort. To handle errors there,
+ * create with the C function, read its ovoid_error, and let an owner adopt the handle, as in
  * shape(ovoid_shape_create_box(...)).
  */
 #ifndef OVOID_CPP_ERROR_HPP
@@ -18,17 +18,17 @@
 #include <type_traits>
 #include <utility>
 
-/** The C++ face of ovoid: the C structs, with owners, conversions and exceptions. */
+/** The C++ interface of ovoid: the C structs, with owners, conversions and exceptions. */
 namespace ovoid {
 
-/** What the C library refused: what() is its sentence, never empty. */
+/** An error of the C library: what() is its sentence, never empty. */
 class error : public std::runtime_error {
   public:
     /** From the C error. */
     explicit error(const ovoid_error &from) : std::runtime_error(from.message), code_(from.code), place_(from.place) {}
     /** What went wrong; never OVOID_OK. */
     ovoid_code code() const noexcept { return code_; }
-    /** 0-based vertex, face or item, or 1-based line of a file; -1 where none applies. */
+    /** 0-based vertex, face or item, or 1-based line of a file; -1 if none applies. */
     std::int64_t place() const noexcept { return place_; }
 
   private:
@@ -40,7 +40,7 @@ class error : public std::runtime_error {
 inline const char *name(ovoid_code code) noexcept { return ovoid_code_get_name(code); }
 /** The library's version as "major.minor.patch". */
 inline const char *version() noexcept { return ovoid_get_version(); }
-/** Sets what a failed assert of the library calls; nullptr takes it away. The hook must not throw. */
+/** Sets the function that a failed assert of the library calls; nullptr removes it. The hook must not throw. */
 inline void set_assert_hook(ovoid_assert_hook hook) noexcept { ovoid_set_assert_hook(hook); }
 
 namespace detail {
@@ -54,7 +54,7 @@ namespace detail {
 #endif
 }
 
-/// An error whose sentence is that of a code, or a text of this header's.
+/// Throws an error with the sentence of the code, or with the given text.
 [[noreturn]] inline void fail(ovoid_code code, const char *text = nullptr, std::int64_t place = -1) {
     ovoid_error e;
     e.code = code;
@@ -74,27 +74,27 @@ template <class Handle> Handle *require(Handle *handle, const ovoid_error &e) {
     return handle;
 }
 
-/// A pointer without an owner; const where the object that holds it is.
+/// A pointer without an owner; const if the object that holds it is const.
 template <class Handle> class pointer {
   public:
     constexpr pointer() noexcept = default;
     constexpr explicit pointer(Handle *handle) noexcept : handle_(handle) {}
-    /** The C handle, borrowed; nullptr where this is empty. */
+    /** The C handle, borrowed; nullptr if there is none. */
     Handle *get() noexcept { return handle_; }
-    /** The C handle, borrowed; nullptr where this is empty. */
+    /** The C handle, borrowed; nullptr if there is none. */
     const Handle *get() const noexcept { return handle_; }
-    /** False where there is none: after a move, or made by default. */
+    /** False if there is none: after a move, or by default. */
     explicit operator bool() const noexcept { return handle_ != nullptr; }
 
   private:
     Handle *handle_ = nullptr;
 };
 
-/// Owns what View looks at: moves and never copies, destroys once. An owner that was moved from is empty.
+/// Owns the handle of a View: moves and never copies, destroys once. A moved-from owner is empty.
 template <class View, class Handle, void (*Destroy)(Handle *)> class owner : public View {
   public:
     owner() noexcept = default;
-    /** Adopts what a C function created; nullptr: empty. */
+    /** Adopts a handle that a C function created; nullptr: empty. */
     explicit owner(Handle *created) noexcept : View(created) {}
     owner(owner &&other) noexcept : View(other.release()) {}
     owner &operator=(owner &&other) noexcept {
@@ -104,13 +104,13 @@ template <class View, class Handle, void (*Destroy)(Handle *)> class owner : pub
     owner(const owner &) = delete;
     owner &operator=(const owner &) = delete;
     ~owner() { Destroy(const_cast<Handle *>(this->get())); }
-    /** Gives the handle up: the caller destroys it. */
+    /** Gives up the handle: the caller destroys it. */
     Handle *release() noexcept {
         Handle *handle = const_cast<Handle *>(this->get());
         static_cast<View &>(*this) = View();
         return handle;
     }
-    /** Destroys what is owned and adopts another handle, or none. */
+    /** Destroys the handle and adopts another one, or none. */
     void reset(Handle *created = nullptr) noexcept {
         Handle *before = const_cast<Handle *>(this->get());
         static_cast<View &>(*this) = View(created);
@@ -128,7 +128,7 @@ template <class C> struct zeroed : C {
     constexpr zeroed(const C &from) noexcept : C(from) {}
 };
 
-/** A view of an array that someone else owns; converts to std::span where there is one. */
+/** A view of an array that is owned elsewhere; converts to std::span if the compiler has it. */
 template <class T> class span {
   public:
     /** The type of an item. */
@@ -156,7 +156,7 @@ template <class T> class span {
 
 namespace detail {
 
-/// The items of a container as a C array of type C: its elements are C, or C with constructors and no more fields.
+/// The items of a container as a C array of type C; its elements are C, or C with constructors and no more fields.
 template <class C, class Container> span<const C> items_of(const Container &container) {
     using element = std::remove_cv_t<std::remove_pointer_t<decltype(std::data(container))>>;
     static_assert(std::is_base_of<C, element>::value || std::is_same<C, element>::value,

@@ -2,11 +2,11 @@
  * @file linear.hpp
  * Vectors, quaternions and poses: the C structs with constructors from other libraries' types.
  *
- * What converts: a 3-vector is std::array<S, 3>, S[3] or anything with members x, y, z and no w (ovoid_vec3, glm::vec3,
- * messages of ROS); a quaternion is anything with members w, x, y, z, whatever their order; S is any arithmetic type.
- * <ovoid/eigen.hpp> adds Eigen's vectors, quaternions, matrices and transforms, <ovoid/glm.hpp> glm's matrices; for a
- * type of your own specialise vec3_traits, quat_traits or pose_traits. to<T>(value) converts back. Conversion is by
- * value; from float it is exact, to float it rounds.
+ * These types convert: a 3-vector is std::array<S, 3>, S[3] or anything with members x, y, z and no w (ovoid_vec3,
+ * glm::vec3, messages of ROS); a quaternion is anything with members w, x, y, z, whatever their order; S is any
+ * arithmetic type. <ovoid/eigen.hpp> adds Eigen's vectors, quaternions, matrices and transforms, <ovoid/glm.hpp> glm's
+ * matrices; for a type of your own specialise vec3_traits, quat_traits or pose_traits. to<T>(value) converts back.
+ * Conversion is by value; from float it is exact, to float it rounds.
  */
 #ifndef OVOID_CPP_LINEAR_HPP
 #define OVOID_CPP_LINEAR_HPP
@@ -20,8 +20,7 @@ namespace ovoid {
 
 /**
  * How a 3-vector of another library is read and made: static ovoid_vec3 get(const T &) and static T make(const
- * ovoid_vec3
- * &). is_packed: a T is nothing but three doubles x, y, z, so that arrays of them need no copy.
+ * ovoid_vec3 &). is_packed: a T consists of three doubles x, y, z, so that arrays of them need no copy.
  */
 template <class T, class = void> struct vec3_traits;
 /** How a rotation is read and made: static ovoid_quat get(const T &), which may throw, static T make(const ovoid_quat
@@ -51,24 +50,24 @@ template <template <class, class> class Traits, class T, class = void> struct is
 template <template <class, class> class Traits, class T>
 struct is_read<Traits, T, decltype(void(Traits<T, void>::get(std::declval<const T &>())))> : std::true_type {};
 
-/// T converts by Traits, and is not one of our own types, which the copy constructor takes.
+/// T converts by Traits, and is not a type of this library, which the copy constructor takes.
 template <template <class, class> class Traits, class T, class Own>
 using enable_foreign = std::enable_if_t<!std::is_base_of<Own, T>::value && is_read<Traits, T>::value, int>;
 
 } // namespace detail
 
-/** Whether a type with members x, y, z is nothing but three doubles in that order; specialise it for yours. */
+/** Whether a type with members x, y, z consists of three doubles in that order; specialise it for your types. */
 template <class T> struct is_packed_vec3 : std::is_base_of<ovoid_vec3, T> {};
 
 /** Anything with members x, y, z and no w. */
 template <class T> struct vec3_traits<T, std::enable_if_t<detail::has_xyz<T>::value && !detail::has_w<T>::value>> {
     /** Only where the order of the members is known. */
     static constexpr bool is_packed = is_packed_vec3<T>::value && sizeof(T) == sizeof(ovoid_vec3);
-    /** Reads it. */
+    /** Reads the vector. */
     static constexpr ovoid_vec3 get(const T &v) noexcept {
         return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
     }
-    /** Makes one. */
+    /** Makes a vector. */
     static T make(const ovoid_vec3 &v) {
         T made{};
         made.x = static_cast<detail::plain<decltype(made.x)>>(v.x);
@@ -82,11 +81,11 @@ template <class T> struct vec3_traits<T, std::enable_if_t<detail::has_xyz<T>::va
 template <class S> struct vec3_traits<std::array<S, 3>, std::enable_if_t<std::is_arithmetic<S>::value>> {
     /** Of doubles. */
     static constexpr bool is_packed = std::is_same<S, double>::value;
-    /** Reads it. */
+    /** Reads the vector. */
     static constexpr ovoid_vec3 get(const std::array<S, 3> &v) noexcept {
         return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
     }
-    /** Makes one. */
+    /** Makes a vector. */
     static std::array<S, 3> make(const ovoid_vec3 &v) {
         return {static_cast<S>(v.x), static_cast<S>(v.y), static_cast<S>(v.z)};
     }
@@ -96,7 +95,7 @@ template <class S> struct vec3_traits<std::array<S, 3>, std::enable_if_t<std::is
 template <class S> struct vec3_traits<S[3], std::enable_if_t<std::is_arithmetic<S>::value>> {
     /** Of doubles. */
     static constexpr bool is_packed = std::is_same<S, double>::value;
-    /** Reads it. */
+    /** Reads the vector. */
     static constexpr ovoid_vec3 get(const S (&v)[3]) noexcept {
         return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
     }
@@ -104,11 +103,11 @@ template <class S> struct vec3_traits<S[3], std::enable_if_t<std::is_arithmetic<
 
 /** Anything with members w, x, y, z. */
 template <class T> struct quat_traits<T, std::enable_if_t<detail::has_xyz<T>::value && detail::has_w<T>::value>> {
-    /** Reads it. */
+    /** Reads the quaternion. */
     static constexpr ovoid_quat get(const T &q) noexcept {
         return {static_cast<double>(q.w), static_cast<double>(q.x), static_cast<double>(q.y), static_cast<double>(q.z)};
     }
-    /** Makes one. */
+    /** Makes a quaternion. */
     static T make(const ovoid_quat &q) {
         T made{};
         made.w = static_cast<detail::plain<decltype(made.w)>>(q.w);
@@ -132,7 +131,7 @@ struct vec3 : ovoid_vec3 {
 
 namespace detail {
 
-/// N numbers of anything that std::data and std::size take, as doubles; ARGUMENT where there are not N.
+/// N numbers of anything that std::data and std::size take, as doubles; throws ARGUMENT if there are not N.
 template <std::size_t N, class M> std::array<double, N> numbers_of(const M &m) {
     if (std::size(m) != N)
         fail(OVOID_ERROR_ARGUMENT, "not as many numbers as a quaternion (4) or a matrix (9 or 16) has");
@@ -170,7 +169,8 @@ struct quat : ovoid_quat {
     constexpr quat() noexcept : ovoid_quat{1, 0, 0, 0} {}
     /** From its components, w first. */
     constexpr quat(double w_, double x_, double y_, double z_) noexcept : ovoid_quat{w_, x_, y_, z_} {}
-    /** From a quaternion or rotation matrix of another library; a matrix may throw as ovoid_pose_make_matrix refuses.
+    /**
+     * From a quaternion or rotation matrix of another library; a matrix throws in the cases of ovoid_pose_make_matrix.
      */
     template <class T, detail::enable_foreign<quat_traits, T, quat> = 0>
     constexpr quat(const T &from) : ovoid_quat(quat_traits<T>::get(from)) {}
@@ -179,7 +179,7 @@ struct quat : ovoid_quat {
         const auto n = detail::numbers_of<4>(q);
         return {n[0], n[1], n[2], n[3]};
     }
-    /** From four numbers in the order x, y, z, w, as Eigen's coeffs, ROS and Bullet have them. Throws ARGUMENT. */
+    /** From four numbers in the order x, y, z, w of Eigen's coeffs, ROS and Bullet. Throws ARGUMENT. */
     template <class Q> static quat xyzw(const Q &q) {
         const auto n = detail::numbers_of<4>(q);
         return {n[3], n[0], n[1], n[2]};
@@ -192,11 +192,11 @@ struct quat : ovoid_quat {
     }
 };
 
-/** Where a body is: world = position + R(rotation) local; the identity by default. */
+/** The position and rotation of a body: world = position + R(rotation) local; the identity by default. */
 struct pose : ovoid_pose {
     /** The identity, as ovoid_pose_make_identity. */
     constexpr pose() noexcept : ovoid_pose{vec3(), quat()} {}
-    /** At a position, not turned or turned. */
+    /** At a position, with a rotation or without. */
     constexpr pose(const vec3 &position_, const quat &rotation_ = {}) noexcept : ovoid_pose{position_, rotation_} {}
     /** From the C struct. */
     template <class T, std::enable_if_t<std::is_same<T, ovoid_pose>::value, int> = 0>
@@ -239,15 +239,15 @@ struct pose : ovoid_pose {
         ovoid_pose_compute_matrix(this, m.data());
         return m;
     }
-    /** The pose that undoes it. */
+    /** The inverse pose. */
     pose inverse() const noexcept { return ovoid_pose_compute_inverse(this); }
     /** The world point in the local frame. */
     vec3 local(const vec3 &world) const noexcept { return ovoid_pose_compute_local_point(this, world); }
-    /** OVOID_OK, or what is wrong with it: NOT_FINITE, RANGE, ROTATION. */
+    /** OVOID_OK, or what is wrong with the pose: NOT_FINITE, RANGE, ROTATION. */
     ovoid_code validate() const noexcept { return ovoid_pose_validate(this); }
 };
 
-/** The pose of what is posed by inner in a body that is posed by outer. */
+/** The pose of a part: posed by inner in a body that is posed by outer. */
 inline pose operator*(const pose &outer, const pose &inner) noexcept {
     return ovoid_pose_compute_product(&outer, &inner);
 }

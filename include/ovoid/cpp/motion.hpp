@@ -19,21 +19,21 @@ using step = ovoid_step;
 using step_group = ovoid_step_group;
 /** When two moving shapes come within a margin of each other. */
 using impact = ovoid_impact;
-/** When two moving bodies do. */
+/** The first time at which two moving bodies come within a margin of each other. */
 using body_impact = ovoid_body_impact;
-/** How near two moving shapes come. */
+/** The smallest distance of two moving shapes. */
 using approach = ovoid_approach;
-/** Where a ray meets a shape. */
+/** Where a ray hits a shape. */
 using ray_hit = ovoid_ray_hit;
 
 /** A motion: an exact mathematical object. */
 struct motion : ovoid_motion {
-    /** Standing still at a pose. */
+    /** Stands still at a pose. */
     motion(const pose &at = {}) noexcept : ovoid_motion(ovoid_motion_make_still(at)) {}
     /** From the C struct. */
     template <class T, std::enable_if_t<std::is_same<T, ovoid_motion>::value, int> = 0>
     motion(const T &from) noexcept : ovoid_motion(from) {}
-    /** Standing still. */
+    /** Stands still at a pose. */
     static motion still(const pose &at) noexcept { return ovoid_motion_make_still(at); }
     /** Constant velocities (world frame, radians), turning about the origin of the body's local frame. */
     static motion velocity(const pose &from, const vec3 &linear_, const vec3 &angular_, double duration_) noexcept {
@@ -43,19 +43,22 @@ struct motion : ovoid_motion {
     static motion between(const pose &from, const pose &to_, double duration_) noexcept {
         return ovoid_motion_make_poses(from, to_, duration_);
     }
-    /** Through poses at times: contiguous containers, borrowed. Throws ARGUMENT where they differ in length. */
+    /** Through poses at times: contiguous containers, borrowed. Throws ARGUMENT if they differ in length. */
     template <class Times, class Poses> static motion path(const Times &at, const Poses &through) {
         const auto t = detail::items_of<double>(at);
         const auto p = detail::items_of<ovoid_pose>(through);
         if (t.size() != p.size()) detail::fail(OVOID_ERROR_ARGUMENT, "a path needs as many times as poses");
         return ovoid_motion_make_path(t.data(), p.data(), t.size());
     }
-    /** Throws what is wrong with it: NOT_FINITE, ROTATION, RANGE, ARGUMENT (place: of a path, the pose). */
+    /**
+     * Throws the error of the motion, if there is one: NOT_FINITE, ROTATION, RANGE, ARGUMENT (place: of a path, the
+     * pose).
+     */
     void validate() const {
         ovoid_error e;
         detail::require(ovoid_motion_validate(this, &e), e);
     }
-    /** The pose at a time; the motion must be sound. */
+    /** The pose at a time; the motion must be valid. */
     pose at(double time) const noexcept { return ovoid_motion_compute_pose(this, time); }
 };
 
@@ -63,7 +66,7 @@ struct motion : ovoid_motion {
 struct moving_shape : ovoid_moving_shape {
     /** A shape and its motion. */
     moving_shape(shape_view s, const ovoid::motion &m) noexcept : ovoid_moving_shape{s.get(), m, {}} {}
-    /** A shape that is fixed, at a pose, in what moves. */
+    /** A shape that is fixed to the moving frame, at a pose. */
     moving_shape(shape_view s, const ovoid::motion &m, const pose &fixed) noexcept
         : ovoid_moving_shape{s.get(), m, fixed} {}
     /** From the C struct. */
@@ -97,11 +100,11 @@ struct moving_body : ovoid_moving_body {
 /** Options of queries about motions; the arrays that receive a proof are the caller's. */
 struct motion_options : zeroed<ovoid_motion_options> {
     using zeroed::zeroed;
-    /** The proof's steps go into a contiguous container, as many as it has places. */
+    /** Writes the proof's steps into a contiguous container, as many as it has room for. */
     template <class Steps> motion_options &with_steps(Steps &into) noexcept {
         return steps = std::data(into), capacity = std::size(into), *this;
     }
-    /** Of compounds: the steps' groups go into a contiguous container. */
+    /** For compounds: writes the steps' groups into a contiguous container. */
     template <class Groups> motion_options &with_groups(Groups &into) noexcept {
         return groups = std::data(into), group_capacity = std::size(into), *this;
     }
@@ -113,14 +116,14 @@ inline impact find_impact(const moving_shape &a, const moving_shape &b, double m
     const ovoid_moving_pair both = {a, b, margin};
     return ovoid_impact_find(&both, &o);
 }
-/** When do two moving bodies, of which each may be a solid? */
+/** When do two moving bodies first come within margin (>= 0) of each other? Each may be a solid. */
 inline body_impact find_impact(const moving_body &a, const moving_body &b, double margin = 0,
                                const ovoid_motion_options &o = motion_options()) noexcept {
     const ovoid_moving_body_pair both = {a, b, margin};
     return ovoid_body_impact_find(&both, &o);
 }
 /**
- * Throws PROOF (place: the step) where an impact does not follow from its steps: all step_count of them. asked: the
+ * Throws PROOF (place: the step) if an impact does not follow from its steps: all step_count of them. asked: the
  * options of the query; nullptr as in ovoid_impact_verify.
  */
 template <class Steps>
@@ -133,7 +136,7 @@ void verify(const moving_shape &a, const moving_shape &b, double margin, const o
     const ovoid_motion_basis basis = {asked, std::data(steps), nullptr};
     detail::require(ovoid_impact_verify(&both, &found, &basis, &e), e);
 }
-/** Throws PROOF (place: the group) where an impact of bodies does not follow from its steps and groups. */
+/** Throws PROOF (place: the group) if an impact of bodies does not follow from its steps and groups. */
 template <class Steps, class Groups>
 void verify(const moving_body &a, const moving_body &b, double margin, const ovoid_body_impact &found,
             const Steps &steps, const Groups &groups, const ovoid_motion_options *asked = nullptr) {
@@ -145,13 +148,13 @@ void verify(const moving_body &a, const moving_body &b, double margin, const ovo
     detail::require(ovoid_body_impact_verify(&both, &found, &basis, &e), e);
 }
 
-/** The first time at which b, moved along displacement without turning, is within margin of a. */
+/** The first time at which b, moved along displacement without rotation, is within margin of a. */
 inline impact cast_shape(const pair &p, const vec3 &displacement, double margin = 0,
                          const ovoid_motion_options &o = motion_options()) noexcept {
     return ovoid_shape_cast(&p, displacement, margin, &o);
 }
 
-/** A ray, thick where its radius is above 0. */
+/** A ray, thick if its radius is above 0. */
 struct ray : ovoid_ray {
     /** From origin along direction (any length but zero), for length directions. */
     ray(const vec3 &origin_, const vec3 &direction_, double length_ = std::numeric_limits<double>::infinity(),
@@ -161,7 +164,7 @@ struct ray : ovoid_ray {
     template <class T, std::enable_if_t<std::is_same<T, ovoid_ray>::value, int> = 0>
     ray(const T &from) noexcept : ovoid_ray(from) {}
 };
-/** Where a ray first meets a posed shape. */
+/** Where a ray first hits a posed shape. */
 inline ray_hit cast_ray(const posed_shape &target, const ray &r) noexcept { return ovoid_shape_cast_ray(&target, &r); }
 
 /** The smallest distance of two moving shapes over a time, and when. */
@@ -170,7 +173,7 @@ inline approach find_approach(const moving_shape &a, const moving_shape &b,
     const ovoid_moving_pair both = {a, b, 0};
     return ovoid_approach_find(&both, &o);
 }
-/** Throws PROOF where an approach does not follow from its steps: all step_count of them. */
+/** Throws PROOF if an approach does not follow from its steps: all step_count of them. */
 template <class Steps>
 void verify(const moving_shape &a, const moving_shape &b, const ovoid_approach &found, const Steps &steps,
             const ovoid_motion_options *asked = nullptr) {

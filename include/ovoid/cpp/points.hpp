@@ -1,6 +1,7 @@
 /**
  * @file points.hpp
- * Points and faces out of any container, as the C functions take them: without a copy where the numbers lie so already.
+ * Points and faces from any container, as the C functions take them, without a copy if the numbers are contiguous
+ * doubles.
  *
  * Points are: numbers x y z x y z ... (std::vector<double>, std::array, a C array, std::span, ovoid::span), floats too;
  * or a container of 3-vectors (std::vector<std::array<double, 3>>, of Eigen::Vector3d, of glm::dvec3, std::list, ...).
@@ -18,17 +19,17 @@
 
 namespace ovoid {
 
-/** Points as the C functions take them: a view, or numbers of its own where a copy was needed. */
+/** Points as the C functions take them: a view, or a copy if one was needed. */
 class point_array {
   public:
     /** A view of count points, x y z of point i at 3 i; they must outlive it. */
     point_array(const double *xyz, std::size_t count) noexcept : xyz_(xyz), count_(count) {}
-    /** Takes numbers x y z x y z ... over; their number is divisible by three. */
+    /** Takes over numbers x y z x y z ...; their number is divisible by three. */
     explicit point_array(std::vector<double> &&numbers) noexcept
         : numbers_(std::move(numbers)), xyz_(numbers_.data()), count_(numbers_.size() / 3) {}
-    /** Takes over what the other has. */
+    /** Takes over the points of the other. */
     point_array(point_array &&) noexcept = default;
-    /** Takes it over in the place of what this one had. */
+    /** Takes over the points of the other in place of its own. */
     point_array &operator=(point_array &&) noexcept = default;
     /** x y z of point i at 3 i. */
     const double *data() const noexcept { return xyz_; }
@@ -86,7 +87,7 @@ template <class P> point_array points_of_vectors(const P &vectors) {
 
 } // namespace detail
 
-/** The points of a container. Throws ARGUMENT where the number of coordinates is not divisible by three. */
+/** The points of a container. Throws ARGUMENT if the number of coordinates is not divisible by three. */
 template <class P> point_array points_of(const P &points) {
     if constexpr (detail::is_read<points_traits, P>::value) {
         return points_traits<P>::get(points);

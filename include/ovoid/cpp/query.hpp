@@ -1,7 +1,7 @@
 /**
  * @file query.hpp
  * Proximity of two posed shapes, alone and in batches; proofs; smooth brackets; the paper's areas.
- * Queries never throw, allocate or lock: what is refused stands in the answer's limit, as in C.
+ * Queries never throw, allocate or lock: the limit of the answer says why a query was refused, as in C.
  */
 #ifndef OVOID_CPP_QUERY_HPP
 #define OVOID_CPP_QUERY_HPP
@@ -18,7 +18,7 @@ namespace ovoid {
 using options = zeroed<ovoid_options>;
 /** A proof: the warm start of the pair's next query. */
 using proof = zeroed<ovoid_proof>;
-/** What proves a depth from below. */
+/** The proof of a depth's upper bound. */
 using cover = zeroed<ovoid_cover>;
 /** Points and normal of an answer. */
 using witness = ovoid_witness;
@@ -26,7 +26,7 @@ using witness = ovoid_witness;
 using couple = ovoid_couple;
 /** The answer to a query. */
 using answer = ovoid_answer;
-/** What an answer says, without the evidence. */
+/** Status and bracket of an answer, without points and proof. */
 using verdict = ovoid_verdict;
 /** A smooth bracket of the distance. */
 using smooth = ovoid_smooth;
@@ -62,12 +62,12 @@ inline answer within(const pair &p, double margin, const ovoid_options &o = opti
                      const ovoid_proof *earlier = nullptr) noexcept {
     return ovoid_within(&p, margin, &o, earlier);
 }
-/** The distance to the tolerance where the bodies are apart; where they overlap only that is proven. */
+/** The distance to the tolerance if the bodies are apart; of an overlap only the sign is proven. */
 inline answer distance(const pair &p, const ovoid_options &o = options(),
                        const ovoid_proof *earlier = nullptr) noexcept {
     return ovoid_distance(&p, &o, earlier);
 }
-/** The signed distance to the tolerance. received: the cover that proves a depth from below, or nullptr. */
+/** The signed distance to the tolerance. received: the cover that proves the bound of a depth, or nullptr. */
 inline answer depth(const pair &p, const ovoid_options &o = options(), const ovoid_proof *earlier = nullptr,
                     ovoid_cover *received = nullptr) noexcept {
     return ovoid_depth(&p, &o, earlier, received);
@@ -79,18 +79,20 @@ inline double compute_gap(const pair &p, const ovoid_vec3 &direction) noexcept {
 /** The bracket from the ellipsoids alone. */
 inline answer bounds(const pair &p) noexcept { return ovoid_pair_compute_bounds(&p); }
 
-/** The signed distance as one number, never above the true one; NaN where the bracket is wider than was asked. */
+/** The signed distance as one number, never above the true one; NaN if the bracket is wider than asked. */
 inline double distance_of(const ovoid_answer &a) noexcept { return ovoid_answer_get_distance(&a); }
-/** 1: proven within the margin; 0: proven farther; -1: the bracket straddles it. */
+/** 1: proven within the margin; 0: proven farther; -1: neither is proven. */
 inline int is_within(const ovoid_answer &a, double margin) noexcept { return ovoid_answer_is_within(&a, margin); }
-/** True where the answer's bounds follow from its proof, and its status from them and the tolerance: no search, and
- *  nothing trusted. o: the options of the query. c: the cover of depth, or nullptr. */
+/**
+ * True if the answer's bounds follow from its proof, and its status from them and the tolerance, without a search. o:
+ * the options of the query. c: the cover of depth, or nullptr.
+ */
 inline bool is_proven(const pair &p, const ovoid_answer &a, const ovoid_options &o = options(),
                       const ovoid_cover *c = nullptr) noexcept {
     const ovoid_answer_basis basis = {&o, c};
     return ovoid_answer_verify(&p, &a, &basis, nullptr) == OVOID_OK;
 }
-/** Throws PROOF, with a sentence, where is_proven is false. */
+/** Throws PROOF, with a sentence, if is_proven is false. */
 inline void verify(const pair &p, const ovoid_answer &a, const ovoid_options &o = options(),
                    const ovoid_cover *c = nullptr) {
     ovoid_error e;
@@ -103,7 +105,7 @@ using evidence = zeroed<ovoid_evidence>;
 
 /** A posed shape, prepared for many queries. The shape is borrowed. */
 struct prepared_shape : ovoid_prepared_shape {
-    /** Prepares it; a bad pose is refused by the queries. */
+    /** Prepares the shape; the queries refuse a bad pose. */
     explicit prepared_shape(const ovoid_posed_shape &of) noexcept { ovoid_prepared_shape_make(&of, this); }
 };
 
@@ -127,10 +129,10 @@ inline verdict depth(const ovoid_prepared_shape &a, const ovoid_prepared_shape &
                      const ovoid_evidence *e = nullptr) noexcept {
     return ovoid_prepared_depth({&a, &b}, &o, e);
 }
-/** is_within of a verdict. */
+/** As is_within of an answer. */
 inline int is_within(const ovoid_verdict &v, double margin) noexcept { return ovoid_verdict_is_within(&v, margin); }
 
-/** One question about many pairs. Bodies, couples, options and what receives the answers are borrowed. */
+/** One query of many pairs. Bodies, couples, options and the arrays for the answers are borrowed. */
 class batch : public ovoid_batch {
   public:
     /** Of contiguous containers of posed_shape (or ovoid_posed_shape) and of couple. */
@@ -185,9 +187,9 @@ inline void depth_batch(const ovoid_batch &b) {
     detail::require(ovoid_depth_batch(&b, &e), e);
 }
 
-/** The smooth bracket of the signed distance. order: 0 values, 1 gradients too, 2 Hessians too. */
+/** The smooth bracket of the signed distance. order: 0 values, 1 also gradients, 2 also Hessians. */
 inline ovoid_smooth compute_smooth(const pair &p, int order) noexcept { return ovoid_pair_compute_smooth(&p, order); }
-/** The gradient of the exact signed distance, as far as an answer shows it. c: the cover of a depth. */
+/** The gradient of the exact signed distance, as far as an answer proves it. c: the cover of a depth. */
 inline ovoid_gradient compute_gradient(const pair &p, const ovoid_answer &a, const ovoid_cover *c = nullptr) noexcept {
     return ovoid_answer_compute_gradient(&p, &a, c);
 }
@@ -213,13 +215,13 @@ class areas : public detail::owner<detail::pointer<ovoid_areas>, ovoid_areas, ov
         const ovoid_areas_options o = {split, k, allocator};
         return areas(detail::require(ovoid_areas_create(&p, &e, &o, &error), error));
     }
-    /** How large the tables are. */
+    /** The size of the tables. */
     ovoid_area_counts counts() const noexcept { return ovoid_areas_get_counts(get()); }
     /** Where the ray from the ellipsoid's centre leaves. */
     ovoid_exit find_exit(const vec3 &direction, const vec3 &toward, ovoid_area_rule rule) const noexcept {
         return ovoid_areas_find_exit(get(), direction, toward, rule);
     }
-    /** The vertex extreme along a direction. touched (may be nullptr): vertices looked at. */
+    /** The vertex extreme along a direction. touched (may be nullptr): vertices tested. */
     std::uint32_t find_support(const vec3 &direction, std::uint32_t *touched = nullptr) const noexcept {
         return ovoid_areas_find_support(get(), direction, touched);
     }

@@ -1,9 +1,9 @@
 /**
  * @file shape.hpp
- * Shapes: shape owns one, shape_view looks at one; ellipsoids and measures of what they hold.
+ * Shapes: a shape owns one, a shape_view borrows one; their ellipsoids and measures.
  *
- * A shape is immutable and is shared by any number of bodies and threads; who borrows it must not outlive it. Where no
- * single owner fits, std::make_shared<const ovoid::shape>(ovoid::shape::box(...)) does: *pointer is a shape_view.
+ * A shape is immutable, and any number of bodies and threads share it; borrowers must not outlive it. If there is no
+ * single owner, use std::make_shared<const ovoid::shape>(ovoid::shape::box(...)): *pointer is a shape_view.
  */
 #ifndef OVOID_CPP_SHAPE_HPP
 #define OVOID_CPP_SHAPE_HPP
@@ -25,15 +25,15 @@ using fit = ovoid_fit;
 /** Volume, area, centroid, inertia, box and sphere. */
 using measures = ovoid_measures;
 
-/** A shape that someone else owns: one pointer, passed by value. Queries take it. */
+/** A view of a shape that is owned elsewhere: one pointer, passed by value. Queries take it. */
 class shape_view {
   public:
     constexpr shape_view() noexcept = default;
-    /** Of a C shape. */
+    /** Wraps a C shape. */
     constexpr explicit shape_view(const ovoid_shape *from) noexcept : shape_(from) {}
-    /** The C shape, borrowed; nullptr where this is empty. */
+    /** The C shape, borrowed; nullptr if there is none. */
     constexpr const ovoid_shape *get() const noexcept { return shape_; }
-    /** False where there is none: after a move, or made by default. No other function may then be called. */
+    /** False if there is none: after a move, or by default. No other function may then be called. */
     explicit constexpr operator bool() const noexcept { return shape_ != nullptr; }
 
     /** The polyhedron. */
@@ -50,9 +50,9 @@ class shape_view {
     }
     /** The rounding radius. */
     double radius() const noexcept { return ovoid_shape_get_radius(shape_); }
-    /** What the true body may differ by. */
+    /** How far the true body may differ from the shape. */
     ovoid_allowance allowance() const noexcept { return ovoid_shape_get_allowance(shape_); }
-    /** What was done with the points given. */
+    /** What the constructor did with the given points. */
     ovoid_report report() const noexcept { return ovoid_shape_get_report(shape_); }
     /** The outer ellipsoid of the polyhedron. */
     ovoid_fit outer() const noexcept { return ovoid_shape_get_outer(shape_); }
@@ -71,8 +71,10 @@ class shape_view {
      */
     template <class Points>
     shape deformed(const Points &points, const ovoid_shape_options &options = shape_options()) const;
-    /** The two sides of a plane: first where normal . x <= offset; empty where nothing is left. Throws as the C
-     * function. */
+    /**
+     * The two sides of a plane: first the side normal . x <= offset; empty if there is nothing on it. Throws as the C
+     * function.
+     */
     std::pair<shape, shape> divided(const ovoid_plane &plane,
                                     const ovoid_shape_options &options = shape_options()) const;
     /** The bytes of an .ovoid file. */
@@ -86,7 +88,7 @@ class shape_view {
     const ovoid_shape *shape_ = nullptr;
 };
 
-/** A shape that is owned: moves, never copies (copy() does), destroyed once. Creation throws ovoid::error. */
+/** A shape with an owner: moves, never copies (copy() does), destroyed once. Creation throws ovoid::error. */
 class shape : public detail::owner<shape_view, ovoid_shape, ovoid_shape_destroy> {
   public:
     using owner::owner;
@@ -103,8 +105,10 @@ class shape : public detail::owner<shape_view, ovoid_shape, ovoid_shape_destroy>
         const point_array p = points_of(points);
         return made([&](ovoid_error *e) { return ovoid_shape_create_from_points(p.data(), p.size(), &options, e); });
     }
-    /** From points and faces, each a container of vertex indices, that claim to be convex: checked. Throws INDEX,
-     * NOT_CONVEX (place: the face) and as from_points. */
+    /**
+     * From points and faces, each a container of vertex indices, that are stated to be convex, which is checked. Throws
+     * INDEX, NOT_CONVEX (place: the face) and as from_points.
+     */
     template <class Points, class Faces>
     static shape from_faces(const Points &points, const Faces &faces,
                             const ovoid_shape_options &options = shape_options()) {
