@@ -1,5 +1,5 @@
-// What the arithmetic must be: every operation on doubles rounded to a double, once, in the order written. Proofs and
-// equal bits stand on it, so a build where it is not so is refused.
+// Requirements on the arithmetic: every operation on doubles is rounded to a double, once, in the order written. Proofs
+// and equal bits depend on it, so any other build is refused.
 #ifndef OVOID_BASE_ARITHMETIC_H
 #define OVOID_BASE_ARITHMETIC_H
 

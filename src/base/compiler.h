@@ -1,5 +1,5 @@
-// What standard C has no word for: the words of gcc and clang, here only (and in simd, and where the floating-point
-// environment is).
+// Extensions of gcc and clang for what standard C cannot express. They are used only here, in simd, and for the
+// floating-point environment.
 #ifndef OVOID_BASE_COMPILER_H
 #define OVOID_BASE_COMPILER_H
 
@@ -9,11 +9,11 @@
 #error "ovoid is compiled by gcc or clang; its headers serve any compiler of C17 or C++17"
 #endif
 
-/// A function that is called, not copied into its caller: its part of the stack is gone when it returns.
+/// A function that is called, not inlined: its part of the stack is free when it returns.
 #define COMPILER_NOINLINE __attribute__((noinline))
 
-/// A function that is copied into every caller: its constant arguments are constants there, and functions among them
-/// are copied too.
+/// A function that is inlined into every caller: its constant arguments are constants there, and functions among them
+/// are inlined too.
 #define COMPILER_INLINED static inline __attribute__((always_inline))
 
 /// A function whose argument number `format_at` is that of printf, for those from `first` on. (mingw has two printfs;
@@ -24,12 +24,12 @@
 #define COMPILER_PRINTF(format_at, first) __attribute__((format(printf, format_at, first)))
 #endif
 
-/// How many zeros there are below the lowest one, and above the highest; bits is not 0.
+/// The number of zeros below the lowest one; the number above the highest. bits is not 0.
 static inline unsigned compiler_count_low_zeros(uint32_t bits) { return (unsigned)__builtin_ctz(bits); }
 static inline unsigned compiler_count_low_zeros_64(uint64_t bits) { return (unsigned)__builtin_ctzll(bits); }
 static inline unsigned compiler_count_high_zeros(uint32_t bits) { return (unsigned)__builtin_clz(bits); }
 
-/// Asks for the memory there before it is read.
+/// Prefetches the memory at an address.
 static inline void compiler_prefetch(const void *at) { __builtin_prefetch(at); }
 
 #endif

@@ -3,27 +3,27 @@
 // and it returns with the caller's settings as they were. Exception flags that the caller had raised stay; others may
 // be raised by the arithmetic, as libm's functions do it.
 //
-// On x86-64 all arithmetic is SSE's (nothing here is long double), so one control register holds it all: it is read on
-// entering, and written only where the caller's settings differ. (To take a flag back it would have to be read again on
-// leaving: 6 ns, half of what the shortest query takes.) Windows' sine and cosine are the x87's, so its registers are
+// On x86-64 all arithmetic is SSE's (nothing here is long double), so one control register holds all settings: it is
+// read on entry, and written only if the caller's settings differ. (To restore a flag it would have to be read again on
+// exit: 6 ns, half of what the shortest query takes.) Windows' sine and cosine are the x87's, so its
 // kept there too. 64-bit ARM has a register of settings. Elsewhere <fenv.h> does the same, slower.
 //
-// A compiler knows nothing of that register, and may move arithmetic across the reading and writing of it. What the
-// arithmetic starts from and what it ends in is therefore hidden from it (environment_hide): arguments passed by value
-// after entering, the result before leaving. What is read through pointers needs no hiding.
+// A compiler does not know of that register, and may move arithmetic across reads and writes of it. So the operands and
+// the results of the arithmetic are hidden from it (environment_hide): arguments passed by value after entry, the
+// result before exit. Data read through pointers need no hiding.
 #ifndef OVOID_BASE_ENVIRONMENT_H
 #define OVOID_BASE_ENVIRONMENT_H
 
 #include "base/arithmetic.h"
 
-/// From here on the compiler knows nothing of the value of a variable; all that made it has been done.
+/// Makes the value of a variable unknown to the compiler; all computations of it are finished before.
 #define environment_hide(variable) __asm__ volatile("" : "+m"(variable) : : "memory")
 
 #if defined(__x86_64__) && !defined(OVOID_ENVIRONMENT_PORTABLE)
 
 #include <stdint.h>
 
-/// What the caller had: MXCSR; on Windows the x87's control and status words.
+/// The caller's settings: MXCSR; on Windows also the x87's control and status words.
 typedef struct environment {
     uint32_t control;
 #if defined(_WIN32)
@@ -70,7 +70,7 @@ static inline void x87_leave(const environment *before) {
 
 #endif
 
-/// Makes the environment the default one; what it was. Flags that are raised stay.
+/// Sets the default environment and returns the previous one. Flags that are raised stay raised.
 static inline environment environment_enter(void) {
     environment before = {.control = environment_read()};
 #if defined(_WIN32)
@@ -92,7 +92,7 @@ static inline void environment_leave(environment before) {
 
 #include <stdint.h>
 
-/// What the caller had: FPCR, of which zero is the default.
+/// The caller's settings: FPCR, of which zero is the default.
 typedef struct environment {
     uint64_t control;
 } environment;
@@ -137,7 +137,7 @@ static inline void environment_leave(environment before) { (void)fesetenv(&befor
     environment_leave(before_);                                                                                        \
     return result_
 
-/// What `call` writes into `name`, declared here: what is too large to be copied.
+/// Runs `call`, which writes into `name`, declared here: for results too large to copy.
 #define ENVIRONMENT_RETURN_FILLED(type, name, hidden, call)                                                            \
     type name;                                                                                                         \
     environment before_ = environment_enter();                                                                         \
@@ -148,13 +148,13 @@ static inline void environment_leave(environment before) { (void)fesetenv(&befor
     return name
 
 /// The value of a call of a COMPILER_NOINLINE function: no arithmetic can leave it, so nothing is hidden, and the
-/// answer is made in the caller's place, not copied there.
+/// answer is built in the caller's memory, without a copy.
 #define ENVIRONMENT_RETURN_CALL(call)                                                                                  \
     __attribute__((cleanup(environment_leave_at), unused)) environment before_ = environment_enter();                  \
     return call
 static inline void environment_leave_at(const environment *before) { environment_leave(*before); }
 
-/// Nothing.
+/// Runs `call`, which returns nothing.
 #define ENVIRONMENT_RUN(call)                                                                                          \
     environment before_ = environment_enter();                                                                         \
     (call);                                                                                                            \

@@ -9,7 +9,7 @@ void error_write(ovoid_error *error, ovoid_code code, int64_t place, const char 
     if (!error) return;
     error->code = code;
     error->place = place;
-    // Some C libraries print numbers by long doubles, which raise flags of the x87's own.
+    // Some C libraries print numbers with long doubles, which raise the x87's own flags.
     fenv_t before;
     (void)fegetenv(&before);
     va_list arguments;

@@ -4,7 +4,7 @@
 
 #include "ovoid/base.h"
 
-/// 1 where the call is to end. NULL: nobody asks.
+/// 1 if the host wants the call to end. NULL: never.
 static inline int watch_is_stopped(const ovoid_watch *watch) {
     return watch && watch->is_stopped && watch->is_stopped(watch->context);
 }

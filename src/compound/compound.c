@@ -1,4 +1,4 @@
-// Compounds: making one in one block of memory, and its accessors.
+// Creating a compound in one block of memory; its accessors.
 #include "compound/compound.h"
 
 #include "base/allocator.h"
@@ -38,7 +38,7 @@ static size_t advance(size_t *at, size_t count, size_t size) {
     return start;
 }
 
-// The block with its arrays in place, not yet filled.
+// The block with its arrays laid out, not yet filled.
 static ovoid_compound *create_block(size_t count, const ovoid_allocator *memory) {
     size_t size = 0, header = advance(&size, 1, sizeof(ovoid_compound));
     size_t nodes = advance(&size, 2 * count - 1, sizeof(compound_node));
@@ -71,7 +71,7 @@ static void pose_vertices(const ovoid_posed_shape *parts, size_t count, parts_ve
     all->starts[count] = at;
 }
 
-// Fills the block from the parts; 0 where there is no memory.
+// Fills the block from the parts; 0 if memory runs out.
 static int fill(ovoid_compound *c, const ovoid_posed_shape *parts, const ovoid_allocator *memory) {
     size_t vertices = 0;
     for (size_t i = 0; i < c->count; i++) {

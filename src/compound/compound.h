@@ -12,7 +12,7 @@
 #include "query/answer.h"
 
 /// Bounds of the parts at [first, end) of the order, radii and rounding included: a box along the compound's axes, a
-/// sphere around its centre, and an ellipsoid where that is the narrower one.
+/// sphere around its centre, and an ellipsoid if that is narrower.
 typedef struct compound_node {
     vec3 center;
     double radius;
@@ -29,7 +29,7 @@ typedef struct compound_part {
     const ovoid_shape *shape;
     ovoid_pose pose;
     mat3 rotation; ///< of the part's pose
-    vec3 at;       ///< where the shape's body frame has its origin
+    vec3 at;       ///< the origin of the shape's body frame
     vec3 center;   ///< of the sphere around the part
     double reach;  ///< of that sphere: the rounding radius and all rounding included
 } compound_part;
@@ -68,20 +68,20 @@ typedef struct parts_vertices {
     size_t *starts;
 } parts_vertices;
 
-/// Fills nodes, parts, order and places; 0 where there is no memory.
+/// Fills nodes, parts, order and places; 0 if memory runs out.
 int tree_build(ovoid_compound *compound, const ovoid_posed_shape *parts, const parts_vertices *all);
 
 /// The node of a single shape, in the shape's own frame.
 compound_node node_make_shape(const ovoid_shape *shape);
 
-/// The part, in the frame that its pose is in.
+/// The part, in the frame of its pose.
 compound_part part_make(const ovoid_posed_shape *body);
 
-/// An ellipsoid that encloses e and a ball of radius r around each of its points, with room for rounding, also for that
-/// of a support computed in doubles.
+/// An ellipsoid that encloses e and a ball of radius r around each of its points, with room for rounding, including
+/// that of a support computed in doubles.
 ovoid_ellipsoid ellipsoid_enlarge(ovoid_ellipsoid e, double r);
 
-/// Fills the outer and inner ellipsoids; 0 where there is no memory.
+/// Fills the outer and inner ellipsoids; 0 if memory runs out.
 int compound_compute_bounds(ovoid_compound *compound, const ovoid_posed_shape *parts, const parts_vertices *all);
 
 #endif

@@ -1,12 +1,12 @@
 // A compound between two ellipsoids: one around all parts, and the largest one inside a part.
 //
-// Outer: the Loewner-John ellipsoid E of the parts' vertices (ellipsoid/outer.c), enlarged by a radius r that holds the
-// rounding radii and what the vertices as computed may be off by. For any s > 0, with h = sqrt(n' Q n),
+// Outer: the Loewner-John ellipsoid E of the parts' vertices (ellipsoid/outer.c), enlarged by a radius r that includes
+// the rounding radii and the errors of the computed vertices. For any s > 0, with h = sqrt(n' Q n),
 //     (h + r)^2 = h^2 + 2 h r + r^2 <= h^2 + h^2 r / s + r s + r^2 = n' ((1 + r / s) Q + r (r + s) I) n,
 // so the ellipsoid of the matrix on the right encloses E and the ball of radius r around each of its points. The best s
-// is about the ellipsoid's mean radius. Where radii differ, r is the least of them, and of larger ones the rest is put
-// around each vertex as the corners of a cube, which holds the ball.
-// Inner: a shape's inner ellipsoid under its pose, smaller by what rounding can do to centre and matrix.
+// is about the ellipsoid's mean radius. If radii differ, r is the least of them; for a larger radius the corners of a
+// cube around each vertex, which contains the rest of the ball, are added.
+// Inner: a shape's inner ellipsoid under its pose, reduced by the rounding errors of centre and matrix.
 #include "compound/compound.h"
 
 #include "base/allocator.h"
@@ -23,7 +23,8 @@ static double find_least_radius(const ovoid_posed_shape *parts, uint32_t count) 
     return least;
 }
 
-// Writes points whose hull, enlarged by the least radius, holds all parts; returns their number. to NULL: counts only.
+// Writes points whose hull, enlarged by the least radius, contains all parts; returns their number. to NULL: only
+// counts.
 static size_t write_points(const ovoid_posed_shape *parts, uint32_t count, const parts_vertices *all, double *to) {
     double least = find_least_radius(parts, count);
     size_t at = 0;
@@ -74,7 +75,7 @@ static int compute_outer(ovoid_compound *c, const ovoid_posed_shape *parts, cons
     (void)write_points(parts, c->count, all, points);
     int done = fit_outer(c, points, count, radius);
     allocator_release(&c->allocator, points);
-    // With too many points, or near the largest length, the sphere of the tree's root serves.
+    // If there are too many points, or near the largest length, the sphere of the tree's root is used.
     if (done < 0) {
         double square = c->nodes->radius * c->nodes->radius * (1 + 4 * 0x1p-53);
         c->outer = (ovoid_ellipsoid){c->nodes->center, sym3_diagonal(square, square, square)};
@@ -82,8 +83,7 @@ static int compute_outer(ovoid_compound *c, const ovoid_posed_shape *parts, cons
     return done != 0;
 }
 
-// A part's inner ellipsoid in the compound's frame, shrunk to stay in the part; Q is zero where the errors leave
-// nothing.
+// A part's inner ellipsoid in the compound's frame, shrunk to stay in the part; Q is zero if the errors leave nothing.
 static ovoid_ellipsoid pose_inner(const ovoid_compound *c, const ovoid_posed_shape *part) {
     const ovoid_shape *shape = part->shape;
     mat3 r = quat_to_mat3(part->pose.rotation);

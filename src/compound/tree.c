@@ -5,7 +5,7 @@
 //
 // What is proven: every node's box, sphere and ellipsoid contain its parts, radii and all rounding included. A posed
 // vertex as it comes here is off by less than 46 u E (compound.h); a box's centre and half sizes by 4 u E, the sphere's
-// radius by 8 u of itself: 64 u E, the largest E of the compound, pays for all of it.
+// radius by 8 u of itself: 64 u E, with the largest E of the compound, covers all of it.
 #include "compound/compound.h"
 
 #include "base/allocator.h"
@@ -58,16 +58,16 @@ static double find_reach(const parts_vertices *all, uint32_t part, vec3 center) 
     return sqrt(most);
 }
 
-// Drops a node's ellipsoid where the box is about as narrow. The ellipsoid's average support over all directions is at
-// most the root of a third of the trace, a box's half the sum of its half sizes; a tenth more still pays in some
-// directions (measured).
+// Drops a node's ellipsoid if the box is about as narrow. The ellipsoid's average support over all directions is at
+// most the root of a third of the trace, that of a box half the sum of its half sizes. An ellipsoid a tenth larger
+// still pays in some directions (measured).
 static void drop_if_wide(compound_node *n) {
     double of_box = 0.5 * (n->half.x + n->half.y + n->half.z);
     if (!(sqrt(sym3_trace(n->round) / 3) < 1.1 * of_box)) n->round = (sym3){0, 0, 0, 0, 0, 0};
 }
 
 // The smallest ellipsoid around a node's vertices, enlarged by the largest radius; used if it is proven and narrower
-// than the box. Only where there is a part of rank 3, since flat ones need a hull to find their rank.
+// than the box. Only if there is a part of rank 3, since flat parts need a hull to find their rank.
 static void fit_ellipsoid(builder *b, compound_node *n) {
     uint32_t rank = 0;
     double radius = 0;
@@ -109,7 +109,7 @@ static compound_node make_node(builder *b, uint32_t first, uint32_t end) {
     return n;
 }
 
-// Parts sorted along an axis by the centres of their boxes.
+// A part and its box's centre along an axis, for sorting.
 typedef struct along {
     const box *boxes;
     int axis;
@@ -130,8 +130,8 @@ static double find_area(const box *b) {
     return d.x * d.y + d.y * d.z + d.z * d.x;
 }
 
-// Where to cut a sorted run in two: the least sum of surfaces weighed by their parts, a quarter of the parts at least
-// to each side.
+// The best cut of a sorted run: the least sum of surfaces weighed by their parts, with at least a quarter of the parts
+// on each side.
 static uint32_t find_cut(const builder *b, const uint32_t *order, uint32_t count, double *cost) {
     box right = b->boxes[order[count - 1]];
     for (uint32_t k = count - 1; k > 0; k--) {

@@ -1,9 +1,10 @@
-// Where a surface meets itself: pairs of triangles with a point in common that is no corner or edge of both. Each
-// triangle is asked which others' boxes meet its own, and exact signs of determinants decide: an edge meets a triangle
-// where its ends are not on one side of its plane, and the line through them passes no edge on the wrong side; in one
-// plane, where it meets an edge or an end is inside (P. Guigue, O. Devillers, Fast and robust triangle-triangle overlap
-// test using orientation predicates, 2003). Two triangles with a common edge meet elsewhere only if they are folded
-// onto each other. Triangles without area are left out, as are those of three common corners: the report has both.
+// Self-intersections of a surface: pairs of triangles with a common point that is not a common corner or edge. For each
+// triangle the tree finds the triangles whose boxes meet its own, and exact signs of determinants decide. An edge meets
+// a triangle if its ends are not on one side of the triangle's plane, and the line through them passes no edge on the
+// wrong side; in one plane, if it meets an edge or one end is inside (P. Guigue, O. Devillers, Fast and robust
+// triangle-triangle overlap test using orientation predicates, 2003). Two triangles with a common edge meet elsewhere
+// only if they are folded onto each other. Triangles without area and triangles of three common corners are left out:
+// the report counts both.
 #include "base/environment.h"
 #include "linear/exact.h"
 #include "solid/solid.h"
@@ -33,7 +34,7 @@ static facet make_facet(const search *state, uint32_t place) {
 static double min3(double a, double b, double c) { return min2(a, min2(b, c)); }
 static double max3(double a, double b, double c) { return max2(a, max2(b, c)); }
 
-/// 1 if the intervals of three and of three numbers have none in common.
+/// 1 if two intervals, each of three numbers, have no number in common.
 static int are_apart(double a0, double a1, double a2, double b0, double b1, double b2) {
     return min3(a0, a1, a2) > max3(b0, b1, b2) || max3(a0, a1, a2) < min3(b0, b1, b2);
 }
@@ -44,7 +45,7 @@ static int are_boxes_apart(const facet *a, const facet *b) {
            are_apart(a->c[0].z, a->c[1].z, a->c[2].z, b->c[0].z, b->c[1].z, b->c[2].z);
 }
 
-// ---- in one plane, seen from a point beside it
+// ---- two triangles in one plane, seen from a point beside it
 
 /// A point that is not in the triangle's plane; 0 where the triangle has no area.
 static int find_apex(const vec3 c[3], vec3 *apex) {
@@ -101,8 +102,8 @@ static int meets(vec3 p, vec3 q, const vec3 c[3]) {
 
 // ---- two triangles
 
-/// How many corners they share; of each triangle the first that is shared (of two, the one before the edge's other end)
-/// or, of two, the first that is not.
+/// How many corners two triangles share. *at_a and *at_b: with one shared corner its place in each triangle, with two
+/// the place of the corner that is not shared.
 static int find_shared(const facet *a, const facet *b, int *at_a, int *at_b) {
     int count = 0, sum_a = 0, sum_b = 0;
     for (int i = 0; i < 3; i++)
@@ -119,7 +120,7 @@ static int has_area(const facet *f) {
            find_apex(f->c, &apex);
 }
 
-/// 1 where both lie in one plane, on the same side of their common edge; the corners named are not of that.
+/// 1 if both lie in one plane, on the same side of their common edge; the named corners are not on that edge.
 static int are_folded(const facet *a, const facet *b, int at_a, int at_b) {
     vec3 apex, from = a->c[(at_a + 1) % 3], to = a->c[(at_a + 2) % 3];
     if (orient3d_sign(a->c[0], a->c[1], a->c[2], b->c[at_b]) != 0 || !find_apex(a->c, &apex)) return 0;
@@ -147,7 +148,7 @@ static void take(search *state, uint32_t one, uint32_t other) {
     state->out->triangle_b = is_first ? order[other] : order[one];
 }
 
-/// All others behind it in the tree's order. 0: there are as many as were wanted.
+/// Visits all triangles behind `place` in the tree's order. 0: as many pairs as wanted have been found.
 static int visit(search *state, uint32_t place) {
     enum { ROOM = 64 };
     uint32_t places[ROOM], found;

@@ -1,16 +1,17 @@
-// Whether triangles are closed, as a chain of pieces of lines: each piece is run through as often one way as the other.
+// Whether triangles are closed, as a chain of pieces of lines: each piece occurs as often in one direction as in the
+// other.
 //
-// First edges are sorted by their ends, and equal ones cancel. In most meshes nothing is left, or all that is left is
-// open. But an edge from a to c also cancels with those from c to b and from b to a where b is exactly between a and c:
-// a triangle a b c without area has such edges, and so has a corner on the edge of a neighbor. So of what is left the
-// ends are looked at: for a point and a line through it, count how often edges on that line leave the point, less how
-// often they arrive. How often the line is run through changes at its points by these counts, and it is 0 far out; so
-// it is 0 everywhere if and only if they all are.
+// First the edges are sorted by their ends, and equal ones cancel. In most meshes none remain, or all that remain are
+// open. But an edge from a to c also cancels with the edges from c to b and from b to a if b is exactly between a and
+// c: a triangle a b c without area has these edges, and so has a corner on the edge of a neighbour. So the ends of the
+// remaining edges are examined: for a point and a line through it, count how many edges on that line leave the point,
+// minus how many arrive. The number of times that the line is covered changes at its points by these counts, and it is
+// 0 far out; so it is 0 everywhere if and only if all counts are 0.
 //
-// Winding numbers are defined for such chains: a small circle around a piece of a line crosses the surface as often
-// upward as downward. This is less than a manifold, of which each edge has two triangles.
+// Winding numbers are defined for these chains: a small circle around a piece of a line crosses the surface as often
+// upward as downward. This needs less than a manifold, in which each edge has two triangles.
 //
-// Cost: linear, but for the edges of one point, each of which is compared with those that are parallel to rounding.
+// Cost: linear, except for the edges of one point, each of which is compared with those that are parallel to rounding.
 #include "solid/edges.h"
 
 #include "base/allocator.h"
@@ -22,7 +23,7 @@
 /// An edge as one of its two points sees it.
 typedef struct edge_end {
     uint32_t point, other;
-    int32_t leaving; ///< how often it leaves the point, less how often it arrives
+    int32_t leaving; ///< edges that leave the point minus edges that arrive
 } edge_end;
 
 typedef struct chain {
@@ -80,7 +81,8 @@ static uint32_t list_ends(chain *c, uint32_t count) {
 
 static vec3 get_point(const chain *c, uint32_t i) { return vec3_scale(vec3_at(c->parts->points, i), c->scale); }
 
-// Three points are on a line if they look so along each axis: each of the three determinants is that of a projection.
+// Three points are on a line if they appear on a line along each axis: each of the three determinants is that of a
+// projection.
 int solid_is_collinear(vec3 a, vec3 b, vec3 c) {
     vec3 u = vec3_sub(b, a), v = vec3_sub(c, a);
     if (vec3_max_abs(vec3_cross(u, v)) > 1e-10 * vec3_max_abs(u) * vec3_max_abs(v)) return 0;
@@ -91,7 +93,7 @@ int solid_is_collinear(vec3 a, vec3 b, vec3 c) {
     return 1;
 }
 
-// A number that parallel edges share but for rounding.
+// A number that is about the same for parallel edges.
 static uint64_t make_line_key(const chain *c, const edge_end *e) {
     vec3 d = vec3_sub(get_point(c, e->other), get_point(c, e->point));
     if (vec3_max_abs(d) < 0x1p-500) d = vec3_scale(d, 0x1p500);
@@ -102,7 +104,7 @@ static uint64_t make_line_key(const chain *c, const edge_end *e) {
 // Keys of parallel edges are no farther apart.
 #define KEY_WINDOW ((uint64_t)1 << 20)
 
-// Of the ends of one point, which entries name by their keys: how many lines have a count that is not 0.
+// The number of lines through one point whose count is not 0; entries name the ends of its edges by their keys.
 static uint32_t count_open_lines(const chain *c, uint32_t count) {
     uint32_t open = 0;
     for (uint32_t i = 0; i < count; i++) {
@@ -121,7 +123,7 @@ static uint32_t count_open_lines(const chain *c, uint32_t count) {
     return open;
 }
 
-// How many ends of pieces of lines are open.
+// The number of open ends of pieces of lines.
 static uint64_t count_open_ends(chain *c, uint32_t count) {
     uint32_t *by_point = c->order + count;
     uint64_t open = 0;
@@ -139,7 +141,7 @@ static uint64_t count_open_ends(chain *c, uint32_t count) {
     return open;
 }
 
-// Each piece that is open has two ends.
+// Finds the open pieces of edges; each has two open ends.
 static int match_pieces(chain *c, uint32_t count, const ovoid_allocator *a, solid_edges *edges) {
     size_t ends = 2 * (size_t)edges->unmatched;
     c->ends = allocator_allocate(a, ends, sizeof(edge_end));
@@ -155,7 +157,7 @@ int solid_find_edges(const solid_parts *p, const ovoid_allocator *a, solid_edges
     double extent = 0;
     for (uint32_t i = 0; i < p->point_count; i++) extent = max2(extent, vec3_max_abs(vec3_at(p->points, i)));
     chain c = {.parts = p, .scale = ldexp(1, -find_unit_exponent(extent))};
-    // A mesh whose edges are all open has twice as many ends.
+    // Twice as many ends if all edges of the mesh are open.
     c.entries = allocator_allocate(a, p->triangle_count, 6 * sizeof(sort_entry));
     c.scratch = allocator_allocate(a, p->triangle_count, 6 * sizeof(sort_entry));
     int is_made = c.entries && c.scratch;

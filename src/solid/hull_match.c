@@ -2,27 +2,27 @@
 //
 // Let H be the hull, c its centroid, and M the body: the triangles and all points around which they wind.
 //
-// Exactly. A triangle lies on the boundary of H if its plane has no point of H on one side. If all do (those without
-// area bound nothing and are left out), no triangle enters the interior of H, so the winding number is the same all
-// over it; where it is not 0 at c, M is H. A plane has no point of H on one side if some vertex of H is on it and the
+// Exact match. A triangle lies on the boundary of H if its plane has no point of H on one side. If all do (those
+// without area bound nothing and are left out), no triangle enters the interior of H, so the winding number is the same
+// all over it; if it is not 0 at c, M is H. A plane has no point of H on one side if some vertex of H is on it and the
 // neighbors of that vertex are not on both sides: H lies in the cone from the vertex through its neighbors.
 //
-// Nearly. Let n be a direction and h = max over H of n.x, and let all three corners v of a triangle have
-// n.(v - c) >= (1 - l) (h - n.c). Then the triangle does not enter the interior of K = c + (1 - l) (H - c), which n.(x
-// - c) <= (1 - l) (h - n.c) holds for. If this is so for all triangles with one l < 1, and the winding number at c is
-// not 0, it is not 0 all over the interior of K: K lies in M, and M in H. For every direction the supports of H and K
-// differ by l times that of H - c, at most w = l max |v - c| over the vertices of H. So for convex B
-//     d(H, B) <= d(M, B) <= d(K, B) <= d(H, B) + w,
-// depths included, and for other bodies too, which are unions of convex ones. (The distance of M and H is not enough: a
-// slot may be as thin as one likes.)
+// Near match. Let n be a direction and h = max over H of n.x, and let all three corners v of a triangle have n.(v - c)
+// >= (1 - l) (h - n.c). Then the triangle does not enter the interior of K = c + (1 - l) (H - c), for which n.(x - c)
+// <= (1 - l) (h - n.c). If this is so for all triangles with one l < 1, and the winding number at c is not 0, it is not
+// 0 in the whole interior of K: K lies in M, and M in H. For every direction the supports of H and K differ by l times
+// that of H - c, at most w = l max |v - c| over the vertices of H. So for convex B
+// d(H, B) <= d(M, B) <= d(K, B) <= d(H, B) + w,
+// depths included. The same holds for other bodies, which are unions of convex ones. (The distance of M and H alone
+// would not do: a slot may be arbitrarily thin.)
 //
-// n is the normal of a triangle of H nearby: its plane is a support of H, exactly, and double-double arithmetic makes
-// what is rounded of it nothing. Where none will do, as of slivers, n comes from the depth of the triangle in H, and h
-// from all vertices of H.
+// n is the normal of a triangle of H nearby: its plane supports H exactly, and in double-double arithmetic its rounding
+// is negligible. If no triangle will do, as for slivers, n comes from the depth of the triangle in H, and h from all
+// vertices of H.
 //
-// Neither M nor K need be near H for that: of any solid for which one l < 1 suffices, w is the gap of its hull.
+// Neither M nor K needs to be near H for this: for any solid with one l < 1, w is the gap of its hull.
 //
-// Cost: for each triangle the neighbors of a vertex; where it is not exact, the triangles around its corners.
+// Cost: for each triangle the neighbors of a vertex; if it does not match exactly, the triangles around its corners.
 #include "base/allocator.h"
 #include "base/environment.h"
 #include "base/error.h"
@@ -32,16 +32,16 @@
 #include "solid/edges.h"
 #include "solid/merge.h"
 
-/// What w may be: of the diagonal; of the largest coordinate, a few roundings to single precision; of the diagonal,
-/// all.
+/// Limits of w: shares of the diagonal and of the largest coordinate (a few roundings to single precision), summed; and
+/// a share of the diagonal for the sum.
 #define SHARE_OF_DIAGONAL 1e-6
 #define SHARE_OF_COORDINATE 4e-7
 #define LARGEST_SHARE 1e-4
 
-/// What l may be of a solid's hull gap: K is at least half of H.
+/// The largest l of a solid's hull gap: K is at least half as large as H.
 #define LARGEST_GAP 0.5
 
-/// How many vertices of H are looked at for triangles that need them all, for each triangle there is, and in any case.
+/// How many vertices of H may be read for triangles that need all of them: for each triangle, and in addition.
 #define LOOKS_OF_TRIANGLE 64
 #define LOOKS 20000000
 
@@ -52,17 +52,17 @@ typedef struct match {
     const ovoid_allocator *allocator;
     double scale;              ///< a power of two: body frame's coordinates below 1
     vec3 center;               ///< c, in that unit
-    double reach;              ///< no vertex is farther from c, in that unit
-    uint32_t *vertices;        ///< of each point the vertex of H that it is, or UINT32_MAX
+    double reach;              ///< no vertex is farther from c than this, in that unit
+    uint32_t *vertices;        ///< for each point the equal vertex of H, or UINT32_MAX
     uint32_t *starts, *around; ///< the triangles of H around each vertex
-    double least, most;        ///< l that was needed; that may be
-    uint64_t looks;            ///< left
+    double least, most;        ///< the least l that is needed; the largest that is allowed
+    uint64_t looks;            ///< reads of vertices that are left
     uint32_t last;             ///< a vertex of H near the last triangle
 } match;
 
 static vec3 get_vertex(const match *m, uint32_t i) { return vec3_scale(vec3_at(m->hull.vertices, i), m->scale); }
 
-// ---- exactly
+// ---- exact match
 
 // 1 if no vertex of H is on one side of the plane through the corners, given one that is on it.
 static int is_support(const match *m, const vec3 corner[3], uint32_t vertex) {
@@ -76,7 +76,7 @@ static int is_support(const match *m, const vec3 corner[3], uint32_t vertex) {
     return 1;
 }
 
-// A vertex of H that is farthest along n, but for rounding.
+// A vertex of H that is farthest along n, to rounding.
 static uint32_t climb(match *m, vec3 n) {
     uint32_t at = m->last, before;
     double best = vec3_dot(n, get_vertex(m, at));
@@ -90,11 +90,11 @@ static uint32_t climb(match *m, vec3 n) {
     return m->last = at;
 }
 
-// ---- nearly
+// ---- near match
 
-// The least l with which the plane of H's triangle t parts K from the corners, rounded up; infinity where rounding
-// takes all. Differences of doubles are exact in pairs of them; each later operation is off by less than 2^-100 of the
-// sizes of what it combines.
+// The least l with which the plane of H's triangle t separates K from the corners, rounded up; infinity if rounding
+// hides it. Differences of doubles are exact in pairs of them; each later operation is off by less than 2^-100 of its
+// operands' sizes.
 static double measure_plane(const match *m, const vec3 corner[3], uint32_t t) {
     const uint32_t *v = m->hull.triangles + 3 * (size_t)t;
     dd3 o = dd3_from(get_vertex(m, v[0]));
@@ -107,7 +107,7 @@ static double measure_plane(const match *m, const vec3 corner[3], uint32_t t) {
     return height > 2 * off ? (deepest * (1 + 0x1p-50) + off) / (height - off) * (1 + 0x1p-50) : INFINITY;
 }
 
-// About the same in doubles, to choose among planes.
+// About the same as measure_plane, in doubles, to choose among planes.
 static double estimate_plane(const match *m, const vec3 corner[3], uint32_t t) {
     const uint32_t *v = m->hull.triangles + 3 * (size_t)t;
     vec3 o = get_vertex(m, v[0]);
@@ -129,8 +129,8 @@ static void look_around(const match *m, const vec3 corner[3], uint32_t vertex, b
     }
 }
 
-// l by a direction and all vertices of H. Coordinates are below 1, |n| is at most 1.01: each product is off by less
-// than 2^-50.
+// The least l by a direction and all vertices of H. Coordinates are below 1, |n| is at most 1.01: each product is off
+// by less than 2^-50.
 static double measure_direction(const match *m, const vec3 corner[3], vec3 n) {
     double h = -INFINITY, deepest = 0, off = 0x1p-48;
     for (uint32_t i = 0; i < m->hull.vertex_count; i++) h = max2(h, vec3_dot(n, get_vertex(m, i)));
@@ -139,7 +139,7 @@ static double measure_direction(const match *m, const vec3 corner[3], vec3 n) {
     return height > 2 * off ? (deepest + off) / (height - off) * (1 + 0x1p-50) : INFINITY;
 }
 
-// l by the depth of the triangle in H; infinity where all looks are used up. 0 where there is no memory.
+// The least l by the depth of the triangle in H; infinity if all reads are used up. 0 if memory runs out.
 static int measure_depth(match *m, const vec3 corner[3], double *l) {
     *l = INFINITY;
     if (m->looks < 2 * (uint64_t)m->hull.vertex_count) return 1;
@@ -164,7 +164,7 @@ static int measure_depth(match *m, const vec3 corner[3], double *l) {
 
 static int has_area(const vec3 c[3]) { return !solid_is_collinear(c[0], c[1], c[2]); }
 
-// 0 where a triangle parts H from the body by more than is allowed, -1 where there is no memory.
+// 0 if a triangle separates H from the body by more than is allowed, -1 if memory runs out.
 static int match_triangle(match *m, uint32_t t) {
     const uint32_t *point = m->parts->triangles[t].point;
     vec3 corner[3];
@@ -193,7 +193,7 @@ static int match_triangle(match *m, uint32_t t) {
     return l <= m->most;
 }
 
-// Sees to it that all vertices of H are points of triangles, and lists its triangles around them.
+// Checks that all vertices of H are points of triangles, and lists its triangles around them.
 static int prepare(match *m, const solid_merger *merger) {
     const ovoid_polytope *p = &m->hull;
     for (uint32_t i = 0; i < m->parts->point_count; i++) m->vertices[i] = UINT32_MAX;
@@ -241,7 +241,7 @@ static int winds_around_center(const match *m) {
     return winding != 0;
 }
 
-// Whether the triangles lie where those of a hull do; -1 where there is no memory.
+// Whether the triangles lie on or near the hull's boundary; -1 if memory runs out.
 static int match_triangles(match *m, const solid_merger *merger) {
     const ovoid_allocator *a = m->allocator;
     m->vertices = allocator_allocate(a, m->parts->point_count, sizeof(uint32_t));
@@ -255,13 +255,13 @@ static int match_triangles(match *m, const solid_merger *merger) {
     return is_hull;
 }
 
-// Whether K lies in the body; -1 where there is no memory.
+// Whether K lies in the body; -1 if memory runs out.
 static int match_body(match *m, const solid_merger *merger) {
     int is_hull = match_triangles(m, merger);
     return is_hull > 0 ? winds_around_center(m) : is_hull;
 }
 
-// w, rounded up; it stays a double of lengths.
+// w, rounded up; it remains a valid length.
 static double compute_gap(const match *m) { return m->least * m->reach / m->scale * (1 + 0x1p-50); }
 
 static int fill(match *m, const solid_merger *merger, ovoid_hull_match *out) {

@@ -1,4 +1,4 @@
-// The triangles that a caller gives: what is refused of them, and their points, of which equal ones become one.
+// The given triangles: refusals of bad input, and their points, of which equal ones are merged.
 #include "solid/merge.h"
 
 #include "base/allocator.h"
@@ -39,7 +39,7 @@ static int is_end(const void *table, size_t slot, const void *key) {
     return m->table[slot] == UINT32_MAX || hash_is_same_point(m->points + 3 * (size_t)m->table[slot], key);
 }
 
-// The slot of an equal point, or the free one where it belongs.
+// The slot of an equal point, or the free slot where it belongs.
 static size_t find_slot(const solid_merger *m, const double p[3]) {
     return hash_find(hash_point(p), (size_t)m->mask + 1, m, p, is_end);
 }

@@ -1,4 +1,4 @@
-// What the triangles of a solid are: closed or not, in how many pieces, with what doubled or without area.
+// The report of a solid's triangles: closed or not, connected components, duplicates, triangles without area.
 //
 // Edges: solid/edges.c. Components: union by points (B. A. Galler, M. J. Fischer, An improved equivalence algorithm,
 // 1964).
@@ -25,7 +25,7 @@ static void sort_points(uint32_t p[3]) {
     }
 }
 
-// Sorted by the two least points first, then, stably, by the greatest.
+// Counts duplicates: triangles are sorted by their two least points first, then, stably, by the greatest.
 static void count_duplicates(const solid_parts *p, room *r, ovoid_solid_report *report) {
     for (int pass = 0; pass < 2; pass++) {
         for (uint32_t i = 0; i < p->triangle_count; i++) {
@@ -56,7 +56,7 @@ static uint32_t find_components(const solid_parts *p, uint32_t *parent) {
     for (uint32_t t = 0; t < p->triangle_count; t++)
         for (int i = 1; i < 3; i++) {
             uint32_t a = find_root(parent, p->triangles[t].point[0]), b = find_root(parent, p->triangles[t].point[i]);
-            // To the lower index, which no order of the triangles changes.
+            // Joined under the lower index, so the order of the triangles does not matter.
             parent[a > b ? a : b] = a > b ? b : a;
         }
     uint32_t count = 0;
@@ -65,8 +65,8 @@ static uint32_t find_components(const solid_parts *p, uint32_t *parent) {
     return count;
 }
 
-// A closed surface whose volume is at most this share of its area, in units of its size, encloses nothing: a sheet with
-// two sides, whose volume is what rounding left. In metres a sheet of 1 m is one below 2 pm of thickness.
+// A closed surface whose volume is at most this share of its area, in units of its size, encloses nothing: it is a
+// sheet with two sides, whose volume is the result of rounding. A sheet of 1 m counts as flat below 2 pm of thickness.
 #define FLAT 0x1p-40
 
 // Volume and area about the middle of the points, and triangles without area.

@@ -1,4 +1,4 @@
-// A solid from triangles: points that are equal become one, then the report and the tree, in one block.
+// Creating a solid from triangles: equal points are merged, then the report and the tree are made, in one block.
 #include "solid/solid.h"
 
 #include "base/allocator.h"
@@ -45,7 +45,7 @@ static void place_arrays(ovoid_solid *s, const layout *l) {
     s->size = l->size;
 }
 
-// What is known before the tree, in a header that owns nothing but points and components.
+// Sets the parts of the header that precede the tree; the header owns only points and components.
 static void set_header(ovoid_solid *s, const solid_merger *m, uint32_t triangles) {
     s->point_count = m->count;
     s->triangle_count = triangles;
@@ -58,7 +58,7 @@ static void set_header(ovoid_solid *s, const solid_merger *m, uint32_t triangles
     s->reach = sphere_compute_radius(m->points, m->count, s->center);
 }
 
-// The tree in arrays of its own, since the number of its nodes is known only afterwards; then the block.
+// Builds the tree in arrays of its own, since the number of its nodes is known only afterwards; then the block.
 static ovoid_solid *assemble(ovoid_solid *made, const solid_merger *m, const uint32_t *components) {
     const ovoid_allocator *a = &made->allocator;
     uint32_t most = tree_get_most_nodes(made->triangle_count);

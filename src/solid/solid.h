@@ -27,7 +27,7 @@ struct ovoid_solid {
     vec3 center;    ///< of the box of all points
     double unit;    ///< a power of two, at least the largest size of a coordinate from `center`
     double extent;  ///< no point is farther than this from the frame's origin, rounding included
-    double reach;   ///< nor than this from `center`
+    double reach;   ///< no point is farther than this from `center`, rounding included
     ovoid_solid_report report;
     size_t size;
     ovoid_allocator allocator;
@@ -38,14 +38,14 @@ struct ovoid_solid {
     uint32_t *places;          ///< the place of each of the caller's triangles
     box8 *boxes;
     solid_node *nodes;
-    uint32_t *components; ///< a point of each
+    uint32_t *components; ///< one point of each component
 };
 
 static inline vec3 solid_get_corner(const ovoid_solid *s, uint32_t place, int corner) {
     return vec3_at(s->points, s->triangles[place].point[corner]);
 }
 
-/// A node of a tree, or a leaf: of a solid the triangle at a place.
+/// A node of a tree, or a leaf: the place of a triangle of a solid.
 typedef uint32_t tree_ref;
 #define TREE_LEAF 0x80000000u
 static inline int ref_is_leaf(tree_ref r) { return (r & TREE_LEAF) != 0; }
@@ -59,33 +59,32 @@ static inline tree_ref solid_get_child(const ovoid_solid *s, uint32_t node, uint
 /// Steps down a tree of 2^26 triangles: each child of more than eight has at most three quarters of its parent's.
 enum { SOLID_DEPTH_MAX = BOX8_DEPTH };
 
-/// What is made of a solid's triangles before the block is.
+/// The data of a solid's triangles before the block is made.
 typedef struct solid_parts {
     const double *points;
     const solid_triangle *triangles; ///< in the caller's order
     uint32_t point_count, triangle_count;
 } solid_parts;
 
-/// The report but for the box, and a point of each component in points' own room (at least point_count): how many there
-/// are, or 0 where memory is out.
+/// Fills the report, except for the box, and writes one point of each component into `points` (room for at least
+/// point_count). Returns the number of components, or 0 if memory runs out.
 uint32_t solid_compute_report(const solid_parts *parts, const ovoid_allocator *allocator, uint32_t *components,
                               ovoid_solid_report *report);
 
 /// A triangle's box in the tree's frame and unit.
 box solid_make_bounds(const ovoid_solid *solid, const solid_triangle *triangle);
-/// At most so many nodes are made of so many triangles.
+/// The largest number of nodes of a tree of that many triangles.
 uint32_t tree_get_most_nodes(uint32_t triangles);
-/// Fills boxes, nodes, order and node_count; center and unit must be set. triangles: in the caller's order. 0 where
-/// there is no memory.
+/// Fills boxes, nodes, order and node_count; center and unit must be set. triangles: in the caller's order. 0 if memory
+/// runs out.
 int solid_build_tree(ovoid_solid *solid, const solid_triangle *triangles);
 
-/// The signed crossing of the ray from p toward +x with a triangle, p moved by less than any number: 1, 0 or -1; 2
-/// where p is on the triangle, as far as exact signs tell. Coordinates in units of the body. corner: by index, for what
-/// edges have in common.
+/// The signed crossing of the ray from p toward +x with a triangle, with p moved by an infinitesimal amount: 1, 0 or
+/// -1; 2 if p is on the triangle, by exact signs. Coordinates in units of the body. index: of the corners, so that both
+/// triangles of an edge agree.
 int ray_count_crossing(vec3 p, const vec3 corner[3], const uint32_t index[3]);
 
-/// ovoid_solid_compute_winding for callers inside a public function. linear: all triangles are looked at, without the
-/// tree.
+/// ovoid_solid_compute_winding for callers inside a public function. linear: reads all triangles, without the tree.
 int solid_find_winding(const ovoid_solid *solid, vec3 point, int linear, int64_t *winding);
 
 #endif

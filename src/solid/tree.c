@@ -1,10 +1,11 @@
 // The tree of boxes over a solid's triangles, built top down. A range of triangles is cut in two, and the part with the
 // largest surface cut again, until there are eight or none of them has more than eight; those are the children of a
 // node (I. Wald, C. Benthin, S. Boulos, Getting rid of packets, 2008). A cut is the best of sixteen places along each
-// axis by the surface heuristic (I. Wald, On fast construction of SAH-based bounding volume hierarchies, 2007), moved
-// to a multiple of eight triangles, so that nodes of triangles are full but for one or two; with a quarter to each
-// side, no path is longer than 64. The triangles are put there by quickselect (C. A. R. Hoare, Algorithm 65: find,
-// 1961), ties by their index, so the tree depends on nothing but the input.
+// node (I. Wald, C. Benthin, S. Boulos, Getting rid of packets, 2008). A cut is the best of sixteen places along each
+// axis by the surface area heuristic (I. Wald, On fast construction of SAH-based bounding volume hierarchies, 2007),
+// moved to a multiple of eight triangles, so that all but one or two nodes of triangles are full. Each side gets at
+// least a quarter, so no path is longer than 64. Quickselect puts the triangles there (C. A. R. Hoare, Algorithm 65:
+// find, 1961), ties by their index, so the tree depends only on the input.
 #include "base/allocator.h"
 #include "solid/solid.h"
 
@@ -17,7 +18,7 @@ typedef struct range {
     uint32_t first, end;
     box bounds;
     double surface;
-    uint32_t level; ///< of its node, the root 1; set where it waits
+    uint32_t level; ///< of its node, the root is 1; set while it is on the stack
 } range;
 
 typedef struct builder {
@@ -27,8 +28,8 @@ typedef struct builder {
 } builder;
 
 uint32_t tree_get_most_nodes(uint32_t triangles) {
-    // A cut leaves at least three triangles to a side, so there are at most a third as many nodes of triangles, and of
-    // others, which have two children, fewer than of those.
+    // A cut leaves at least three triangles on each side, so at most a third as many nodes hold triangles; the other
+    // nodes have at least two children, so there are fewer of them.
     return 2 * (triangles / 3) + 1;
 }
 
@@ -44,7 +45,7 @@ static int is_before(const builder *b, uint32_t t, uint32_t pivot, double center
     return x < center || (x <= center && t < pivot);
 }
 
-// Puts the triangles so that those at [first, middle) come before those at [middle, end) along the axis.
+// Reorders the triangles so that those at [first, middle) come before those at [middle, end) along the axis.
 static void select_first(const builder *b, uint32_t first, uint32_t middle, uint32_t end, int axis) {
     uint32_t *order = b->solid->order;
     while (end - first > 1) {
@@ -74,7 +75,7 @@ static range make_range(const builder *b, uint32_t first, uint32_t end) {
     return r;
 }
 
-// The cost of cutting after each of the bins along an axis; the best one's number of triangles on the left.
+// The least cost of a cut after one of the bins along an axis; *left: the number of triangles on the left of that cut.
 static double find_cut(const builder *b, const range *r, int axis, box centers, uint32_t *left) {
     uint32_t count[BINS] = {0};
     box bounds[BINS];
@@ -107,7 +108,7 @@ static double find_cut(const builder *b, const range *r, int axis, box centers, 
     return best;
 }
 
-// Cuts a range of more than eight in two.
+// Cuts a range of more than eight triangles in two.
 static void cut(const builder *b, const range *r, range two[2]) {
     uint32_t count = r->end - r->first, left = count / 2, least = (count + 3) / 4;
     box centers = box_make_empty();
@@ -133,7 +134,7 @@ static void cut(const builder *b, const range *r, range two[2]) {
     two[1] = make_range(b, middle, r->end);
 }
 
-// The children of a range: how many.
+// The children of a range; returns their number.
 static uint32_t divide(const builder *b, const range *whole, range child[BOX8]) {
     uint32_t count = whole->end - whole->first;
     if (count <= BOX8) {
@@ -147,7 +148,7 @@ static uint32_t divide(const builder *b, const range *whole, range child[BOX8]) 
             if (child[i].end - child[i].first > BOX8 && (widest == BOX8 || child[i].surface > child[widest].surface))
                 widest = i;
         if (widest == BOX8) break;
-        // In order, so that a node's triangles stay a range of it.
+        // Keeps the children in order, so that the triangles of a node remain a range.
         memmove(&child[widest + 2], &child[widest + 1], (count - widest - 1) * sizeof *child);
         range parent = child[widest];
         cut(b, &parent, &child[widest]);
@@ -175,7 +176,7 @@ static void set_node(solid_node *n, const range *r, uint32_t children) {
     n->children = children;
 }
 
-// Makes the node over a range; its children that are nodes wait on the stack.
+// Makes the node of a range; its children that are nodes are pushed on the stack.
 static uint32_t make_node(const builder *b, const range *whole, uint32_t node, range *stack, uint32_t *nodes) {
     ovoid_solid *s = b->solid;
     range child[BOX8];

@@ -1,10 +1,10 @@
-// How often a closed surface winds around a point: the signed crossings of the ray from it toward +x.
+// How often a closed surface winds around a point: the signed crossings of the ray from the point toward +x.
 //
-// Every sign is that of an exact determinant. Where the ray meets an edge or a corner, the point counts as moved by
-// (0, e, e^2) for an e below any number, so that it meets none (H. Edelsbrunner, E. P. Muecke, Simulation of
-// simplicity, 1990): seen along x, a point is left or right of each edge that has two different ends there, and an edge
-// that has not bounds no area. The side of an edge is found with its ends in the order of their indices, so both
-// triangles of an edge agree. What is left open is a point on a triangle.
+// Every sign is that of an exact determinant. If the ray meets an edge or a corner, the point is moved by (0, e, e^2)
+// with an infinitesimal e, so that it meets none (H. Edelsbrunner, E. P. Muecke, Simulation of simplicity, 1990): seen
+// along x, a point is then left or right of each edge whose ends are different, and an edge whose ends are the same
+// bounds no area. The side of an edge is computed with its ends in the order of their indices, so both triangles of an
+// edge agree. The only case left open is a point on a triangle.
 #include "base/environment.h"
 #include "linear/exact.h"
 #include "solid/solid.h"
@@ -28,7 +28,7 @@ static int find_side_of_edge(vec3 p, vec3 ahead, const vec3 corner[3], const uin
 static double max3(double a, double b, double c) { return max2(a, max2(b, c)); }
 static double min3(double a, double b, double c) { return min2(a, min2(b, c)); }
 
-// 1 if the point, which is in the triangle's box, is on it: in its plane, and seen along no axis beside it.
+// 1 if the point, which is in the triangle's box, is on the triangle: in its plane, and not beside it along any axis.
 static int is_on(vec3 p, const vec3 c[3]) {
     if (orient3d_sign(c[0], c[1], c[2], p) != 0) return 0;
     for (int axis = 0; axis < 3; axis++) {
@@ -59,7 +59,7 @@ int ray_count_crossing(vec3 p, const vec3 c[3], const uint32_t index[3]) {
     return above == 0 ? 2 : above == -s0 ? above : 0;
 }
 
-// The ray in the solid's units, for exact signs; in the tree's frame, for its boxes.
+// The ray in the solid's unit, for exact signs, and in the tree's frame, for its boxes.
 typedef struct ray {
     vec3 p;
     double scale;
@@ -79,7 +79,7 @@ static int cross_tree(ray *r, const ovoid_solid *s, vec3 point) {
     enum { ROOM = 64 };
     uint32_t places[ROOM], found;
     vec3 p = vec3_scale(vec3_sub(point, s->center), 1 / s->unit);
-    // The boxes are rounded outward by more than this difference was off; the ray's box is so again.
+    // The boxes are rounded outward by more than the error of this difference; the ray's box is rounded outward again.
     const double ends[6] = {p.x, p.y, p.z, 4, p.y, p.z};
     box8_walk walk;
     box8_begin(&walk, s->boxes, ends);

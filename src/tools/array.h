@@ -1,4 +1,4 @@
-// Arrays that grow by doubling, from malloc. What uses a caller's allocator sizes its arrays first.
+// Arrays that grow by doubling, from malloc. Code with a caller's allocator sizes its arrays first instead.
 #ifndef OVOID_TOOLS_ARRAY_H
 #define OVOID_TOOLS_ARRAY_H
 
@@ -6,8 +6,8 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-/// Makes room for one more item of `size` bytes in an array of `count`; NULL is an empty array of capacity 0. 0 where
-/// there is no memory: the array is as it was.
+/// Makes room for one more item of `size` bytes in an array of `count`; NULL is an empty array of capacity 0. 0 if
+/// memory runs out: the array is unchanged.
 static inline int array_reserve(void **items, size_t *capacity, size_t count, size_t size) {
     if (count < *capacity) return 1;
     if (*capacity > SIZE_MAX / 4 / size) return 0;

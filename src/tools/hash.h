@@ -1,7 +1,7 @@
 // Hash tables with open addressing and linear probing (D. E. Knuth, The Art of Computer Programming 3, 6.4). The caller
-// owns the slots, a power of two of them, of which at least one is free; half of them keeps a search short. A slot is
-// whatever the caller's test reads: an index, a key. The search is copied into its caller, where the test is a constant
-// and no call.
+// owns the slots, a power of two of them, of which at least one is free; if half of them are free, searches are short.
+// The content of a slot is known only to the caller's test: an index, a key. The search is inlined into its caller, and
+// the test with it.
 #ifndef OVOID_TOOLS_HASH_H
 #define OVOID_TOOLS_HASH_H
 
@@ -9,7 +9,7 @@
 #include <stdint.h>
 #include <string.h>
 
-/// 1 where the slot of the table is free, or holds the key.
+/// 1 if the slot of the table is free, or holds the key.
 typedef int hash_test(const void *table, size_t slot, const void *key);
 
 /// The slot that holds the key, or the free one where it belongs.
@@ -39,7 +39,7 @@ static inline uint64_t hash_point(const double point[3]) {
     return (hash ^ hash >> 29) * factors[0] >> 32;
 }
 
-/// 1 where both points are the same three numbers, zeros of both signs being one.
+/// 1 if both points have the same three coordinates; 0 and -0 are equal.
 static inline int hash_is_same_point(const double *a, const double *b) {
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }

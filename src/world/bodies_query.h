@@ -1,10 +1,10 @@
-// The cold query of two bodies, for questions between frames.
+// The query of two bodies without a warm start, for queries between steps.
 #ifndef OVOID_WORLD_BODIES_QUERY_H
 #define OVOID_WORLD_BODIES_QUERY_H
 
 #include "body/body_find.h"
 
-/// Two shapes are asked directly, without a compound's traversal.
+/// Two shapes are queried directly, without a compound's traversal.
 static inline void bodies_query(const ovoid_body *a, const ovoid_body *b, const ovoid_options *options, query_goal goal,
                                 ovoid_body_answer *out) {
     if (a->shape && b->shape) {

@@ -1,4 +1,4 @@
-// A body's enclosing sphere and box, with what rounding can do to them.
+// A body's enclosing sphere and box, with bounds of rounding.
 #include "world/body_bounds.h"
 
 #include "compound/compound.h"
@@ -23,7 +23,7 @@ body_sphere body_compute_sphere(const ovoid_body *body) {
     vec3 local = vec3_add(s->origin, s->center);
     double size = vec3_max_abs(s->origin) + s->span + s->lower_radius;
     if (!shape_has_axis(s)) return (body_sphere){local, s->reach, s->lower_radius, size};
-    // What stands out across an axis turns with the body.
+    // The excess of the true body across an axis turns with the body.
     return (body_sphere){local, nextafter(s->reach + s->allowance.outside, INFINITY), s->radius, size};
 }
 
@@ -51,7 +51,7 @@ static vec3 absolute(vec3 v) { return (vec3){fabs(v.x), fabs(v.y), fabs(v.z)}; }
 
 static int has_own_box(const ovoid_body *body) { return body->compound || body->solid; }
 
-// The box around the own box of a compound or a solid, turned, no larger than that of its enclosing sphere.
+// The box around a compound's or a solid's own box, rotated; no larger than that of its enclosing sphere.
 static box find_own_box(const ovoid_body *body, const body_sphere *ball, mat3 r, vec3 at, double center_error) {
     vec3 half;
     if (body->compound) {

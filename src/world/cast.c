@@ -1,10 +1,10 @@
-// Casts into a world: a ray, or a body that is moved without turning. The tree is traversed in the order in which the
-// boxes are met, up to the first hit that is proven; the bodies are queried by the casts of motion.h, part by part, and
-// solids by those of cast_solid.h.
+// Casts into a world: a ray, or a body that moves without rotation. The tree is traversed in the order in which the
+// boxes are met, up to the first proven hit; bodies are queried by the casts of motion.h, part by part, and solids by
+// those of cast_solid.h.
 //
 // A slab is entered at (low - origin) / direction: one difference and one quotient of given numbers, off by 2 u of
-// itself, which WIDER covers. Boxes are enlarged by half the box of what moves, and by 2^-50 of their coordinates for
-// the rounding of that sum.
+// itself, which WIDER covers. Boxes are enlarged by half the box of the moving body, and by 2^-50 of their coordinates
+// for the rounding of that sum.
 #include "base/environment.h"
 #include "base/error.h"
 #include "body/body_tree.h"
@@ -18,10 +18,10 @@
 typedef struct casting {
     const ovoid_world *w;
     ovoid_groups groups;
-    vec3 origin, direction, grow; ///< of the centre of what moves; half the size of its box
+    vec3 origin, direction, grow; ///< of the centre of the ray or moving body; half the size of its box
     double length;
-    const ovoid_ray *ray; ///< of a ray; NULL where a body is cast
-    ovoid_body body;      ///< of a body: the probe
+    const ovoid_ray *ray; ///< of a ray; NULL for a body
+    ovoid_body body;      ///< the moving body
     double bound;
     ovoid_world_cast *out;
 } casting;

@@ -1,9 +1,9 @@
 // Casts against solids.
 //
 // A ray is cast on each triangle whose boxes it meets, nearest first (motion/ray.c). A thick ray's hit of a triangle is
-// proven there. A ray without a radius meets a triangle in a point, which no rounded numbers prove; but behind a point
-// where it enters a closed solid it is inside, and that is proven by a winding number (inside.c), a small way further:
-// so the bracket is as wide as that way. A ray that only grazes a solid stays undecided.
+// proven there. A ray without a radius meets a triangle in a point, which no rounded numbers prove. But behind a point
+// where it enters a closed solid it is inside, and a winding number proves that (inside.c), a small distance further,
+// which is the width of the bracket. A ray that only grazes a solid stays undecided.
 //
 // The ray in the solid's frame is off by 91 u S, as in frame.h, S the sizes and the distance of the frames; boxes are
 // enlarged by 256 u S and the ray's radius. Times at the boxes' sides are off by a few u of themselves.
@@ -18,7 +18,7 @@
 
 #define WIDER 0x1p-48
 
-/// Nearest crossings of a ray without a radius that are kept, to look behind them.
+/// The number of nearest crossings of a ray without a radius that are kept, to search behind them.
 enum { CROSSINGS = 32 };
 
 typedef struct ray_search {
@@ -26,7 +26,7 @@ typedef struct ray_search {
     const ovoid_body *body;
     const ovoid_ray *ray;
     vec3 origin, direction; ///< of the ray, in the solid's frame
-    double slack;           ///< by which boxes are enlarged
+    double slack;           ///< the amount by which boxes are enlarged
     part_hit hit;
     part_hit crossing[CROSSINGS]; ///< by their times
     uint32_t count;
@@ -42,7 +42,7 @@ static int enter_slab(double low, double high, double from, double way, double r
     return range[0] <= range[1];
 }
 
-// When the ray meets a node's box; infinity where it does not.
+// The time at which the ray meets a node's box; infinity if it does not.
 static double find_entry(const ray_search *state, tree_ref ref) {
     tree_box at = body_tree_get_box(&state->tree, ref);
     vec3 grown = vec3_add(at.half, (vec3){state->slack, state->slack, state->slack});
@@ -53,7 +53,7 @@ static double find_entry(const ray_search *state, tree_ref ref) {
     return meets ? range[0] : INFINITY;
 }
 
-// Crossings are kept in the order of their times; of too many the farthest is dropped.
+// Keeps crossings in the order of their times; if there are too many, the farthest is dropped.
 static void keep_crossing(ray_search *state, const part_hit *c) {
     if (state->count == CROSSINGS && state->crossing[CROSSINGS - 1].lower <= c->lower) return;
     uint32_t at = state->count < CROSSINGS ? state->count++ : CROSSINGS - 1;
@@ -100,7 +100,7 @@ static void traverse(ray_search *state) {
     }
 }
 
-// Does the solid hold the ray's point, or its ball, at a time? *answer: the bodies'.
+// Does the solid contain the ray's point, or its ball, at a time? *answer: that of the bodies.
 static int holds(const ray_search *state, double time, ovoid_body_answer *answer) {
     point_shape point;
     point_make(&point, state->ray->radius);
@@ -112,7 +112,7 @@ static int holds(const ray_search *state, double time, ovoid_body_answer *answer
     return answer->status == OVOID_OVERLAPPING;
 }
 
-// A ray that begins inside.
+// Handles a ray that begins inside.
 static int take_beginning(ray_search *state) {
     ovoid_body_answer at;
     if (!holds(state, 0, &at)) return 0;
@@ -120,7 +120,7 @@ static int take_beginning(ray_search *state) {
     return 1;
 }
 
-// Looks behind the crossings for a point that is inside, first a rounding and then ever farther, up to the next one.
+// Searches behind the crossings for a point that is inside, at growing distances, up to the next crossing.
 static void take_crossings(ray_search *state) {
     double scale = vec3_norm(state->ray->direction), size = state->tree.extent + vec3_norm(state->origin);
     ovoid_body_answer at;

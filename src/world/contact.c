@@ -1,4 +1,5 @@
-// One contact in full: the query of its pair, warm from the cache, with a proof that can be checked.
+// The whole answer of one contact: the query of its pair, with the cached proof as warm start, and a proof that can be
+// checked.
 #include "base/environment.h"
 #include "base/error.h"
 #include "body/body_find.h"

@@ -13,7 +13,7 @@ enum { CHUNK = 512 };
 
 // ---- deciding
 
-// 1 if the pair is answered without a query; mostly its entry in the list is enough to decide.
+// 1 if the pair is answered without a query; mostly its entry in the list suffices.
 static int is_answered(const ovoid_world *w, world_pair *p) {
     int has_moved = (w->marks[p->a] | w->marks[p->b]) & MARK_MOVED || p->flags & PAIR_CHECK;
     if (!(p->flags & PAIR_KNOWN)) return 0;
@@ -22,7 +22,7 @@ static int is_answered(const ovoid_world *w, world_pair *p) {
     return pair_is_answered(w, p);
 }
 
-// Bodies, cached proofs and shapes are anywhere in memory: they are prefetched some pairs ahead.
+// Bodies, cached proofs and shapes are scattered in memory: they are prefetched some pairs ahead.
 enum { AHEAD = 6, SHAPES_AHEAD = 2, SHAPE_LINES = 8 };
 
 static void prefetch_bodies(const ovoid_world *w, const world_pair *p) {
@@ -72,7 +72,7 @@ static void decide_chunks(void *work, uint32_t first, uint32_t end, uint32_t wor
         decide_chunk(w, &w->pairs[(size_t)c * CHUNK], get_chunk_size(w, c), &w->chunks[c]);
 }
 
-// How long each cached answer holds after a change of the query. Witness points are not cached for all queries.
+// Recomputes how long each cached answer holds after a change of the query. Not every query caches witness points.
 static void renew_ages(ovoid_world *w) {
     for (size_t i = 0; i < w->pair_count; i++) {
         world_pair *p = &w->pairs[i];

@@ -1,10 +1,11 @@
-// Does a state of a machine touch anything? Its bodies are probes, which are not in the world; some of them are asked
-// about with one another.
+// Does a state of a robot touch anything? Its bodies are probes, which are not in the world; some are queried with one
+// another.
 //
-// A probe is placed once, by its pose alone: its sphere, and the box around its own box, turned (body_bounds.h). With
-// that box the tree is traversed. The box of its vertices, which costs as much as all of the rest, is made where a leaf
-// is met for the first time; from then on the traversal goes on with it. What spheres and boxes leave open is queried,
-// cold. Nothing is allocated: of many probes those past the first are placed again for each couple that names them.
+// A probe is placed once, by its pose alone: its sphere, and the box around its own box, rotated (body_bounds.h). The
+// tree is traversed with that box. The box of its vertices, which costs as much as all the rest, is computed when the
+// first leaf is met; from then on the traversal uses it. Pairs that spheres and boxes leave open are queried without a
+// warm start. Nothing is allocated: if there are many probes, those after the first KEPT are placed again for each
+// couple that names them.
 #include "base/environment.h"
 #include "base/error.h"
 #include "linear/rotation.h"
@@ -14,13 +15,13 @@
 
 #include <string.h>
 
-// A probe at its place.
+// A probe with its place in the world.
 typedef struct placed_probe {
     const ovoid_body *body;
     body_outline at;
 } placed_probe;
 
-/// Probes whose places are kept for the couples.
+/// The number of probes whose places are kept for the couples.
 enum { KEPT = 24 };
 
 typedef struct state_search {
@@ -31,7 +32,7 @@ typedef struct state_search {
     placed_probe *probe; ///< the one that traverses the tree
     ovoid_groups groups;
     ovoid_body_answer found;
-    uint32_t body; ///< the one that was found, or NONE
+    uint32_t body; ///< the body that was found, or NONE
 } state_search;
 
 // ---- a probe
@@ -54,7 +55,7 @@ static int are_apart(vec3 a, vec3 b, double reach) {
     return vec3_norm_squared(vec3_sub(b, a)) > most * most * (1 + 0x1p-48);
 }
 
-// What pose_validate asks, by comparisons alone, for most poses of shapes.
+// The checks of pose_validate, by comparisons alone, for most poses of shapes.
 static int is_plain(const ovoid_body *body) {
     const ovoid_pose *p = &body->pose;
     return !body->compound && !body->solid && body->shape && quat_is_plain(quat_norm_squared(p->rotation)) &&
@@ -107,7 +108,7 @@ static int do_touch(state_search *state, placed_probe *a, placed_probe *b) {
     return !(state->found.lower > 0);
 }
 
-// The number of the first couple that is not proven apart; couple_count where all are.
+// The number of the first couple that is not proven apart; couple_count if all are.
 static size_t find_couple(state_search *state, placed_probe *kept) {
     const ovoid_world_probes *all = state->probes;
     placed_probe spare[2];

@@ -14,12 +14,12 @@
 #include "world/body_bounds.h"
 #include "world/tree/wide_tree.h"
 
-// Covers the rounding of a sum of a few terms.
+// Covers the rounding of a sum of few terms.
 #define SLACK (1 + 0x1p-48)
 
-// The enlargement where the world chooses it: a number of steps like the last one, between fractions of the body's
-// size. The number differs from body to body and from box to box, and most where the motion has just begun: bodies
-// that set out together would all leave their boxes in the same frame, time and again.
+// The enlargement if the world chooses it: a number of steps like the last one, between limits relative to the body's
+// size. The number differs between bodies and between successive boxes of a body, most of all when the motion has just
+// begun; otherwise bodies that start together would all leave their boxes in the same frames.
 #define STEPS_LEAST 9.0
 #define STEPS_BEGIN 2.0
 #define STEPS_MOST 15.0
@@ -29,7 +29,8 @@
 // A finite float, whatever the size. The box is made with this rounded number.
 static float make_float(double x) { return (float)min2(x, 1e38); }
 
-// For how many steps a body's next box is to last: evenly spread numbers, by a hash of the body and the box.
+// The number of steps that a body's next box should last: evenly distributed, by a hash of the body and the number of
+// its boxes.
 static double find_steps(uint32_t body, uint32_t boxes) {
     uint32_t h = body * 0x9e3779b9u + boxes * 0x85ebca6bu;
     h = (h ^ h >> 16) * 0xc2b2ae35u;
@@ -67,7 +68,8 @@ box world_compute_box(ovoid_world *w, uint32_t i) {
     return (box){vec3_sub(bounds.min, low), vec3_add(bounds.max, high)};
 }
 
-// 1 if no point of the body left its enlarged box along an axis: none moved farther than r did, and its turns.
+// 1 if no point of the body left its enlarged box along an axis: the way of r plus the turns bounds the motion of each
+// point.
 static int is_along(double way, double turn, float low, float high) {
     double slack = turn + 0x1p-48 * (fabs(way) + turn);
     return way + slack <= (double)high && slack - way <= (double)low;
@@ -102,7 +104,8 @@ void body_refresh(ovoid_world *w, uint32_t i) {
     }
 }
 
-// How far a quaternion may be from unit length to be taken as it is: mostly one is given that was normalised.
+// The largest deviation from unit length of a quaternion that is used without normalisation, as most are normalised
+// already.
 #define NEARLY_UNIT 0x1p-40
 
 static ovoid_quat normalised(ovoid_quat q) {
@@ -133,7 +136,7 @@ static double compute_chord(ovoid_quat before, ovoid_quat after) {
     return min2(2 * sqrt(quat_norm_squared(e)) * SLACK + error, 2);
 }
 
-// Moves the body, but not its box: 1 if it has left the box.
+// Moves the body, but not its box. 1 if the body has left the box.
 static int place_body(ovoid_world *w, uint32_t i, const ovoid_pose *pose) {
     world_body *b = &w->bodies[i];
     body_place *p = &w->places[i];
@@ -170,14 +173,16 @@ static ovoid_code validate_move(const ovoid_world *w, ovoid_id id, const ovoid_p
     return world_validate_body(&moved, place, error);
 }
 
-// A batch of moves, no body twice: all workers move the bodies, then boxes that were left are made anew, in order.
+// A batch of moves, no body twice: all workers move the bodies, then bodies that left their boxes get new ones, in
+// order.
 typedef struct moves {
     ovoid_world *w;
     const ovoid_id *ids;
     const ovoid_pose *poses;
 } moves;
 
-// MANY: from here on one worker does so, too, as the tree no longer fits into the near caches.
+// Batches of more bodies than this are moved first, then get their boxes: LEAST with several threads; MANY with one, as
+// the tree then no longer fits into the near caches and its leaves are prefetched.
 enum { LEAST = 512, MANY = 8192 };
 
 static void place_bodies(void *work, uint32_t first, uint32_t end, uint32_t worker) {
@@ -189,7 +194,7 @@ static void place_bodies(void *work, uint32_t first, uint32_t end, uint32_t work
     }
 }
 
-// Leaves and their siblings are anywhere in the tree: they are prefetched some bodies ahead.
+// Leaves and their siblings are scattered in the tree: they are prefetched some bodies ahead.
 enum { AHEAD = 24 };
 
 static void fetch_leaf(const ovoid_world *w, uint32_t i) {
@@ -211,7 +216,7 @@ static void move_by_all(ovoid_world *w, const ovoid_id *ids, const ovoid_pose *p
     }
 }
 
-// 1 if no id comes twice; all of them must name bodies.
+// 1 if no id occurs twice; all of them must be valid.
 static int are_different(ovoid_world *w, const ovoid_id *ids, size_t count) {
     size_t k = 0;
     for (; k < count && !(w->marks[ids[k] >> 32] & MARK_NAMED); k++) w->marks[ids[k] >> 32] |= MARK_NAMED;
@@ -269,7 +274,7 @@ void world_widen_tree(ovoid_world *w) {
 }
 
 int world_mend_tree(ovoid_world *w) {
-    // The tree is worn if half of the leaves have moved in it, or its cost has grown by a third.
+    // Rebuild the tree if half of the leaves have moved in it, or its cost has grown by a third.
     int worn = w->tree.changes > 64 + w->count / 2;
     if (!worn && w->steps % 16 == 0) worn = dynamic_tree_compute_cost(&w->tree) > 1.33 * w->tree.built;
     if (!worn || w->count < 2) return 0;

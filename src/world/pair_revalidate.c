@@ -1,6 +1,6 @@
-// A pair whose aged bound no longer answers, before it is queried again: its cached proof is measured at the present
-// poses. Of bodies that are apart that is the gap along the cached normal, of bodies that overlap the common point or
-// the few differences around the origin. Mostly it still holds, at a tenth of a query's cost.
+// A pair whose kept bounds no longer answer the query: before it is queried again, its cached proof is measured at the
+// present poses. For bodies that are apart this is the gap along the cached normal, for bodies that overlap the common
+// point or the few differences around the origin. Mostly it still holds, at a tenth of a query's cost.
 #include "pair/hull.h"
 #include "pair/inner.h"
 #include "pair/reject.h"

@@ -1,4 +1,4 @@
-// One pair from step to step. docs/world.md derives the bounds that age.
+// Updating one pair from step to step. docs/world.md derives how kept bounds are adjusted for the motion.
 //
 // Roundings: c, d and t are sums of a few terms, each bounded by |d| + t + |L|, and off by a few u of that. SLACK_SET
 // is subtracted when c is made and again when it is compared; reported bounds are moved by half as much, so that they
@@ -86,7 +86,7 @@ void pair_set_age(const ovoid_world *w, world_pair *p, const pair_cache *k) {
     if (!(k->lower > margin)) p->flags |= PAIR_CONTACT;
     int are_shapes = w->bodies[p->a].body.shape && w->bodies[p->b].body.shape;
     if (k->lower > margin && are_shapes && k->stage == OVOID_STAGE_SPHERE) {
-        // Three times the present centre error is above the part of any later one that the positions do not explain.
+        // Three times the present centre error exceeds the part of any later one that the positions do not explain.
         const world_body *a = &w->bodies[p->a], *b = &w->bodies[p->b];
         double reach = (a->reach + b->reach) + (a->radius + b->radius);
         p->kind = PAIR_SPHERE;
@@ -100,7 +100,7 @@ void pair_set_age(const ovoid_world *w, world_pair *p, const pair_cache *k) {
         return;
     }
     // Witness points move with the bodies and must be measured again. Compounds and solids have a normal for each pair
-    // of parts; their bounds age by the way of the points alone (docs/world.md).
+    // of parts; their bounds are adjusted by the motion of the points alone (docs/world.md).
     if (world_is_measuring(w) && p->flags & PAIR_CONTACT) return;
     double lasts = -k->upper;
     if (k->lower > margin)
@@ -113,7 +113,7 @@ void pair_set_age(const ovoid_world *w, world_pair *p, const pair_cache *k) {
     p->c = lasts + k->travel - slack;
 }
 
-// The error of both centres from their positions: body_bounds.c, its 128 u of a position.
+// The error of both centres that comes from their positions: 128 u of a position (body_bounds.c).
 static double find_center_error(const ovoid_world *w, const world_pair *p) {
     return 0x1p-45 * (sum_abs(w->places[p->a].at) + sum_abs(w->places[p->b].at));
 }

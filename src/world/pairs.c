@@ -1,9 +1,9 @@
-// The list of pairs whose enlarged boxes overlap, brought up to date with the boxes that changed.
+// The list of pairs whose enlarged boxes overlap, updated for the boxes that changed.
 //
-// A pair is new exactly where the boxes overlap now and the earlier ones, `seen`, from which the list was made, did
-// not; so the list need not be searched. Workers find the changed bodies' overlaps in the tree; these are sorted, and
-// merged into the list from the back. Pairs whose boxes part are removed on the way. All memory is reserved before the
-// list changes.
+// A pair is new if and only if its boxes overlap now and its earlier boxes, `seen`, from which the list was made, did
+// not; so the list need not be searched. Workers find the changed bodies' overlaps in the tree; these are sorted and
+// merged into the list from the back. Pairs whose boxes no longer overlap are removed during the merge. All memory is
+// reserved before the list changes.
 #include "world/state.h"
 
 #include "world/tree/dynamic_tree_traverse.h"
@@ -39,7 +39,7 @@ static int gather(const ovoid_world *w, gathered *g, uint64_t key) {
     return 1;
 }
 
-// 1 if boxes that overlap now did not when the list was made.
+// 1 if boxes that overlap now did not overlap when the list was made.
 static int is_new(const ovoid_world *w, uint32_t i, uint32_t j, const box *box_j) {
     if (!(w->marks[j] & (MARK_BOX | MARK_FRESH))) return !box_is_overlapping(&w->bodies[i].seen, box_j);
     // If both bodies have changed, both find the pair, and the lower index reports it.
@@ -75,7 +75,7 @@ static void find_pairs(void *work, uint32_t first, uint32_t end, uint32_t worker
     }
 }
 
-// Sorts the changed bodies by their leaves, so that neighbours visit the same nodes. 0 without memory.
+// Sorts the changed bodies by their leaves, so that neighbours visit the same nodes. 0 if memory runs out.
 static int sort_changed(ovoid_world *w) {
     size_t count = w->changed_count;
     if (!world_reserve(w, (void **)&w->keys, &w->key_capacity, 0, count, 2 * sizeof *w->keys)) return 0;
@@ -85,10 +85,10 @@ static int sort_changed(ovoid_world *w) {
     return 1;
 }
 
-// Making the wide nodes costs as much as they save in so many searches, as a part of all bodies.
+// Building the wide nodes costs as much as they save in this many searches, as a share of all bodies.
 enum { WIDEN = 16 };
 
-// Finds all new pairs, sorted, in w->keys; 0 without memory.
+// Finds all new pairs, sorted, in w->keys; 0 if memory runs out.
 static int find_new(ovoid_world *w, size_t *count) {
     if (!sort_changed(w)) return 0;
     if ((uint64_t)w->changed_count * WIDEN > w->count) world_widen_tree(w);

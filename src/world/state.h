@@ -1,4 +1,4 @@
-// The parts of a world: bodies, tree, pairs, and the state that ages.
+// The parts of a world: bodies, tree, pairs, and the state that changes with the motion.
 //
 // A body's reference point r is the centre of its enclosing sphere, in the world. When the body moves, no point of it
 // moves by more than |step of r| + turn, where turn is the chord of the rotation times the sphere's reach. So of any
@@ -15,13 +15,13 @@
 #include "world/thread_pool.h"
 #include "world/tree/dynamic_tree.h"
 
-/// The place of a body as the pairs read it: half a cache line.
+/// The place of a body, as pairs read it: half a cache line.
 typedef struct body_place {
     vec3 at;       ///< r, rounded
     double travel; ///< sum of turns, rounded up
 } body_place;
 
-/// Marks of a body since the last step: its box changed, all its pairs are to be found afresh, it was moved. NAMED, and
+/// Marks of a body since the last step: its box changed, all its pairs must be found again, it was moved. NAMED, and
 /// LEFT (its box), are used within one call.
 enum { MARK_BOX = 1, MARK_FRESH = 2, MARK_MOVED = 4, MARK_NAMED = 8, MARK_LEFT = 16 };
 
@@ -33,16 +33,16 @@ typedef struct world_body {
     double size;           ///< bounds all lengths in its local frame
     double center_error;   ///< error of r at the present pose, length
     body_place placed;     ///< its place when its box was made,
-    float low[3], high[3]; ///< and how far it may go from there, against and along each axis
-    float way[3], turn;    ///< displacement and turn of the last move: only a forecast
+    float low[3], high[3]; ///< and how far it may move from there, against and along each axis
+    float way[3], turn;    ///< displacement and rotation of the last move: only a forecast
     box seen;              ///< MARK_BOX: the box from which the list of pairs was made; empty where MARK_FRESH
     uint64_t user;
     ovoid_groups groups;
     uint32_t next;  ///< of a free index: the next one; else the number of the body's ignored pairs
-    uint32_t boxes; ///< how many were made since it was added
+    uint32_t boxes; ///< the number of boxes since it was added
 } world_body;
 
-/// The groups of a body or a probe, both zero made into all of both.
+/// The groups of a body or a probe; if both are zero, all bits of both.
 static inline ovoid_groups groups_make(ovoid_groups given) {
     return given.group || given.mask ? given : (ovoid_groups){~0u, ~0u};
 }
@@ -84,7 +84,7 @@ typedef struct pair_cache {
     uint8_t count;                       ///< entries of the proof
 } pair_cache;
 
-/// The keys of new pairs that one worker finds.
+/// The keys of new pairs that one worker found.
 typedef struct gathered {
     uint64_t *keys;
     size_t count, capacity;
@@ -110,7 +110,7 @@ struct ovoid_world {
     uint8_t *marks;
     uint32_t *leaf_of, *changed, *generations;
     uint32_t capacity, used, count, free;
-    int has_vast;           ///< a compound or solid of more than half of OVOID_LENGTH_MAX was added
+    int has_vast;           ///< a compound or solid larger than half of OVOID_LENGTH_MAX was added
     uint32_t changed_count; ///< bodies with MARK_BOX or MARK_FRESH: changed[0 ..]
     dynamic_tree tree;
     size_t wide_capacity;
@@ -147,7 +147,7 @@ void world_release(ovoid_world *w, void *memory, size_t count, size_t size);
 /// Room for `count` items, at least doubling; the first `used` are copied. 0: no memory, and nothing has changed.
 int world_reserve(ovoid_world *w, void **items, size_t *capacity, size_t used, size_t count, size_t size);
 
-/// All bytes that the world holds.
+/// The number of bytes that the world holds.
 size_t world_get_memory(const ovoid_world *w);
 
 /// 1 if the query's answers have witness points, which move with the bodies.
@@ -156,7 +156,7 @@ static inline int world_is_measuring(const ovoid_world *w) { return w->kind >= O
 // ---- bodies
 
 static inline ovoid_id body_get_id(const ovoid_world *w, uint32_t i) { return (uint64_t)i << 32 | w->generations[i]; }
-/// The index of an id; NONE where it names no body.
+/// The index of an id; NONE if it is not a body's.
 uint32_t world_find_body(const ovoid_world *w, ovoid_id id);
 ovoid_code world_refuse_id(ovoid_error *error, int64_t place, ovoid_id id);
 /// The largest length in the frame of a compound or a solid; 0 of a shape.
@@ -165,11 +165,11 @@ double world_get_extent(const ovoid_body *body);
 ovoid_code world_validate_body(const ovoid_body *body, int64_t place, ovoid_error *error);
 /// 1 if groups, ignored pairs and the filter let a pair through.
 int world_is_pair(const ovoid_world *w, uint32_t a, uint32_t b);
-/// Builds a new tree where the old one is worn: 1. 0: it is not worn, or there is no memory; then the old one stays.
+/// Builds a new tree if the old one is worn: 1. 0: it is not worn, or memory ran out; then the old one stays.
 int world_mend_tree(ovoid_world *w);
-/// Makes the tree's wide nodes, if it has none; without memory it goes on without.
+/// Builds the tree's wide nodes, if it has none; if memory runs out, the world works without them.
 void world_widen_tree(ovoid_world *w);
-/// Makes all boxes anew, for another margin.
+/// Gives all bodies new boxes, for another margin.
 void world_set_margin(ovoid_world *w, double margin);
 
 /// The body's enclosing sphere.
@@ -179,7 +179,7 @@ static inline body_sphere body_get_sphere(const world_body *b) {
 
 // ---- pairs
 
-/// Brings the list of pairs up to date with the boxes. 0: no memory, and nothing is lost.
+/// Updates the list of pairs for the boxes that changed. 0: memory ran out, and nothing is lost.
 int world_update_pairs(ovoid_world *w, ovoid_contacts *counts);
 
 #endif

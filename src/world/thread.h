@@ -1,12 +1,12 @@
-// Threads, locks and conditions of the system: all that the core asks of it beside memory. POSIX, or Windows from Vista
-// on; WebAssembly has none of them, and a pool there is the caller's thread alone.
+// Threads, locks and conditions of the system: all that the core needs of it beside memory. POSIX, or Windows from
+// Vista on; WebAssembly has no threads, so a pool there is the caller's thread alone.
 #ifndef OVOID_WORLD_THREAD_H
 #define OVOID_WORLD_THREAD_H
 
 #include <stddef.h>
 
-/// Bytes of a thread's stack: a query takes a tenth of it, the host's filter and allocator are called there too. Named,
-/// as the system's own choice may be as little as 128 KB.
+/// Bytes of a thread's stack: a query takes a tenth of it, and the host's filter and allocator are called on it. Set
+/// explicitly, as the system's default may be as little as 128 KB.
 enum { THREAD_STACK = 1 << 20 };
 
 #if defined(_WIN32)
@@ -18,7 +18,7 @@ typedef HANDLE thread;
 typedef SRWLOCK thread_lock;
 typedef CONDITION_VARIABLE thread_condition;
 
-/// What a thread runs: THREAD_MAIN(name, context) { ...; return THREAD_END; }
+/// The function of a thread: THREAD_MAIN(name, context) { ...; return THREAD_END; }
 #define THREAD_MAIN(name, context) static unsigned __stdcall name(void *context)
 #define THREAD_END 0u
 typedef unsigned(__stdcall *thread_main)(void *context);
@@ -32,7 +32,7 @@ static inline void thread_join(thread t) {
     (void)CloseHandle(t);
 }
 
-/// The number of this process: another one in a child made by fork, where no thread but the caller's is left.
+/// The number of this process. It differs in a child made by fork, where only the caller's thread exists.
 static inline long process_get_number(void) { return 0; } // there is no fork
 
 static inline void lock_make(thread_lock *l) { InitializeSRWLock(l); }
@@ -53,7 +53,7 @@ typedef int thread;
 typedef int thread_lock;
 typedef int thread_condition;
 
-/// What a thread runs: THREAD_MAIN(name, context) { ...; return THREAD_END; }
+/// The function of a thread: THREAD_MAIN(name, context) { ...; return THREAD_END; }
 #define THREAD_MAIN(name, context) static int name(void *context)
 #define THREAD_END 0
 typedef int (*thread_main)(void *context);
@@ -65,7 +65,7 @@ static inline int thread_start(thread *t, thread_main run, void *context) {
 }
 static inline void thread_join(thread t) { (void)t; }
 
-/// The number of this process: another one in a child made by fork, where no thread but the caller's is left.
+/// The number of this process. It differs in a child made by fork, where only the caller's thread exists.
 static inline long process_get_number(void) { return 0; } // there is no fork
 
 static inline void lock_make(thread_lock *l) { *l = 0; }
@@ -88,12 +88,12 @@ typedef pthread_t thread;
 typedef pthread_mutex_t thread_lock;
 typedef pthread_cond_t thread_condition;
 
-/// What a thread runs: THREAD_MAIN(name, context) { ...; return THREAD_END; }
+/// The function of a thread: THREAD_MAIN(name, context) { ...; return THREAD_END; }
 #define THREAD_MAIN(name, context) static void *name(void *context) // NOLINT(bugprone-macro-parentheses)
 #define THREAD_END NULL
 typedef void *(*thread_main)(void *context);
 
-/// All signals but those of a thread's own faults, which its handlers must hear of there.
+/// All signals except those of a thread's own faults, whose handlers run in that thread.
 static inline sigset_t thread_find_signals(void) {
     sigset_t all;
     (void)sigfillset(&all);
@@ -102,8 +102,8 @@ static inline sigset_t thread_find_signals(void) {
     return all;
 }
 
-/// 1, or 0 where the system starts no more. Signals go to the host's own threads: one that these hold back must not
-/// come by way of this one.
+/// 1, or 0 if the system cannot start another thread. Signals go to the host's own threads: a signal that the host
+/// blocks must not be delivered to this thread.
 static inline int thread_start(thread *t, thread_main run, void *context) {
     pthread_attr_t attributes;
     sigset_t held = thread_find_signals(), before;
@@ -117,7 +117,7 @@ static inline int thread_start(thread *t, thread_main run, void *context) {
 }
 static inline void thread_join(thread t) { (void)pthread_join(t, NULL); }
 
-/// The number of this process: another one in a child made by fork, where no thread but the caller's is left.
+/// The number of this process. It differs in a child made by fork, where only the caller's thread exists.
 static inline long process_get_number(void) { return (long)getpid(); }
 
 static inline void lock_make(thread_lock *l) { (void)pthread_mutex_init(l, NULL); }

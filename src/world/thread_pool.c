@@ -1,6 +1,7 @@
 // The built-in pool: a task is an array of items, of which each free worker takes the next part. Threads sleep on a
 // condition while there is no task. Results must not depend on which worker computes them, or in what order. In a child
-// made by fork the threads are not there: the caller's works alone, and what the threads waited for is left as it is.
+// made by fork these threads do not exist: the caller's thread works alone, and the locks and conditions of the threads
+// are not touched.
 #define _POSIX_C_SOURCE 200809L // signal sets
 #include "world/thread_pool.h"
 
@@ -16,11 +17,11 @@ struct thread_pool {
     thread_condition begun, ended;
     uint64_t round;        // number of the present task
     uint32_t busy, joined; // threads that have not finished this round; workers that have their number
-    task task;             // the present one
+    task task;             // the present task
     int is_closing;
     atomic_uint next;      // the first item that no worker has taken
-    long process;          // that started the threads
-    uint32_t thread_count; // without the caller's
+    long process;          // the process that started the threads
+    uint32_t thread_count; // without the caller's thread
     thread threads[];
 };
 
@@ -33,7 +34,7 @@ static void run_in_environment(void *work, uint32_t first, uint32_t end, uint32_
     environment_leave(before);
 }
 
-// Takes parts until none is left. next ends a little above count: by at most one part for each thread.
+// Takes parts until none is left. next ends slightly above count: by at most one part for each thread.
 static void take_parts(thread_pool *p, uint32_t worker) {
     for (;;) {
         uint32_t first = atomic_fetch_add(&p->next, p->task.least);

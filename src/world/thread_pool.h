@@ -23,11 +23,11 @@ typedef struct task_host {
 /// Work on the items [0, count), in parts of at least `least` (the last may be smaller).
 typedef struct task {
     task_run *run;
-    void *work; ///< handed to run
+    void *work; ///< passed to run
     uint32_t count, least;
 } task;
 
-/// Runs a task, each part in the default floating-point environment; returns when all is done.
+/// Runs a task, each part in the default floating-point environment; returns when all parts are done.
 void task_host_run(const task_host *host, const task *t);
 
 #endif

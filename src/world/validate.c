@@ -1,4 +1,4 @@
-// Checks of ids and of bodies that are handed in.
+// Validation of ids and of bodies that a caller passes.
 #include "world/state.h"
 
 #include "base/error.h"

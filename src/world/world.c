@@ -1,4 +1,5 @@
-// Creating and destroying a world, adding and removing bodies. All that can fail is done before anything changes.
+// Creating and destroying a world, adding and removing bodies. Everything that can fail is done before anything
+// changes.
 #include "world/state.h"
 
 #include "base/environment.h"
@@ -191,7 +192,7 @@ static ovoid_code add_many(ovoid_world *w, const ovoid_world_additions *all, ovo
     for (size_t k = 0; k < count && code == OVOID_OK; k++)
         code = world_validate_body(&all->bodies[k].body, (int64_t)k, error);
     if (code != OVOID_OK) return code;
-    // Indices in use: at most the bodies at one time, and those freed.
+    // Indices in use: at most the bodies at one time, and freed ones.
     if (!reserve_bodies(w, w->used + (uint32_t)count)) return refuse_memory(error, count);
     if (count > 64 && count > w->count / 4) return add_by_building(w, all) ? OVOID_OK : refuse_memory(error, count);
     for (size_t k = 0; k < count; k++) {
@@ -237,7 +238,7 @@ static void remove_body(ovoid_world *w, uint32_t i) {
     w->count--;
 }
 
-// OVOID_OK if all ids name bodies, and none comes twice.
+// OVOID_OK if all ids are valid, and none occurs twice.
 static ovoid_code validate_ids(ovoid_world *w, const ovoid_id *ids, size_t count, ovoid_error *error) {
     size_t k = 0;
     for (; k < count; k++) {

@@ -1,6 +1,6 @@
 // Queries of a world between its steps: which bodies touch a body or a probe, which is nearest to it, which two of all
-// are nearest. The tree is traversed with the body's own box; the remaining pairs are queried cold, so nothing is
-// changed or cached, and any number of threads may query at once.
+// are nearest. The tree is traversed with the body's own box; the remaining pairs are queried without a warm start, so
+// nothing is changed or cached, and any number of threads may query at once.
 #include "base/environment.h"
 #include "base/error.h"
 #include "compound/compound.h"
@@ -15,8 +15,8 @@
 typedef struct world_search {
     const ovoid_world *w;
     ovoid_body body;
-    uint32_t self, after; ///< the querying body, or NONE for a probe; only bodies with higher indices than `after`
-                          ///< count, NONE: all
+    uint32_t self, after; ///< the querying body, or NONE for a probe; only bodies with higher indices than `after` are
+                          ///< queried, NONE: all
     ovoid_groups groups;
     box bounds;
     ovoid_options options;
@@ -169,7 +169,7 @@ ovoid_code ovoid_world_find_nearest(const ovoid_world *w, const ovoid_world_quer
     ENVIRONMENT_RETURN(ovoid_code, w, find_nearest(w, query, hit, error));
 }
 
-// For each of the named bodies, or for all, each against those with higher indices.
+// For each of the named bodies, or for all, a query with those of higher indices.
 static ovoid_code find_any(const ovoid_world *w, const ovoid_world_ids *named, ovoid_world_hit *hit,
                            ovoid_error *error) {
     OVOID_ASSERT(w && hit && (!named || named->items || !named->count));
@@ -254,7 +254,7 @@ typedef struct couple_entry {
     double key;
 } couple_entry;
 
-// Couples that wait: two for each step down, of either tree.
+// The largest number of waiting couples: two for each step down, of either tree.
 enum { COUPLES = 192 };
 
 static void visit_pair(world_search *state, uint32_t i, uint32_t j) {
@@ -262,7 +262,7 @@ static void visit_pair(world_search *state, uint32_t i, uint32_t j) {
     visit_nearest(state, i < j ? j : i);
 }
 
-// Two subtrees at the full stack: all leaves of one against the other.
+// Handles two subtrees when the stack is full: all leaves of one against the other.
 static void run_pair_below(world_search *state, uint32_t a, uint32_t b) {
     const dynamic_tree *t = &state->w->tree;
     uint32_t end_a = dynamic_tree_skip(t, a), end_b = dynamic_tree_skip(t, b);

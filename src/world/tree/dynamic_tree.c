@@ -34,8 +34,8 @@ static void put_node(dynamic_tree *t, uint32_t at, const tree_node *n, uint32_t 
     }
 }
 
-// Recomputes the bounds of inner nodes from `at` upward, until one does not change. A parent's children are known from
-// the one that changed, so that the other one is fetched beside the parent, not after it.
+// Recomputes the bounds of inner nodes from `at` upward, until one does not change. The sibling of the changed child is
+// known without reading the parent, so both are fetched at once.
 static void refit_up(dynamic_tree *t, uint32_t at) {
     uint32_t couple = at == NONE ? 0 : t->nodes[at].child;
     while (at != NONE) {

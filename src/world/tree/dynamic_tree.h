@@ -2,9 +2,9 @@
 // names its two children by one index, and is one cache line.
 //
 // Built from the top by the surface area heuristic in bins (I. Wald, On fast construction of SAH-based bounding volume
-// hierarchies, 2007); a leaf that is added goes down to the sibling that costs least surface (E. Catto, Dynamic
-// bounding volume hierarchies, GDC 2019); a leaf whose box changes refits its ancestors as far as they change. All of
-// it is serial and depends on the order of the calls alone.
+// hierarchies, 2007). A new leaf descends to the sibling that costs least surface (E. Catto, Dynamic bounding volume
+// hierarchies, GDC 2019). A leaf whose box changes refits its ancestors as far as they change. All of it is serial and
+// depends only on the order of the calls.
 #ifndef OVOID_WORLD_TREE_DYNAMIC_TREE_H
 #define OVOID_WORLD_TREE_DYNAMIC_TREE_H
 
@@ -36,7 +36,7 @@ typedef struct dynamic_tree {
 /// An empty tree in memory for `capacity` leaves. The caller owns the nodes.
 void dynamic_tree_make(dynamic_tree *t, tree_node *nodes, uint32_t capacity);
 
-/// Adds a leaf; leaf_of[body] receives its node, and is kept up to date for leaves that move in memory.
+/// Adds a leaf; leaf_of[body] receives its node, and is updated for leaves that move in memory.
 void dynamic_tree_add(dynamic_tree *t, uint32_t body, const box *bounds, uint32_t *leaf_of);
 void dynamic_tree_remove(dynamic_tree *t, uint32_t leaf, uint32_t *leaf_of);
 /// Changes the bounds of a leaf and refits its ancestors; the leaf keeps its place in the tree.
@@ -50,7 +50,7 @@ static inline uint32_t dynamic_tree_skip(const dynamic_tree *t, uint32_t at) {
     return at ? at + 1 : NONE;
 }
 
-/// The largest stack of a traversal before it goes on without one; no tree that is built is as deep.
+/// The largest stack of a traversal before it continues without one; no tree that is built is as deep.
 enum { TREE_STACK = 256 };
 
 /// The sum of all inner nodes' surfaces over the root's: the expected number of nodes that a query visits.

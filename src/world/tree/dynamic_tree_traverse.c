@@ -1,4 +1,4 @@
-// Traversals of the tree with a small stack; below it, in the order of the tree, without one.
+// Traversals of the tree with a small stack; below it they follow the order of the tree, without a stack.
 #include "world/tree/dynamic_tree_traverse.h"
 
 typedef struct traversal_entry {
@@ -6,7 +6,7 @@ typedef struct traversal_entry {
     double key;
 } traversal_entry;
 
-// The subtree below a node at the full stack, in the order of the tree.
+// Visits the subtree below a node when the stack is full, in the order of the tree.
 static void run_below(const tree_traversal *traversal, uint32_t root) {
     uint32_t end = dynamic_tree_skip(traversal->tree, root);
     for (uint32_t at = root; at != end;) {

@@ -27,10 +27,11 @@ typedef int tree_touch(void *context, const tree_node *leaf);
 int dynamic_tree_find_overlaps_below(const dynamic_tree *t, const box *bounds, uint32_t root, tree_touch *touch,
                                      void *context);
 
-/// How many leaves the wide nodes give at once.
+/// The number of leaves that the wide nodes return at once.
 enum { TREE_LEAVES = 64 };
 
-/// dynamic_tree_find_overlaps by the wide nodes. Their boxes are larger by a rounding: each leaf's own is compared too.
+/// dynamic_tree_find_overlaps by the wide nodes. Their boxes are larger by a rounding, so each leaf's own box is
+/// compared too.
 static inline int dynamic_tree_find_wide(const dynamic_tree *t, const box *bounds, tree_touch *touch, void *context) {
     box8_walk walk;
     uint32_t leaves[TREE_LEAVES], count;
@@ -43,8 +44,8 @@ static inline int dynamic_tree_find_wide(const dynamic_tree *t, const box *bound
     return 1;
 }
 
-/// The traversal by the binary tree. Both children are tested and pushed without a branch, since which of them overlap
-/// cannot be predicted.
+/// The traversal by the binary tree. Both children are tested and pushed without a branch, since it cannot be predicted
+/// which of them overlap.
 static inline int dynamic_tree_find_narrow(const dynamic_tree *t, const box *bounds, tree_touch *touch, void *context) {
     const tree_node *nodes = t->nodes;
     uint32_t stack[TREE_STACK + 2], count = t->leaf_count && box_is_overlapping(bounds, &nodes[0].bounds);
@@ -65,7 +66,7 @@ static inline int dynamic_tree_find_narrow(const dynamic_tree *t, const box *bou
     return 1;
 }
 
-/// All leaves whose boxes overlap the bounds; 0 where a leaf ended the traversal. `touch` may make the bounds smaller.
+/// All leaves whose boxes overlap the bounds; 0 if a leaf ended the traversal. `touch` may make the bounds smaller.
 /// Inline, so that `touch` is inlined too.
 static inline int dynamic_tree_find_overlaps(const dynamic_tree *t, const box *bounds, tree_touch *touch,
                                              void *context) {

@@ -5,8 +5,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/// Ascending; scratch has room for as many. Radix sort from the lowest byte (H. H. Seward, 1954); bytes that are the
-/// same in all keys are passed over. Cost: linear.
+/// Ascending order; scratch has room for as many keys. Radix sort from the lowest byte (H. H. Seward, 1954); bytes that
+/// are equal in all keys are skipped. Cost: linear.
 void radix_sort(uint64_t *keys, uint64_t *scratch, size_t count);
 
 #endif

@@ -1,11 +1,11 @@
-// A wide node stands for a node of the binary tree. Its children are found below that: of the children so far the one
-// with the largest surface gives way to its own two, until there are eight or all of them are leaves.
+// A wide node represents a node of the binary tree. To find its children, the child so far with the largest surface is
+// replaced by its own two, until there are eight or all of them are leaves.
 #include "world/tree/wide_tree.h"
 
-// The most wide nodes: the places of more would not fit in a node's link.
+// The largest number of wide nodes: a larger lane number would not fit in a node's link.
 enum { WIDE_MOST = (1u << 31) / BOX8 - 1 };
 
-// A node of the binary tree whose wide node is still to be made, and the lane that is to name it.
+// A node of the binary tree whose wide node is not made yet, and the lane that will name it.
 typedef struct waiting {
     uint32_t node, depth, link;
 } waiting;
@@ -52,7 +52,7 @@ static void clear(box8 *wide) {
     for (int i = 0; i < BOX8; i++) wide->low[0][i] = NAN;
 }
 
-// Makes a wide node; those of its children wait. How many are waiting then.
+// Makes a wide node; those of its children are pushed. Returns the number of waiting nodes.
 static uint32_t make_node(dynamic_tree *t, uint32_t own, const waiting *entry, waiting *stack, uint32_t waits) {
     family f = find_children(t, entry->node);
     box8 *wide = &t->wide[own];

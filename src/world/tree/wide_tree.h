@@ -1,18 +1,18 @@
-// The dynamic tree once more, eight boxes to a node in single precision, for the search of all leaves that overlap a
-// box. It follows the binary tree's boxes; a leaf that is added or removed makes it void, until it is made anew.
+// A copy of the dynamic tree with eight boxes to a node in single precision, to search all leaves that overlap a box.
+// It follows the binary tree's boxes; adding or removing a leaf invalidates it until it is built again.
 #ifndef OVOID_WORLD_TREE_WIDE_TREE_H
 #define OVOID_WORLD_TREE_WIDE_TREE_H
 
 #include "world/tree/dynamic_tree.h"
 
-/// Room for so many wide nodes is enough for a tree of so many leaves: each has eight children, or leaves alone, at
-/// least two; so at most half of the leaves' number hold leaves alone, and a seventh of that the others.
+/// The number of wide nodes that is enough for a tree of that many leaves: each node has eight children, or only
+/// leaves, at least two; so at most half as many nodes as leaves hold only leaves, and a seventh of those the others.
 static inline size_t wide_tree_get_capacity(uint32_t leaf_count) { return (size_t)leaf_count * 4 / 7 + 2; }
 
-/// Makes the tree's wide nodes anew; there must be room. None are made of a tree that is too deep or too large.
+/// Builds the tree's wide nodes; there must be room. A tree that is too deep or too large gets none.
 void wide_tree_build(dynamic_tree *t);
 
-/// The box of a node of the binary tree, where it has a place among the wide ones.
+/// Sets the box of a node of the binary tree in the wide tree, if it has a lane there.
 static inline void wide_tree_set_box(dynamic_tree *t, const tree_node *n) {
     if (!t->wide_count || n->link == NONE) return;
     box8 *wide = &t->wide[n->link / BOX8];
