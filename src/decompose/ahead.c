@@ -1,12 +1,13 @@
-// Where no single plane gains much, the one that gains most with another after it. A hole through a box is such a case:
-// its hull and those of both halves hold the hole all the same, and only quarters let some of it go. Wei et al., 2022,
-// search a tree of cuts; two steps, and these only where one does not help, are what was found to matter.
+// If no single plane gains much, choose the plane that gains most together with a second one. A hole through a box is
+// an example: the hull of the box and the hulls of both halves contain the hole, and only the hulls of quarters leave
+// some of it out. Wei et al., 2022, search a tree of cuts; two steps, only where one does not help, proved to be
+// enough.
 #include "decompose/piece.h"
 
-/// One plane is enough where it leaves less than this share.
+/// One plane is enough if less than this share of the cost remains.
 #define ENOUGH 0.8
 
-// What the best plane of each side leaves, both together; infinite where the plane does not cut the piece.
+// The cost that remains after the best plane of each side, both together; infinite if the plane does not cut the piece.
 static ovoid_code find_second(const body *b, const piece *p, const ovoid_plane *plane, double *left,
                               ovoid_error *error) {
     piece sides[2];
@@ -27,7 +28,7 @@ ovoid_code piece_choose_plane(const body *b, const piece *p, ovoid_plane *plane,
     double best = piece_find_plane(b, p, plane), enough = ENOUGH * piece_compute_cost(p);
     *is_found = best < INFINITY;
     if (best <= enough) return OVOID_OK;
-    // The best alone is one of them, so that what is compared is two steps each.
+    // The best single plane is one of them, so two steps are compared with two steps.
     ovoid_plane planes[PIECE_PLANES + 1];
     uint32_t count = piece_list_planes(b, p, planes);
     if (*is_found) planes[count++] = *plane;

@@ -1,4 +1,5 @@
-// The solid and its parts, checked, in units of their size; how far a point is from a part, by the core's own answer.
+// The solid and its parts, validated, in units of their size; the distance of a point from a part, by the core's own
+// answer.
 #include "decompose/body.h"
 
 #include "base/allocator.h"

@@ -1,5 +1,5 @@
-// How far a hull stands out of the solid, by samples: points of its faces by their share of the surface, and points
-// inside it; the farthest is then moved to where it is farther yet. An estimate from below, which only leads the cuts.
+// The excess of a hull, estimated by samples: points of its faces in proportion to their area, and points inside it;
+// the farthest are then moved to where they are farther. The estimate is a lower bound, and only guides the cuts.
 #include "base/allocator.h"
 #include "base/error.h"
 #include "decompose/piece.h"
@@ -24,7 +24,7 @@ typedef struct sampling {
     double excess, enough;
 } sampling;
 
-// A place among the outliers, the farthest first.
+// Stores a point among the outliers, the farthest first.
 static void keep(sampling *s, vec3 x, double distance) {
     s->excess = max2(s->excess, distance);
     if (!s->outliers || (s->count == OUTLIERS && distance <= s->outliers[OUTLIERS - 1].distance)) return;
@@ -33,7 +33,7 @@ static void keep(sampling *s, vec3 x, double distance) {
     s->outliers[at] = (outlier){x, distance, s->hint};
 }
 
-// How far x is from the solid; 0 inside, or where less than `least`.
+// The distance of x from the solid; 0 inside, or if it is less than `least`.
 static double measure(sampling *s, vec3 x, double least) {
     double distance;
     s->hint = body_find_triangle(s->b, x, s->hint, &distance);
@@ -58,7 +58,7 @@ static vec3 get_on_face(const hull *polytope, uint32_t t, double u, double v) {
                            vec3_sub(get_corner(polytope, t, 2), a), v);
 }
 
-// Faces at even steps of area; each point also drawn towards the middle for the inside.
+// Samples faces at even steps of area; each point is also moved toward the middle to sample the inside.
 static void sample_faces(sampling *s, vec3 middle) {
     double total = 0, sum = 0;
     for (uint32_t t = 0; t < s->h->triangle_count; t++) total += compute_area_of(s->h, t);
@@ -85,7 +85,7 @@ static int is_in_hull(const hull *polytope, vec3 x) {
     return 1;
 }
 
-// Climbs from a point by shorter and shorter steps along the axes.
+// Improves a point by shorter and shorter steps along the axes.
 static void climb(sampling *s, vec3 at, double best, double step) {
     for (int round = 0; round < CLIMB; round++) {
         int is_better = 0;
@@ -102,7 +102,7 @@ static void climb(sampling *s, vec3 at, double best, double step) {
     keep(s, at, best);
 }
 
-// Climbs from the farthest points that are not near each other.
+// Improves the farthest points that are not near each other.
 static void climb_all(sampling *s, double step) {
     outlier starts[CLIMBS];
     uint32_t count = 0;
@@ -124,7 +124,7 @@ static ovoid_code estimate(sampling *s, const vec3 *points, uint32_t count, ovoi
     vec3 sum = {0, 0, 0};
     for (uint32_t i = 0; i < count; i++) sum = vec3_add(sum, points[i]);
     sample_faces(s, vec3_scale(sum, 1.0 / count));
-    // The planes of a flat hull do not bound it; its faces are all there is of it.
+    // The planes of a flat hull do not bound it, so only its faces are sampled.
     if (s->excess <= s->enough && polytope.rank == 3) climb_all(s, 0.1 * vec3_norm(vec3_sub(around.max, around.min)));
     hull_destroy(&polytope, &s->b->memory);
     s->h = NULL;

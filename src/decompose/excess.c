@@ -1,11 +1,11 @@
 // p, the greatest distance of a point of a part from the solid.
 //
-// Above: the distance from a triangle is convex, so in a cell it is greatest at a corner; and the distance from the
-// solid changes by no more than the point moves. A cell that no triangle crosses and whose middle is inside has no
-// point outside. Below: points of the parts, by the core's proven distance of a point from a solid.
+// Upper bound: the distance from a triangle is convex, so in a cell it is greatest at a corner; and the distance from
+// the solid changes by no more than the point moves. A cell that no triangle crosses and whose middle is inside has no
+// point outside. Lower bound: points of the parts, by the core's proven distance of a point from a solid.
 //
-// A cell is cut along the plane of a triangle that crosses it, moved to either side by nearly what the search aims at:
-// inside is then done, and what lies between is as near as that to the triangle.
+// A cell is cut along the plane of a triangle that crosses it, moved to either side by nearly the tolerance: the inner
+// piece is then done, and the piece between is within the tolerance of the triangle.
 #include "decompose/searches.h"
 
 static double find_farthest(const vec3 t[3], const cell *c) {
@@ -20,7 +20,7 @@ static void try_point(cell_search *s, vec3 x, double estimate, uint32_t part) {
     cell_search_raise(s, body_find_outside(s->problem, x), x, part);
 }
 
-// 1 if the plane that keeps x away from the part keeps the whole cell away: the core proves the part below n.x - lower.
+// 1 if the plane that separates x from the part separates the whole cell: the core proves the part below n.x - lower.
 static int is_parted(const body *b, const cell *c, vec3 x, const part_distance *d) {
     if (!(d->lower > 0)) return 0;
     for (int i = 0; i < 4; i++)
@@ -28,10 +28,11 @@ static int is_parted(const body *b, const cell *c, vec3 x, const part_distance *
     return 1;
 }
 
-// A cell whose middle is inside the solid. Where each triangle T that crosses it is near the part's own boundary,
-// beyond a plane n.x = h - d_T with h the part's support along n, let e be how far the middle is below all those planes
-// at least. A point x of the cell and the part is moved towards the middle by a share d / (d + e) of the way, d the
-// greatest of d_T: there it is below all planes; from there to the middle no triangle is met, so it is inside.
+// A cell whose middle is inside the solid. Let each triangle T that crosses it be near the part's own boundary, beyond
+// a plane n.x = h - d_T, where h is the part's support along n. Let e be a lower bound of how far the middle is below
+// all those planes, and d the greatest of d_T. Move a point x of the cell and the part toward the middle by a share d /
+// (d + e) of the way: there it is below all planes, and the segment from there to the middle meets no triangle, so it
+// is inside.
 static void find_bound_inside(const body *b, cell *c, vec3 middle, int is_in_part) {
     enum { CROSSING = 4096 };
     uint32_t places[CROSSING], count = body_list_crossing(b, c, places, is_in_part ? CROSSING : 0);
@@ -85,8 +86,8 @@ static int find_edge(const vec3 t[3], vec3 normal, const cell *c, double margin,
     return most > margin;
 }
 
-// Finds a plane to cut along, where the cell reaches farther beyond an edge of the triangle, in its plane, than the
-// margin: half the margin beyond the edge.
+// Finds a plane to cut along, where a corner of the cell is farther from the part than the margin: half the margin
+// beyond the part.
 static int find_face(const body *b, const cell *c, double margin, ovoid_plane *plane) {
     double most = margin;
     for (int i = 0; i < 4; i++) {
@@ -112,7 +113,7 @@ static cell_plane find_plane(cell_search *s, const cell *c, ovoid_plane *plane) 
     if (!body_is_crossed(b, c, &place)) return CELL_HALVES;
     vec3 t[3];
     body_get_triangle(b, place, t);
-    // A cell much larger than the triangle gains nothing by it.
+    // A cell much larger than the triangle is halved instead.
     if (find_longest(c->corner, 4) > 2 * find_longest(t, 3)) return CELL_HALVES;
     vec3 n = vec3_unit(vec3_cross(vec3_sub(t[1], t[0]), vec3_sub(t[2], t[0])));
     double offset = vec3_dot(n, t[0]), low = INFINITY, high = -INFINITY, side = s->lower + 0.75 * s->tolerance;
@@ -121,7 +122,8 @@ static cell_plane find_plane(cell_search *s, const cell *c, ovoid_plane *plane) 
         low = min2(low, d);
         high = max2(high, d);
     }
-    // The side that reaches farther; in the slab along the triangle, its edges.
+    // Cuts on the side where the cell reaches farther; a cell that is within the slab along the triangle is cut at the
+    // triangle's edges.
     if (max2(-low, high) <= side + 0.05 * s->tolerance)
         return find_edge(t, n, c, 0.5 * side, plane) ? CELL_BOTH : CELL_HALVES;
     plane->normal = n;
@@ -135,7 +137,7 @@ static vec3 get_point(const body *b, const ovoid_polytope *p, uint32_t i) {
     return vec3_scale(vec3_add(p->origin, vec3_at(p->vertices, i)), b->inverse);
 }
 
-// The parts' vertices and their faces' middles: farthest are mostly on faces.
+// Tries the parts' vertices and the middles of their faces, since the farthest points are mostly on faces.
 static void try_part(cell_search *s, uint32_t part) {
     const body *b = s->problem;
     ovoid_polytope p = ovoid_shape_get_polytope(b->parts[part].shape);

@@ -1,5 +1,5 @@
-// Convex parts of a solid: the piece that stands out farthest is cut, until none does by more than asked or there are
-// enough; then pieces whose common hull stands out little are joined, those first that cost least.
+// Convex parts of a solid: the piece of the largest excess is cut, until no excess is larger than asked or there are
+// enough pieces; then pieces whose common hull has a small excess are joined, the cheapest first.
 #include "base/allocator.h"
 #include "base/environment.h"
 #include "base/error.h"
@@ -29,7 +29,7 @@ const ovoid_shape *const *ovoid_parts_get_shapes(const ovoid_parts *parts) {
     return (const ovoid_shape *const *)parts->shapes;
 }
 
-// Room for count parts, all of them missing yet.
+// Room for count parts, all of them NULL.
 static ovoid_parts *create_parts(const ovoid_allocator *memory, size_t count, ovoid_error *error) {
     ovoid_parts *parts = allocator_allocate(memory, 1, sizeof *parts);
     ovoid_shape **shapes = allocator_allocate(memory, count, sizeof *shapes);
@@ -51,7 +51,7 @@ typedef struct parts_work {
     const ovoid_decomposition_options *o;
     piece *pieces;
     size_t count, room;
-    double error; ///< our unit; 0: as many parts as asked for
+    double error; ///< in the body's unit; 0: as many parts as asked for
     size_t wanted;
     double *costs; ///< of joining pieces i > k, at i (i - 1) / 2 + k
     size_t steps;
@@ -100,7 +100,7 @@ static double *get_cost(parts_work *m, size_t i, size_t k) {
     return i > k ? &m->costs[i * (i - 1) / 2 + k] : &m->costs[k * (k - 1) / 2 + i];
 }
 
-// Whether some points between the two are farther out than `enough`.
+// Whether some points between the two are farther from the solid than `enough`.
 static int is_far_apart(const body *b, const piece *p, const piece *q, double enough) {
     uint32_t hint = 0;
     for (uint32_t i = 0; i < 24; i++) {
@@ -154,7 +154,7 @@ static int find_cheapest(parts_work *m, double enough, size_t *first, size_t *se
     return least < INFINITY;
 }
 
-// The second piece into the first; the last takes the second's place.
+// Joins the second piece to the first; the last piece takes the second's place.
 static ovoid_code join(parts_work *m, size_t first, size_t second, double enough, ovoid_error *error) {
     piece *p = &m->pieces[first], *q = &m->pieces[second];
     vec3 *points;
@@ -180,7 +180,7 @@ static ovoid_code join_pieces(parts_work *m, ovoid_error *error) {
     if (m->count < 2) return OVOID_OK;
     m->costs = allocator_allocate(&m->b->memory, m->count * (m->count - 1) / 2, sizeof *m->costs);
     if (!m->costs) return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for %zu pieces", m->count);
-    // If a number of parts is wanted, more and more excess is allowed until there are so few; else the error is.
+    // If a number of parts is wanted, the allowed excess grows until there are so few; otherwise it is the given error.
     double enough = m->wanted ? max2(m->error, 2 * m->pieces[find_worst(m) % m->room].excess) : m->error;
     for (;;) {
         ovoid_code code = find_costs(m, enough, error);
@@ -192,7 +192,7 @@ static ovoid_code join_pieces(parts_work *m, ovoid_error *error) {
     }
 }
 
-// ---- the whole
+// ---- decomposition
 
 static ovoid_parts *make_shapes(parts_work *m, ovoid_error *error) {
     ovoid_parts *parts = create_parts(&m->b->memory, m->count, error);
@@ -246,8 +246,8 @@ ovoid_parts *ovoid_parts_create_from_solid(const ovoid_solid *solid, const ovoid
 
 // ---- enlarged parts
 
-// The rhombic triacontahedron that holds the unit ball: its corners are those of an icosahedron and of a dodecahedron,
-// the farthest 1.176 from the middle.
+// The rhombic triacontahedron that contains the unit ball: its corners are those of an icosahedron and of a
+// dodecahedron, the farthest 1.176 from the middle.
 enum { AROUND = 32 };
 static void set_corners_around(vec3 corners[AROUND]) {
     const double g = 1.618033988749895, scale = 1 / g;
@@ -266,8 +266,8 @@ static void set_corners_around(vec3 corners[AROUND]) {
     for (int i = 0; i < AROUND; i++) corners[i] = vec3_scale(corners[i], scale);
 }
 
-// The hull of the part's vertices moved by all corners is the sum of both bodies. What rounding of sums and corners
-// takes away is added to the radius before.
+// The hull of the part's vertices moved by all corners is the sum of both bodies. The radius is increased beforehand by
+// the rounding of sums and corners.
 static ovoid_shape *enlarge(const ovoid_shape *shape, double radius, const ovoid_allocator *memory,
                             ovoid_error *error) {
     ovoid_polytope p = ovoid_shape_get_polytope(shape);

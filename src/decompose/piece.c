@@ -6,10 +6,10 @@
 
 #include <string.h>
 
-/// Corners nearer to a plane than this, of the solid's diagonal, are on it: a triangle that a plane was laid through
+/// Corners nearer to a plane than this, relative to the solid's diagonal, are on it. A triangle in a cutting plane
 /// belongs to the side where the solid is.
 #define ON_PLANE 1e-9
-/// How far from a plane it is asked whether the solid is there.
+/// The distance from a plane at which the solid is tested beside it.
 #define BESIDE 1e-7
 
 static ovoid_code report_memory(ovoid_error *error) {
@@ -28,7 +28,7 @@ static int soup_reserve(const body *b, soup *s, size_t more) {
     return 1;
 }
 
-// Adds the share of a triangle on one side: d are the corners' places above the plane, as seen from that side.
+// Adds the part of a triangle on one side: d are the corners' heights above the plane, as seen from that side.
 static int clip(const body *b, const vec3 t[3], const double d[3], double margin, soup *s) {
     if (!(max2(d[0], max2(d[1], d[2])) > margin)) return 1;
     vec3 polygon[6];
@@ -55,7 +55,8 @@ static int add_triangle(const body *b, const vec3 t[3], soup *s) {
     return 1;
 }
 
-// A triangle in the plane goes to where the solid is beside it; where there is none, as of a sheet, to the side below.
+// A triangle in the plane belongs to the side where the solid is; if the solid is on neither side, as for a sheet, to
+// the side below.
 static int add_in_plane(const body *b, const vec3 t[3], const ovoid_plane *plane, soup sides[2]) {
     vec3 middle = vec3_scale(vec3_add(vec3_add(t[0], t[1]), t[2]), 1.0 / 3);
     vec3 step = vec3_scale(plane->normal, BESIDE * b->diagonal);
@@ -95,7 +96,7 @@ int piece_is_inside(const body *b, vec3 corner, vec3 middle) {
     return body_find_inside(b, vec3_add_scaled(corner, vec3_sub(middle, corner), BESIDE)) == 1;
 }
 
-// The corners of the hull of the triangles and of the cell's corners inside.
+// Finds the corners of the hull of the triangles and of the cell's corners inside.
 static ovoid_code find_points(const body *b, piece *p, ovoid_error *error) {
     ovoid_polytope frame = ovoid_shape_get_polytope(p->frame);
     vec3 middle = piece_get_frame_middle(b, &frame);
@@ -121,7 +122,7 @@ static ovoid_code finish(const body *b, piece *p, ovoid_error *error) {
     return code == OVOID_OK ? piece_estimate(b, p, error) : code;
 }
 
-// A box somewhat larger than the solid's.
+// A box slightly larger than the solid's.
 static ovoid_shape *create_frame(const body *b, ovoid_error *error) {
     const ovoid_box *around = &b->solid->report.box;
     double margin = 0.01 * b->diagonal * b->unit, xyz[24];

@@ -1,11 +1,11 @@
-// By which plane a piece is cut. Planes along the axes are tried at even steps, as V-HACD and CoACD do (K. Mamou, F.
-// Ghorbel, A simple and efficient approach for 3D mesh approximate convex decomposition, 2009; X. Wei, M. Liu, Z. Ling,
-// H. Su, Approximate convex decomposition for 3D meshes with collision-aware concavity and tree search, 2022), and
-// beside them planes through the points that stand out farthest, and planes of the faces near to those: a cut flush
-// with a face is what leaves boxes of an angle.
+// The choice of the plane that cuts a piece. Planes across the axes are tried at even steps, as in V-HACD and CoACD (K.
+// Mamou, F. Ghorbel, A simple and efficient approach for 3D mesh approximate convex decomposition, 2009; X. Wei, M.
+// Liu, Z. Ling, H. Su, Approximate convex decomposition for 3D meshes with collision-aware concavity and tree search,
+// 2022), and also planes through the outliers, and planes of the faces near to those: only a cut flush with a face
+// divides an angle into boxes.
 //
-// A plane is worth what it leaves: the sum over outliers that stay in the hull of either side of their distance
-// squared. The hulls are held by their supports along 134 directions, from outside.
+// The cost of a plane is the sum of the squared distances of the outliers that remain in the hull of either side. The
+// hulls are approximated from outside by their supports along 134 directions.
 #include "decompose/piece.h"
 
 #include <string.h>
@@ -55,7 +55,7 @@ static int is_within(const choice *c, const float h[DIRECTIONS], vec3 x) {
     return 1;
 }
 
-// A point of the piece to its side, or to both.
+// Adds a point of the piece to its side, or to both.
 static void add_point(const choice *c, supports *s, const ovoid_plane *plane, double margin, vec3 x) {
     double d = vec3_dot(plane->normal, x) - plane->offset;
     if (d <= margin) add_support(c, s->h[0], x);
@@ -83,7 +83,8 @@ static void add_triangle(const choice *c, supports *s, const ovoid_plane *plane,
     }
 }
 
-// What the cell adds: its corners inside the solid, and where the plane cuts its edges inside.
+// Adds the points that belong to the cell: its corners inside the solid, and the points where the plane cuts its edges
+// inside.
 static void add_frame(const choice *c, supports *s, const ovoid_plane *plane) {
     const ovoid_polytope *f = &c->frame;
     for (uint32_t i = 0; i < f->vertex_count; i++) {
@@ -117,7 +118,7 @@ static double compute_cost(const choice *c, const ovoid_plane *plane) {
     return cost;
 }
 
-// A hair is added for planes far from the middle, so that of equals the even one is taken.
+// Planes far from the middle cost slightly more, so that of equal planes the even one is chosen.
 static void try_plane(choice *c, vec3 normal, double offset) {
     ovoid_plane plane = {normal, offset};
     double first = c->p->outliers[0].distance,
@@ -137,7 +138,8 @@ static void try_axes(choice *c) {
         }
 }
 
-// Outliers far from one another, by even steps down the list: planes through them and those of the faces near them.
+// Chooses outliers far from one another, by even steps down the list, and tries planes through them and those of the
+// faces near them.
 static void try_outliers(choice *c) {
     uint32_t step = c->p->outlier_count / FARTHEST + 1;
     for (uint32_t i = 0; i < c->p->outlier_count; i += step) {
@@ -150,14 +152,14 @@ static void try_outliers(choice *c) {
         for (int k = 0; k < 3; k++) {
             vec3 axis = {k == 0, k == 1, k == 2};
             try_plane(c, axis, vec3_dot(axis, near));
-            // Through the point and the nearest one, as a wedge is halved.
+            // A plane through the point and the nearest one, which halves a wedge.
             vec3 across = vec3_cross(away, axis);
             if (vec3_norm_squared(across) > 1e-6) try_plane(c, vec3_unit(across), vec3_dot(vec3_unit(across), near));
         }
     }
 }
 
-// Around the best plane, ever nearer.
+// Tries planes ever nearer to the best one.
 static void refine(choice *c) {
     double step = vec3_norm(vec3_sub(c->around.max, c->around.min)) / (2 * STEPS);
     for (int round = 0; round < 4; round++, step *= 0.5) {

@@ -1,11 +1,11 @@
-// Both lengths, each in its bracket: the searches' ends moved outward by what rounding can hide.
+// Brackets of both lengths: the ends of the searches are moved outward by the bound of rounding.
 #include "base/allocator.h"
 #include "base/environment.h"
 #include "base/error.h"
 #include "decompose/searches.h"
 
 static ovoid_decomposition_length make_length(const body *b, const cell_search *s, double upper) {
-    // What underflows counts as nothing, and a bracket is never narrower than that.
+    // Underflow is covered by this: a bracket is never narrower.
     double lower = (s->lower - b->pad) * b->unit;
     return (ovoid_decomposition_length){
         .lower = max2(lower, 0),

@@ -1,5 +1,5 @@
-// The two searches, one a length. The caller has set the body as the problem, room, work, tolerance and options; each
-// sets what is below, and returns what is above. The first two set how cells are bounded and cut.
+// The searches for the two lengths. The caller sets the body as the problem, room, work, tolerance and options; each
+// search finds the lower end and returns the upper end. The first two functions set how cells are bounded and cut.
 #ifndef OVOID_DECOMPOSE_SEARCHES_H
 #define OVOID_DECOMPOSE_SEARCHES_H
 
@@ -10,7 +10,7 @@ void excess_set_functions(cell_search *s);
 double uncovered_search(cell_search *s);
 double excess_search(cell_search *s);
 
-/// How far x is from all parts, at least; *nearest: a part that is as near.
+/// A lower bound of the distance of x from all parts; *nearest: a part at about that distance.
 double uncovered_find_least(const body *b, vec3 x, uint32_t first, uint32_t *nearest);
 
 #endif

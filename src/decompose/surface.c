@@ -1,6 +1,6 @@
-// What is near a point or a cell on the solid's surface. A cell is apart from a triangle if a direction shows it:
-// normals of faces and cross products of edges suffice (S. Gottschalk, M. C. Lin, D. Manocha, OBBTree, 1996, for boxes;
-// it holds of any two polytopes). Any direction that shows a gap proves it, whatever rounding made of the direction.
+// The triangles near a point or a cell. A cell is apart from a triangle if some direction separates them: normals of
+// faces and cross products of edges suffice (S. Gottschalk, M. C. Lin, D. Manocha, OBBTree, 1996, for boxes; the same
+// holds for any two polytopes). Any direction with a gap proves it, whatever the rounding of the direction.
 #include "decompose/body.h"
 
 #include "ovoid/body.h"
@@ -43,7 +43,7 @@ typedef struct waiting {
 
 typedef struct nearest {
     const body *b;
-    vec3 x;       ///< our unit
+    vec3 x;       ///< in the body's unit
     double q[3];  ///< the tree's frame and unit
     double least; ///< square of the distance, our unit
     double limit; ///< the same in the tree's unit
@@ -63,7 +63,7 @@ static void try_triangle(nearest *n, uint32_t place) {
     n->place = place;
 }
 
-// The children of a node that may hold a nearer triangle wait, the nearest on top.
+// Pushes the children of a node that may contain a nearer triangle, the nearest on top.
 static void open_node(nearest *n, uint32_t node) {
     const box8 *boxes = &n->b->solid->boxes[node];
     double square[BOX8];
@@ -155,8 +155,8 @@ static int is_apart(const cell_axes *a, const vec3 t[3]) {
     return 0;
 }
 
-// The tree's boxes that may meet the cell's. They are of about 1, and lanes without a box end at 2^100: an end beyond
-// both, of a part much larger than the solid, is as good at 2^64.
+// Finds the tree's boxes that may meet the cell's. Boxes of the tree are of about 1, and lanes without a box end at
+// 2^100; an end of the cell's box beyond both, for a part much larger than the solid, is cut to 2^64.
 static void begin_walk(const body *b, const cell *c, box8_walk *walk) {
     const ovoid_solid *s = b->solid;
     const double far = 0x1p64;
@@ -188,7 +188,7 @@ uint32_t body_list_crossing(const body *b, const cell *c, uint32_t *places, uint
 }
 
 int body_is_crossed(const body *b, const cell *c, uint32_t *place) {
-    // The triangle known already first.
+    // Tests the triangle that crossed the last cell first.
     cell_axes axes;
     make_axes(b, c, &axes);
     vec3 t[3];

@@ -1,6 +1,6 @@
 // Tetrahedra cut by planes, and the search that cuts the one with the greatest bound first (A. H. Land, A. G. Doig, An
-// automatic method of solving discrete programming problems, 1960). Pieces cover the cell but for the rounding of their
-// corners, which the problem's pad pays for.
+// automatic method of solving discrete programming problems, 1960). Pieces cover the cell up to the rounding of their
+// corners, which the problem's pad covers.
 #include "decompose/tetrahedra.h"
 
 #include "base/watch.h"
@@ -30,7 +30,7 @@ static uint32_t add_piece(const cell *c, vec3 a, vec3 b, vec3 d, vec3 e, cell *p
     return count + 1;
 }
 
-// The prism over two triangles whose corners belong together, as three tetrahedra.
+// The prism over two triangles with corresponding corners, as three tetrahedra.
 static uint32_t add_prism(const cell *c, const vec3 a[3], const vec3 b[3], cell *pieces, uint32_t count) {
     count = add_piece(c, a[0], a[1], a[2], b[0], pieces, count);
     count = add_piece(c, a[1], a[2], b[0], b[1], pieces, count);
@@ -53,7 +53,7 @@ uint32_t cell_cut(const cell *c, const ovoid_plane *plane, cell pieces[CELL_PIEC
         else
             high[above] = c->corner[i], dh[above++] = d;
     }
-    // A plane through a corner, but for rounding, would leave the cell as it is, and a sliver.
+    // A plane through a corner, to rounding, would leave the cell unchanged, and a sliver.
     double deepest = 0, highest = 0;
     for (int i = 0; i < below; i++) deepest = max2(deepest, -dl[i]);
     for (int i = 0; i < above; i++) highest = max2(highest, dh[i]);
@@ -133,7 +133,7 @@ void cell_search_add_box(cell_search *s, const box *around, uint32_t owner) {
     }
 }
 
-// The pieces that are to be looked at.
+// The pieces that must be examined.
 static uint32_t cut(cell_search *s, const cell *c, cell pieces[CELL_PIECES]) {
     ovoid_plane plane;
     uint32_t first_above;

@@ -1,5 +1,5 @@
 // Branch and bound over tetrahedra: the greatest value of a function over a body, from below by points and from above
-// by cells. What a cell is worth and by which plane it is best cut, the problem at hand knows (uncovered.c, excess.c).
+// by cells. The problem decides how a cell is bounded and by which plane it is cut (uncovered.c, excess.c).
 #ifndef OVOID_DECOMPOSE_TETRAHEDRA_H
 #define OVOID_DECOMPOSE_TETRAHEDRA_H
 
@@ -12,10 +12,10 @@ typedef struct cell {
     double bound;   ///< no point of the body in the cell has a greater value
     uint32_t owner; ///< of the problem
     uint32_t hint;  ///< of the problem
-    uint32_t depth; ///< cuts on the way to it
+    uint32_t depth; ///< the number of cuts that led to it
 } cell;
 
-/// Cells are cut at most so often: a corner moves by at most 4 u at each cut, in units of the body.
+/// The largest number of cuts that lead to a cell: a corner moves by at most 4 u at each cut, in units of the body.
 enum { CELL_DEPTH = 200, CELL_PIECES = 6 };
 
 /// Corners nearer to a plane than this are not cut off by it.
@@ -25,8 +25,8 @@ vec3 cell_compute_middle(const cell *c);
 /// The radius of the cell about x: none of its points is farther from x.
 double cell_compute_radius(const cell *c, vec3 x);
 box cell_compute_box(const cell *c);
-/// Cuts along the plane: how many pieces, which take owner, hint and bound, those below the plane first; 0 where the
-/// plane does not cut it.
+/// Cuts along the plane. Returns the number of pieces, which take over owner, hint and bound, those below the plane
+/// first; 0 if the plane does not cut the cell.
 uint32_t cell_cut(const cell *c, const ovoid_plane *plane, cell pieces[CELL_PIECES], uint32_t *first_above);
 /// Cuts at the middle of the longest edge: two pieces.
 uint32_t cell_halve(const cell *c, cell pieces[CELL_PIECES]);
@@ -37,21 +37,21 @@ typedef struct cell_search cell_search;
 typedef enum cell_plane {
     CELL_HALVES, ///< at the middle of its longest edge
     CELL_BOTH,   ///< by the plane
-    CELL_BELOW   ///< by the plane, above which nothing of the body is
+    CELL_BELOW   ///< by the plane; the body has no point above it
 } cell_plane;
 
-/// A search. bound: lowers cell->bound as far as it can, and may raise `lower` (cell_search_raise). plane: where to
-/// cut the cell.
+/// A search. bound: lowers cell->bound as far as it can, and may raise `lower` (cell_search_raise). plane: where to cut
+/// the cell.
 struct cell_search {
     void (*find_bound)(cell_search *s, cell *c);
     cell_plane (*find_plane)(cell_search *s, const cell *c, ovoid_plane *plane);
     void *problem;
     double tolerance;
-    double ceiling; ///< what is to be shown to hold the greatest value; INFINITY: the least that can be
-    double lower;   ///< shown by `point`
+    double ceiling; ///< the upper bound to prove; INFINITY: find the least one
+    double lower;   ///< proven by `point`
     vec3 point;
     uint32_t point_owner;
-    double dropped; ///< the greatest bound of cells that need no further look
+    double dropped; ///< the greatest bound of cells that need not be examined further
     double *owners; ///< the same for each owner, or NULL
     cell *heap;     ///< the greatest bound first
     size_t count, room, looked, work;
@@ -64,7 +64,7 @@ void cell_search_raise(cell_search *s, double lower, vec3 point, uint32_t owner)
 void cell_search_add(cell_search *s, cell *c);
 /// Adds six cells that fill the box.
 void cell_search_add_box(cell_search *s, const box *around, uint32_t owner);
-/// Searches until the bracket is as narrow as the tolerance, or room or work is used up: the upper end.
+/// Searches until the bracket is as narrow as the tolerance, or room or work is used up. Returns the upper end.
 double cell_search_run(cell_search *s);
 
 #endif

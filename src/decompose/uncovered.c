@@ -1,13 +1,13 @@
 // r, the greatest distance of a point of the solid from its nearest part.
 //
-// Above: the distance from a convex part is convex, so in a cell it is greatest at a corner, and the cell is bounded by
-// the least, over the parts, of the greatest of its four corners. A cell that no triangle crosses is whole inside or
-// whole outside of the solid; outside it has no point of it. Below: any point inside the solid, and all its triangles'
-// points, by the least of the lower bounds of the core.
+// Upper bound: the distance from a convex part is convex, so in a cell it is greatest at a corner, and the cell is
+// bounded by the least, over the parts, of the greatest distance of its four corners. A cell that no triangle crosses
+// is either completely inside or completely outside of the solid; outside it has no point of it. Lower bound: points
+// inside the solid, and points of its triangles, by the least of the lower bounds of the core.
 //
-// A cell is cut by the plane that touches its best part, moved outward by nearly what the search aims at:
-// what is on the part's side is then done, and what is beyond is another part's, or not the solid's at all. So parts
-// whose faces are those of the solid, or of each other, need no cells as small as the tolerance.
+// A cell is cut by the plane that touches its nearest part, moved outward by nearly the tolerance: the piece on the
+// part's side is then done, and the piece beyond belongs to another part, or is outside of the solid. So parts whose
+// faces are faces of the solid, or of each other, need no cells as small as the tolerance.
 #include "decompose/searches.h"
 
 #include <string.h>
@@ -21,7 +21,7 @@ static double find_box_distance(const body_part *p, const cell *c) {
     return most;
 }
 
-// The greatest of the four corners' distances from a part; above `cap` it need not be exact.
+// The greatest distance of the four corners from a part; need not be exact above `cap`.
 static double find_farthest(const body *b, const cell *c, uint32_t part, double cap) {
     double most = 0;
     for (int i = 0; i < 4 && most < cap; i++) most = max2(most, body_probe_part(b, part, c->corner[i], cap).upper);
@@ -42,14 +42,14 @@ double uncovered_find_least(const body *b, vec3 x, uint32_t first, uint32_t *nea
 
 static void try_point(cell_search *s, vec3 x, uint32_t part) {
     const body *b = s->problem;
-    // Hardly any point is the farthest yet: one part that is near enough shows that.
+    // Few points are farther than the farthest so far: one part that is near enough excludes the others.
     if (body_probe_part(b, part, x, s->lower).upper <= s->lower) return;
     double d = uncovered_find_least(b, x, part, &part);
     cell_search_raise(s, d, x, part);
 }
 
-// What a cell has of the solid: the triangles that cross it, and its corners inside. The hull of these holds it all,
-// since what else there is at the edge of the cell's share of the solid is no corner of that share's hull.
+// The piece of the solid in a cell: the triangles that cross the cell, and the cell's corners inside. The hull of these
+// contains the piece, since every other point on the border of the piece is not a corner of its hull.
 enum { CROSSING = 512, TABLE = 4096 };
 typedef struct share {
     uint32_t count;                ///< of triangles; CROSSING + 1: more
@@ -80,7 +80,7 @@ static void find_share(const body *b, const cell *c, share *own) {
         if (body_find_inside(b, c->corner[i]) != 0) own->corners[own->corner_count++] = c->corner[i];
 }
 
-// The greatest distance of the share from a part; from `cap` on it need not be exact.
+// The greatest distance of the piece from a part; need not be exact from `cap` on.
 static double find_farthest_share(const body *b, const share *own, uint32_t part, double cap) {
     double most = 0;
     for (int i = 0; i < own->corner_count && most < cap; i++)
@@ -147,10 +147,10 @@ double uncovered_search(cell_search *s) {
     enum { POINTS = 1 << 14 };
     size_t vertices = 0;
     for (uint32_t i = 0; i < b->part_count; i++) vertices += ovoid_shape_get_polytope(b->parts[i].shape).vertex_count;
-    // A part of thousands of vertices takes its time.
+    // Fewer points are tried for parts of thousands of vertices, since each takes longer.
     uint32_t points = (uint32_t)min2(POINTS, 0x1p24 * b->part_count / (double)vertices);
     uncovered_set_functions(s);
-    // The solid's points first: farthest are mostly corners.
+    // The solid's points first, since the farthest are mostly corners.
     uint32_t step = b->solid->point_count / points + 1;
     for (uint32_t i = 0; i < b->solid->point_count; i += step)
         try_point(s, vec3_scale(vec3_at(b->solid->points, i), b->inverse), s->point_owner);

@@ -1,6 +1,5 @@
-// A proof of parts, held against the solid and the parts: the points that show the lower ends are measured, and the
-// upper ends are shown anew by cells, each bounded by the claim alone. Nothing of the search that found them is
-// believed.
+// Verifies a proof against the solid and the parts: the points of the lower ends are measured, and the upper ends are
+// proven again by cells, each bounded by the claim alone. Nothing of the search that found them is trusted.
 //
 // Bounds of cells are true to half the pad (body.h), so a claim that is three quarters of the pad above all of them
 // holds.
@@ -9,20 +8,21 @@
 #include "base/error.h"
 #include "decompose/searches.h"
 
-/// What is checked: one of the two lengths.
+/// The length to verify, one of two.
 typedef struct claim {
     const char *name;
     const ovoid_decomposition_length *length;
     double (*search)(cell_search *s);
-    double (*measure)(const body *b, const ovoid_decomposition_length *length); ///< of the point, at most what it is
+    double (*measure)(const body *b,
+                      const ovoid_decomposition_length *length); ///< a lower bound of the length at the point
 } claim;
 
 static ovoid_code refuse(const claim *c, const char *what, double claimed, ovoid_error *error) {
     return error_set(error, OVOID_ERROR_ARGUMENT, -1, "%s: %s, %.9g, is not so", c->name, what, claimed);
 }
 
-// How far the point, which must be the solid's, is from all parts at least; below 0 where it is not, or another part is
-// nearer than the one that is named.
+// A lower bound of the distance of the point, which must be the solid's, from all parts; below 0 if it is not, or if
+// another part is nearer than the named one.
 static double measure_uncovered(const body *b, const ovoid_decomposition_length *length) {
     vec3 x = vec3_scale(length->point, b->inverse);
     uint32_t nearest = length->part;
@@ -31,7 +31,7 @@ static double measure_uncovered(const body *b, const ovoid_decomposition_length 
     return body_probe_part(b, length->part, x, INFINITY).lower <= least + 4 * b->pad ? least : -1;
 }
 
-// How far some point of the part is from the solid at least: the one nearest to the point.
+// A lower bound of the distance from the solid of some point of the part: the nearest one to the stated point.
 static double measure_excess(const body *b, const ovoid_decomposition_length *length) {
     vec3 x = vec3_scale(length->point, b->inverse);
     return body_find_outside(b, x) - body_probe_part(b, length->part, x, INFINITY).upper;
@@ -89,7 +89,7 @@ static ovoid_code verify(const ovoid_decomposition *d, const ovoid_decomposition
     ovoid_code code = body_validate_options(given, &o, error);
     if (code == OVOID_OK) code = body_open_parts(&b, d, &o, error);
     if (code != OVOID_OK) return code;
-    // The first cells of all parts must have room.
+    // The first cells of all parts need room.
     size_t least = 6 * (size_t)b.part_count + CELL_PIECES;
     if (o.cells < least) o.cells = least;
     code = verify_both(&b, &o, proof, error);

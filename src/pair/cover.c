@@ -36,8 +36,8 @@ static double least_along(vec3 n, vec3 a, vec3 b, vec3 c) {
     return fmin(vec3_dot(n, a), fmin(vec3_dot(n, b), vec3_dot(n, c)));
 }
 
-// For any unit n all of the triangle has n.x >= the least of its corners. Its own normal is tried first; where that
-// does not give `enough`, the directions to its nearest point and to its longest edge.
+// For any unit n all points of the triangle have n.x >= the least of its corners. Its own normal is tried first; if
+// that does not give `enough`, the directions to its nearest point and to its longest edge.
 double triangle_compute_clearance(vec3 a, vec3 b, vec3 c, double enough, vec3 *normal) {
     vec3 n = simplex_compute_normal(vec3_sub(b, a), vec3_sub(c, a));
     *normal = vec3_dot(n, a) < 0 ? vec3_neg(n) : n;
@@ -54,13 +54,13 @@ double triangle_compute_clearance(vec3 a, vec3 b, vec3 c, double enough, vec3 *n
     return best;
 }
 
-// The sign of det(u, a, b), or 0 where rounding may hide it.
+// The sign of det(u, a, b), or 0 if rounding may hide it.
 static int edge_sign(vec3 u, vec3 a, vec3 b, double slack) {
     double det = vec3_dot(u, vec3_cross(a, b));
     return det > slack ? 1 : det < -slack ? -1 : 0;
 }
 
-// The signed crossings of the surface by the ray u; 0 in *ok where the ray cannot be used. enough: as for
+// The signed crossings of the surface by the ray u; *ok is 0 if the ray cannot be used. enough: as in
 // triangle_compute_clearance.
 static long count_crossings(const surface *s, vec3 u, double slack, double enough, int *ok) {
     long sum = 0;
@@ -96,7 +96,8 @@ static int is_outward(vec3 a, vec3 b, vec3 c, double doubt) {
     return det > 0 && det * det > doubt * (vec3_norm_squared(e1) + vec3_norm_squared(e2));
 }
 
-// 1 if all triangles are outward: then each crossing of a ray counts +1, and a ray toward a triangle crosses that one.
+// 1 if all triangles are outward: then each crossing of a ray counts +1, and a ray toward a triangle crosses that
+// triangle.
 static int is_star(const surface *s, double doubt) {
     for (uint32_t t = 0; t < s->triangle_count; t++) {
         const uint16_t *v = s->triangles[t];

@@ -1,4 +1,4 @@
-// A closed surface of differences around the origin: the proof of a depth from below.
+// A closed surface of differences around the origin: the proof of a depth's upper bound.
 #ifndef OVOID_PAIR_COVER_H
 #define OVOID_PAIR_COVER_H
 
@@ -26,7 +26,7 @@ double triangle_compute_clearance(vec3 a, vec3 b, vec3 c, double enough, vec3 *n
 /// when each coordinate may be off by `error`; 0 if that is not proven. The surface must be closed.
 double surface_compute_depth(const surface *s, double error);
 
-/// 1 if each directed edge is met exactly once and its reverse exactly once, and all indices are in range.
+/// 1 if each directed edge occurs exactly once and its reverse exactly once, and all indices are in range.
 int surface_is_closed(const surface *s);
 
 #endif

@@ -1,6 +1,5 @@
-// A pair in double-double arithmetic, for what doubles cannot decide. Directions are in the world frame, so that a
-// proof's direction is measured as it is stated; differences of points are the exact ones but for a few E s, E =
-// 2^-102.
+// A pair in double-double arithmetic, for cases that doubles cannot decide. Directions are in the world frame, so that
+// a proof's direction is measured as it is stated; differences of points are exact to a few E s, E = 2^-102.
 //
 // With s the pair's size (frame.h), H = 128 E times the distances of the shapes' origins from the frames they are given
 // in (since these are rotated; positions do not count, as they differ exactly):
@@ -27,8 +26,8 @@ typedef struct fine_frame {
     double check, claim;         ///< what a measurement may be off by; by how much a claim is lowered
 } fine_frame;
 
-/// The frame of a pair with valid poses, or 0 where it would resolve little more than doubles do: lengths near
-/// OVOID_LENGTH_MIN, or origins so far from the frames they are rotated in that they hide 2^-60 of the size.
+/// The frame of a pair with valid poses, or 0 if it would resolve little more than doubles do: lengths near
+/// OVOID_LENGTH_MIN, or origins so far from the frames in which they are rotated that they hide 2^-60 of the size.
 int fine_make(const ovoid_pair *pair, fine_frame *fine);
 
 /// The difference of two vertices, B minus A.
@@ -42,8 +41,8 @@ typedef struct fine_support {
 } fine_support;
 fine_support fine_find_support(const fine_frame *f, dd3 n);
 
-/// Bounds of d, radii and allowances subtracted, in the lengths of the world, for what may be off by `error`: `check`
-/// or `claim`.
+/// Bounds of d, with radii and allowances subtracted, in the world's unit, from a measurement with an error of `error`:
+/// `check` or `claim`.
 double fine_compute_lower(const fine_frame *f, dd gap, double error);
 double fine_compute_upper(const fine_frame *f, dd distance, double error);
 

@@ -32,7 +32,8 @@ static dd3 place(const ovoid_shape *shape, const ovoid_pose *pose) {
 }
 
 // For shapes with an origin: the difference of the frames' origins is formed before it is rounded to doubles. Returns
-// what this can hide; the plain difference of two positions hides nothing, being off by one rounding of itself.
+// the error that this can hide; the plain difference of two positions hides none, since it is off by one rounding of
+// itself.
 static double place_origins(pair_frame *f, const ovoid_pair *pair) {
     dd3 a = place(f->a, &pair->pose_a), b = place(f->b, &pair->pose_b);
     f->world_origin = dd3_high(a);
@@ -47,7 +48,7 @@ static int is_place(vec3 p) {
 }
 
 // Sets both rotations to the world, with the operations of quat_to_mat3, and the difference of the spheres' centres. 0:
-// a quaternion has to be looked at, and nothing is set.
+// a quaternion needs scaling, and nothing is set.
 static int place_plain(pair_frame *f, ovoid_quat a, ovoid_quat b) {
     both w = both_make(a.w, b.w), x = both_make(a.x, b.x), y = both_make(a.y, b.y), z = both_make(a.z, b.z);
     both ww = w * w, xx = x * x, yy = y * y, zz = z * z, norm = (ww + xx) + (yy + zz);
@@ -130,7 +131,7 @@ simd_pair shapes_find_pair(const ovoid_shape *a, const ovoid_shape *b, vec3 in_a
     return simd_find_pair(&points_a, along_a, &points_b, along_b);
 }
 
-// Where one of the shapes has a table of supports: it gives the vertices with their indices.
+// Used if one of the shapes has a table of supports, which gives the vertices with their indices.
 static frame_support find_support_apart(const pair_frame *f, vec3 n, vec3 in_b) {
     simd_extreme a = shape_find_extreme(f->a, n), b = shape_find_extreme(f->b, in_b);
     double gap = (vec3_dot(n, f->translation) - b.value) - a.value;

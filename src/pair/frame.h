@@ -33,8 +33,8 @@ typedef struct pair_frame {
     double size;                       ///< s
     double claim;                      ///< FRAME_CLAIM s, and what underflow can hide
     double check;                      ///< FRAME_CHECK s, and what underflow can hide
-    double hidden;                     ///< what underflow and far origins can hide, whatever the size
-    double lower_radii; ///< sums of both shapes' radii, what a lower bound and what an upper bound loses: they differ
+    double hidden;                     ///< the lengths that underflow and far origins can hide, whatever the size
+    double lower_radii; ///< the sums of both shapes' lower_radius and of their upper_radius (block.h); they differ
     double upper_radii; ///< by the allowances
     // By frame_relate: B in the frame of A.
     mat3 rotation;    ///< x_a_frame = rotation x_b + translation
@@ -49,7 +49,7 @@ ovoid_limit frame_make(const ovoid_pair *pair, pair_frame *frame);
 ovoid_limit frame_place(const ovoid_pair *pair, pair_frame *frame);
 void frame_relate(pair_frame *frame);
 
-/// The lengths that bounds are widened by.
+/// Sets the lengths by which bounds are widened.
 static inline void frame_set_lengths(pair_frame *f) {
     f->lower_radii = f->a->lower_radius + f->b->lower_radius;
     f->upper_radii = f->a->upper_radius + f->b->upper_radius;
@@ -58,7 +58,8 @@ static inline void frame_set_lengths(pair_frame *f) {
     f->check = FRAME_CHECK * f->size + f->hidden;
 }
 
-/// frame_place of prepared shapes, both of which must be ready, in two steps: all but the rotations; these.
+/// frame_place of prepared shapes, both of which must be ready, in two steps: everything but the rotations; the
+/// rotations.
 static inline void frame_place_prepared(const ovoid_prepared_shape *a, const ovoid_prepared_shape *b, pair_frame *f) {
     f->a = a->body.shape;
     f->b = b->body.shape;
@@ -71,18 +72,17 @@ static inline void frame_place_prepared(const ovoid_prepared_shape *a, const ovo
 
 void frame_place_rotations(const ovoid_prepared_shape *a, const ovoid_prepared_shape *b, pair_frame *frame);
 
-/// The width of the bracket that the shapes' allowances make, at most.
+/// The largest width of the bracket that the shapes' allowances cause.
 static inline double frame_get_allowance(const pair_frame *f) { return f->lower_radii - f->upper_radii; }
 static inline int frame_has_axis(const pair_frame *f) {
     return (f->a->has_allowance | f->b->has_allowance) >= ALLOWANCE_AXIS;
 }
-/// What a lower bound along the unit direction n, from which `lower_radii` was subtracted, gains where an allowance is
-/// along an axis: to be added and rounded down. in_a: n in the axes of A; in_b: in those of B. error: of both
-/// (block.h).
+/// The gain of a lower bound along the unit direction n if an allowance is along an axis; `lower_radii` was subtracted
+/// from the bound. Add it and round down. in_a: n in the axes of A; in_b: in those of B. error: of both (block.h).
 static inline double frame_compute_gain(const pair_frame *f, vec3 in_a, vec3 in_b, double error) {
     return shape_compute_gain(f->a, in_a, error) + shape_compute_gain(f->b, in_b, error);
 }
-/// The bound with that.
+/// The bound with that gain.
 static inline double frame_take_gain(double lower, double gain) {
     return gain > 0 ? nextafter(lower + gain, -INFINITY) : lower;
 }
@@ -119,7 +119,7 @@ typedef struct frame_support {
 } frame_support;
 frame_support frame_find_support(const pair_frame *f, vec3 n);
 
-/// The gap by a search of all vertices, without the tables that the shapes have: for verification.
+/// The gap by a search of all vertices, without the shapes' tables: for verification.
 double frame_measure_gap(const pair_frame *f, vec3 n);
 
 /// A shape's vertices as the kernels read them, in its body frame.

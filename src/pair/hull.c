@@ -45,8 +45,7 @@ static double compact_tetrahedron_depth(const face_numbers *f, double reach, dou
     return above == 4 || below == 4 ? depth : 0;
 }
 
-// compact_tetrahedron_depth in units of the corners' size; weights of the origin, which mean something where it is
-// inside.
+// compact_tetrahedron_depth in units of the corners' size; the weights of the origin are valid only if it is inside.
 static double tetrahedron_depth(const vec3 w[4], double error, double weight[4]) {
     double reach = 0, unit = 1, depth;
     for (int i = 0; i < 4; i++) reach = max2(reach, vec3_max_abs(w[i]));

@@ -13,7 +13,7 @@ static double norm_of(const shape_inner *in, vec3 y) {
     return vec3_norm((vec3){w[0] * y.x, w[1] * y.x + w[2] * y.y, (w[3] * y.x + w[4] * y.y) + w[5] * y.z});
 }
 
-// An upper bound of the norm of a point that may be off by `error`; 2 for an ellipsoid too thin to say.
+// An upper bound of the norm of a point with an error of `error`; 2 for an ellipsoid too thin to decide.
 static double norm_in(const ovoid_shape *s, vec3 x, double error) {
     const shape_inner *in = &s->inside;
     if (!(in->least > 0)) return 2;
@@ -38,8 +38,8 @@ double inner_points_compute_upper(const pair_frame *f, vec3 a, vec3 b, double er
     return vec3_norm(vec3_sub(frame_b(f, b), a)) - f->upper_radii + error;
 }
 
-// The share of the way from A's centre to B's at which a point of it is common, if any is; ka, kb: the norms of the
-// way. 0 where none is; *is_common.
+// The share of the way from A's centre to B's at which a point of the segment is common to both; ka, kb: the norms of
+// the whole segment. 0 if there is none; *is_common.
 static double find_share(double ka, double kb, int *is_common) {
     *is_common = ka * kb < 0.999 * (ka + kb);
     return kb / (ka + kb);

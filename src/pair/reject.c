@@ -12,7 +12,7 @@ int reject_by_normal(const pair_frame *f, double far, const ovoid_proof *earlier
     if (frame_has_axis(f)) lower = frame_take_gain(lower, frame_compute_gain(f, in_a, in_b, AXIS_CLAIM));
     found->a = ends.high.index;
     found->b = ends.low.index;
-    // A direction that underflowed to nothing proves nothing.
+    // A direction that underflowed to zero proves nothing.
     if (!(lower > far) || !(vec3_norm_squared(n) > 0.5)) return 0;
     *found = (rejection){lower, n, ends.high.index, ends.low.index, OVOID_STAGE_PROOF};
     return 1;
@@ -26,7 +26,7 @@ ovoid_answer rejection_make_answer(const rejection *g, const pair_frame *f, cons
     double upper = distance - f->upper_radii + reject_get_claim(f);
     // The radii go along the difference of the points, which is longer than both, as the lower bound is above zero.
     double share_a = f->a->radius / distance, share_b = f->b->radius / distance;
-    // One expression, which gcc 12 builds in place; it would copy a variable.
+    // One expression, which gcc 12 builds in the result's place; it would copy a variable.
     return (ovoid_answer){.status = OVOID_SEPARATED,
                           .stage = g->stage,
                           .limit = upper - g->lower <= goal->tolerance ? OVOID_LIMIT_NONE : goal->beyond,

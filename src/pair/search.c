@@ -1,4 +1,4 @@
-// Bounds and what proves them.
+// Bounds and their evidence.
 #include "pair/search.h"
 
 #include "pair/hull.h"
@@ -12,14 +12,14 @@ int search_is_done(const search *s) {
     if (s->lower > s->goal.far) return 1;
     if (!search_is_sign_known(s) && !query_goal_is_hopeless(&s->goal, s->lower, s->upper)) return 0;
     if (s->upper <= s->goal.near) return 1;
-    // A tetrahedron around the origin may bracket a shallow depth well, but its witness is one common point.
+    // A tetrahedron around the origin may bracket a shallow depth well, but its witness is a single common point.
     return s->kind != OVOID_PROOF_HULL && s->goal.wants_bracket && s->upper - s->lower <= s->goal.tolerance;
 }
 
 void search_take_gap(search *s, vec3 n, double gap) {
     const pair_frame *f = s->frame;
     double lower = gap - f->lower_radii - f->claim;
-    // A direction that underflowed to nothing proves nothing.
+    // A direction that underflowed to zero proves nothing.
     if (!(lower > s->lower) || !(vec3_norm_squared(n) > 0.5)) return;
     s->lower = lower;
     s->normal = n;
@@ -31,7 +31,7 @@ frame_support search_probe(search *s, vec3 n) {
     return found;
 }
 
-// Writes only the entries that count, a small part of the struct.
+// Copies only the entries in use, a small part of the struct.
 static void take_evidence(evidence *e, const simplex *points) {
     e->count = points->count;
     for (int i = 0; i < points->count; i++) {

@@ -1,4 +1,4 @@
-// The state of one query: the best bounds so far with what proves them, and the goal that says when to stop.
+// The state of one query: the best bounds so far with their evidence, and the goal that says when to stop.
 #ifndef OVOID_PAIR_SEARCH_H
 #define OVOID_PAIR_SEARCH_H
 
@@ -9,14 +9,14 @@
 typedef struct query_goal {
     double far;          ///< answered when lower > far: the margin, the cap
     double near;         ///< answered when upper <= near and the sign is proven: the margin; -infinity: never
-    double tolerance;    ///< answered when the bracket is this narrow; `allowance` is in it
-    double allowance;    ///< the width that no search takes away, since the bodies are not known better
-    int has_axis;        ///< an end along the normal takes some of it away (answer.c)
+    double tolerance;    ///< answered when the bracket is this narrow; includes `allowance`
+    double allowance;    ///< the part of the width that no search removes, since it comes from the bodies' allowances
+    int has_axis;        ///< for some normals the allowance is smaller (answer.c)
     uint32_t iterations; ///< most iterations of each exact method
-    int wants_depth;     ///< a proven overlap does not answer it
-    int wants_bracket;   ///< narrowing the bracket is asked, not only the sign
-    ovoid_limit beyond;  ///< what an answer says that stopped at lower > far
-    int has_cover;       ///< the cover at hand is kept, unless one shows less than `covered`, its upper bound
+    int wants_depth;     ///< a proven overlap does not answer the query
+    int wants_bracket;   ///< the query asks for a narrow bracket, not only for the sign
+    ovoid_limit beyond;  ///< the limit of an answer that stopped at lower > far
+    int has_cover;       ///< the present cover is kept, unless a new one proves less than `covered`, its upper bound
     double covered;
 } query_goal;
 
@@ -43,8 +43,8 @@ typedef struct search {
     uint32_t iterations;
 } search;
 
-/// The state before anything is known: the bracket is everything. The witness' entries, the largest part of the struct,
-/// are not set, since nothing reads past its count.
+/// The state at the beginning: the bracket is everything. The witness' entries, the largest part of the struct, are not
+/// set, since nothing reads past its count.
 static inline void search_make(search *s, const pair_frame *frame, const query_goal *goal) {
     const vec3 zero = {0, 0, 0};
     s->frame = frame;
@@ -60,9 +60,9 @@ static inline void search_make(search *s, const pair_frame *frame, const query_g
     s->iterations = 0;
 }
 
-/// 1 if the allowances leave the sign open, however narrow the bracket becomes: only they are left of it, or without
-/// them it is so near to zero that no further search takes the sign out of them. Allowances along an axis are less
-/// along some normals: the normal is searched for to the end.
+/// 1 if the allowances leave the sign open, however narrow the bracket becomes: either only their width is left, or the
+/// bracket without them is so near to zero that no further search can decide the sign. Along some normals an allowance
+/// along an axis is smaller, so then the normal is searched for to the end.
 static inline int query_goal_is_hopeless(const query_goal *goal, double lower, double upper) {
     if (!(goal->allowance > 0)) return 0;
     if (upper - lower <= goal->tolerance) return 1;

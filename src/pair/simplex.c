@@ -1,7 +1,7 @@
 // The nearest point of points, segments, triangles and tetrahedra, case by case.
 #include "pair/simplex.h"
 
-// A nearest point, with the corners of the smallest face that holds it, by their places in the simplex, and their
+// A nearest point, the corners of the smallest face that contains it, by their places in the simplex, and their
 // weights.
 typedef struct nearest {
     int count;
@@ -39,7 +39,7 @@ static nearest nearest_of_triangle(const difference *p, int i, int j, int k) {
 }
 
 // The side of the face v[0], v[1], v[2] that the origin is on, compared with the corner v[3]: 1 the same, -1 the other,
-// 0 in doubt. *volume: of the tetrahedron that the face makes with the origin, times six.
+// 0 in doubt. *volume: six times that of the tetrahedron of the face and the origin.
 static int origin_side(const difference *p, const int v[4], double *volume) {
     vec3 a = p[v[0]].w, e1 = vec3_sub(p[v[1]].w, a), e2 = vec3_sub(p[v[2]].w, a), n = vec3_cross(e1, e2);
     double to_origin = -vec3_dot(n, a), to_corner = vec3_dot(n, vec3_sub(p[v[3]].w, a));
@@ -88,9 +88,10 @@ vec3 simplex_compute_normal(vec3 e1, vec3 e2) {
     return area > 1e-4 * edges ? vec3_unit(n) : orthogonalised(n, e1, e2);
 }
 
-// The direction to the nearest point, cleaned of what rounding left along the face. Of a segment e: the point is off by
-// u |w|, which turns the direction by u |w| / |point|; that moves the gap by |e| times as much, nothing where |point|
-// and |e| compare. Of a triangle: its normal is off by u / sin of the angle at the corner, nothing but for slivers.
+// The direction to the nearest point, without the rounding error along the face. For a segment e the point is off by u
+// |w|, which turns the direction by u |w| / |point| and moves the gap by |e| times as much; this is negligible if
+// |point| and |e| are similar. For a triangle the normal is off by u / sin of the angle at the corner, negligible
+// except for slivers.
 static vec3 direction(const simplex *s, vec3 point) {
     vec3 zero = {0, 0, 0}, n = vec3_unit(point);
     if (s->count == 1) return n;

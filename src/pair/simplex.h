@@ -2,8 +2,8 @@
 // N. Petrinic, E. Barbieri, Improving the GJK algorithm for faster and more reliable distance queries between convex
 // objects, 2017: each face of the simplex is tested for the side that the origin lies on.
 //
-// Nothing here is trusted: whatever comes back is a convex combination of the simplex's points, so its norm is an upper
-// bound, and the direction only proposes a lower bound that the supports then prove.
+// Nothing here is trusted: every result is a convex combination of the simplex's points, so its norm is an upper bound,
+// and the direction only proposes a lower bound that the supports then prove.
 #ifndef OVOID_PAIR_SIMPLEX_H
 #define OVOID_PAIR_SIMPLEX_H
 
@@ -27,8 +27,8 @@ typedef struct simplex {
 /// to rounding: then all points are kept, with the weights of the origin.
 vec3 simplex_reduce(simplex *s);
 
-/// Weights of the nearest point of a simplex of 1 to 3 points, which lies inside it: no point may be left out.
-/// Where rounding sees it otherwise, the simplex is reduced.
+/// Weights of the nearest point of a simplex of 1 to 3 points, which lies inside it, so no point may be left out. If
+/// rounding gives another result, the simplex is reduced.
 void simplex_compute_weights(simplex *s);
 
 /// Weights of the origin, which lies in the tetrahedron.

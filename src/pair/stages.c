@@ -4,7 +4,7 @@
 #include "pair/inner.h"
 #include "pair/proof.h"
 
-// Adds a difference that is not there yet, while there is room.
+// Adds a difference that is new, while there is room.
 static void take_start(simplex *start, difference d) {
     for (int k = 0; k < start->count; k++)
         if (start->p[k].a == d.a && start->p[k].b == d.b) return;
@@ -21,7 +21,7 @@ static int take_common(search *s, vec3 x) {
     return 1;
 }
 
-// The common point or the hull around the origin that an earlier overlap was proven by.
+// The common point or the hull around the origin of an earlier proof of an overlap.
 static void take_overlap(search *s, const ovoid_proof *earlier) {
     const pair_frame *f = s->frame;
     if (earlier->kind == OVOID_PROOF_INNER && !s->goal.wants_depth) {
@@ -38,8 +38,8 @@ void stage_proof(search *s, const ovoid_proof *earlier, simplex *start) {
     start->count = 0;
     if (!earlier || !proof_is_sound(f, earlier)) return;
     take_overlap(s, earlier);
-    // Its direction: the first rejections have not measured it for a depth, nor for a proof without differences. In
-    // other cases the direction of the differences is newer.
+    // The proof's direction: for a depth, and for a proof without differences, the first rejections have not measured
+    // it. In other cases the direction of the differences is newer.
     vec3 n = vec3_unit(frame_direction_from_world(f, earlier->normal));
     if ((s->goal.wants_depth || earlier->count == 0) && !search_is_done(s) && vec3_norm_squared(n) > 0)
         (void)search_probe(s, n);
@@ -58,8 +58,8 @@ static int is_moderate(double trace_a, double trace_b, double square) {
     return most > 1e-30 && most < 1e30;
 }
 
-// The matrix is scaled by sA sB, and its adjugate taken for its inverse: neither changes the direction, and no division
-// is needed. Where one body has no extent (s = 0), the other decides the direction.
+// The matrix is scaled by sA sB, and its adjugate replaces its inverse: neither changes the direction, and no division
+// is needed. If one body has no extent (s = 0), the other decides the direction.
 static vec3 find_direction(sym3 qa, sym3 qb, vec3 d, double *gap) {
     vec3 n = vec3_unit(d);
     for (int round = 0;; round++) {
@@ -84,7 +84,7 @@ static vec3 find_direction(sym3 qa, sym3 qb, vec3 d, double *gap) {
 
 vec3 ellipsoids_find_direction(sym3 qa, sym3 qb, vec3 d, double *gap) {
     double square = vec3_norm_squared(d);
-    // Concentric ellipsoids: nothing separates them, any direction will do.
+    // Concentric ellipsoids: nothing separates them, so any direction is as good.
     if (!(square > 0)) {
         *gap = -INFINITY;
         return (vec3){1, 0, 0};

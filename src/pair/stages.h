@@ -1,15 +1,15 @@
-// The stages before the exact search, in the order of their cost. Each may answer the query, and each leaves its
-// direction or its points to the next. Bounds go into the search; only hints are returned.
+// The stages before the exact search, in the order of their cost. Each may answer the query, and each passes its
+// direction or its points to the next. Bounds are stored in the search; only hints are returned.
 #ifndef OVOID_PAIR_STAGES_H
 #define OVOID_PAIR_STAGES_H
 
 #include "pair/search.h"
 
 /// The pair's earlier proof: its normal is measured again, its differences become the first simplex. *start stays empty
-/// where the proof is NULL or not sound for this pair.
+/// if the proof is NULL or not sound for this pair.
 void stage_proof(search *s, const ovoid_proof *earlier, simplex *start);
 
-/// Outer ellipsoids; the direction that separates them best, unit, in *n.
+/// Outer ellipsoids; *n receives the unit direction of their largest gap.
 void stage_outer(search *s, vec3 *n);
 
 /// The polyhedra's own supports along n; the vertex pair goes into *start.

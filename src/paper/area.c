@@ -106,7 +106,7 @@ static ovoid_code create_facets(ovoid_areas *a) {
     return OVOID_OK;
 }
 
-/// OVOID_OK, or an error where areas cannot be made of the input.
+/// OVOID_OK, or an error if areas cannot be made from the input.
 static ovoid_code validate_input(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid,
                                  const ovoid_areas_options *options, ovoid_error *error) {
     uint32_t k = options->k;
@@ -123,7 +123,7 @@ static ovoid_code validate_input(const ovoid_polytope *polytope, const ovoid_ell
     return OVOID_OK;
 }
 
-/// Fills the block; on failure what was made so far is left to ovoid_areas_destroy.
+/// Fills the block; on failure ovoid_areas_destroy frees what was made so far.
 static ovoid_code fill_areas(ovoid_areas *a, const ovoid_ellipsoid *ellipsoid, ovoid_error *error) {
     double ratio;
     if (!sphere_space_make(ellipsoid->q, &a->root, &a->inverse_root, &ratio))

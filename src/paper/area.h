@@ -1,4 +1,4 @@
-// The content of the areas of one polyhedron.
+// The contents of the areas of one polyhedron.
 #ifndef OVOID_PAPER_AREA_H
 #define OVOID_PAPER_AREA_H
 
@@ -19,13 +19,13 @@ struct ovoid_areas {
     ovoid_allocator allocator;
 };
 
-/// Q^1/2 and Q^-1/2 of a positive definite Q and the ratio of its radii; 0 where it is not.
+/// Q^1/2 and Q^-1/2 of a positive definite Q and the ratio of its radii; 0 if it is not positive definite.
 int sphere_space_make(sym3 q, sym3 *root, sym3 *inverse_root, double *ratio);
 
 /// The octants that a rule keeps, as bits. toward: the direction to the other body, in sphere space.
 uint32_t octants_find_kept(vec3 toward, ovoid_area_rule rule);
 
-/// The direction, scaled by a power of two where a mapping of it could over- or underflow; zero where it is not finite.
+/// The direction, scaled by a power of two if a mapping of it could over- or underflow; zero if it is not finite.
 vec3 direction_scaled(vec3 v);
 
 #endif

@@ -1,5 +1,6 @@
 // Step (g): where a ray from the ellipsoid's centre leaves the polyhedron, and the vertex extreme along a direction.
-// Both are the largest of many dot products; the areas say which of them can be it. docs/areas.md has the proofs.
+// Both are the largest of many dot products; the areas list those that can be the largest. docs/areas.md has the
+// proofs.
 //
 // Every rule takes the same stored points and the same mapped direction, so the products are the same bits, and ties go
 // to the lowest index: rules that are sound give the same answer as testing all facets, bit for bit.

@@ -7,11 +7,10 @@
 // that |Q1 Q2| is an upper bound of the distance (to rounding; the library's own upper bounds are
 // ovoid_pair_compute_bounds and ovoid_distance).
 //
-// The paper speaks of one line through X* and Y*. It passes through A's inner centre by the nature of the transform,
-// but not through B's; areas are seen from the centre, so B's ray is that from its own centre through Y*. Both rays
-// point into the front half as the rule of signs requires: for A's since the mapped b is convex, for B's since Y* - cb
-// = -Qb n / sqrt(n' Qb n) has the product n . (cb - ca) / sqrt(n' Qb n) > 0 with the other centre, n the separating
-// normal.
+// The paper speaks of one line through X* and Y*. By the transform it passes through A's inner centre, but not through
+// B's. Areas are seen from the centre, so B's ray is that from its own centre through Y*. Both rays point into the
+// front half as the rule of signs requires: A's since the mapped b is convex, B's since Y* - cb = -Qb n / sqrt(n' Qb n)
+// has the product n . (cb - ca) / sqrt(n' Qb n) > 0 with the other centre, n the separating normal.
 #include "ovoid/paper.h"
 
 #include "base/environment.h"
@@ -25,8 +24,8 @@ typedef struct body_ray {
     vec3 start, direction, toward;
 } body_ray;
 
-/// The length, in units of the direction, of the ray inside an ellipsoid that holds its start: the larger root of a t^2
-/// + 2 b t + c = 0. 0 where the ellipsoid is flat.
+/// The length, in units of the direction, of the ray inside an ellipsoid that contains its start: the larger root of a
+/// t^2 + 2 b t + c = 0. 0 if the ellipsoid is flat.
 static double find_ellipsoid_exit(const ovoid_ellipsoid *e, vec3 start, vec3 direction) {
     vec3 y = vec3_sub(start, e->center), qu, qy;
     if (!sym3_solve(e->q, direction, &qu) || !sym3_solve(e->q, y, &qy)) return 0;
@@ -35,7 +34,7 @@ static double find_ellipsoid_exit(const ovoid_ellipsoid *e, vec3 start, vec3 dir
     return isfinite(t) ? fmax(t, 0) : 0;
 }
 
-/// Q in *exit, P in *outer; the ray's far end stands for both where there are no tables.
+/// Q in *exit, P in *outer; without tables both are the far end of the ray.
 static uint32_t find_exits(const body_ray *r, ovoid_area_rule rule, vec3 *exit, vec3 *outer) {
     *exit = *outer = vec3_add(r->start, r->direction);
     if (!r->areas || !(vec3_norm_squared(r->direction) > 0)) return 0;

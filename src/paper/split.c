@@ -3,8 +3,8 @@
 // chart 0 counts the polygons that this gives: 36 for a box of 12 triangles.
 //
 // Only the counts are computed: the tables (table.c) hold whole facets, since a ray needs the facet, not the piece. A
-// coordinate below 2^-46 of the largest is taken for zero, so that a vertex that lies on a plane but for rounding cuts
-// no sliver.
+// coordinate below 2^-46 of the largest is taken for zero, so that a vertex that lies on a plane to rounding cuts no
+// sliver.
 #include "base/environment.h"
 #include "paper/area.h"
 #include "shape/direction_cells.h"
@@ -23,8 +23,8 @@ static vec3 with_zero(vec3 v, int axis) {
     return (vec3){axis == 0 ? 0 : v.x, axis == 1 ? 0 : v.y, axis == 2 ? 0 : v.z};
 }
 
-/// The part on one side (sign 1 or -1) of the plane through zero; nothing where the polygon only touches it from the
-/// other. A polygon in the plane is on the positive side.
+/// The part on one side (sign 1 or -1) of the plane through zero; empty if the polygon only touches it from the other
+/// side. A polygon in the plane is on the positive side.
 static polygon cut(const polygon *p, int axis, double sign) {
     polygon part = {.count = 0};
     int is_beyond = 0, is_behind = 0;

@@ -1,16 +1,16 @@
 // Filling the tables of the areas.
 //
-// Theorem. Let C be a cone spanned by r_1 .. r_m and p_i . r_k >= p_j . r_k + e_i + e_j for every k, where e bounds
-// what rounding does to a dot product. Then for no direction of C is the rounded dot product of j the largest: a
-// direction is a sum of r_k with weights >= 0, so i stays ahead of j by more than the rounding of both. Leaving j out
-// of the cell is sound, whatever becomes of i: no search of the cell could have answered j.
+// Theorem. Let C be a cone spanned by r_1 .. r_m and p_i . r_k >= p_j . r_k + e_i + e_j for every k, where e bounds the
+// rounding of a dot product. Then for no direction of C is the rounded dot product of j the largest: a direction is a
+// sum of r_k with weights >= 0, so i stays ahead of j by more than the rounding of both. Leaving j out of the cell is
+// sound, whether or not i is kept: no search of the cell could have answered j.
 //
-// So only points that one other point beats at all corners are left out. In small cells these are nearly all that can
-// be left out: on a fine surface the points whose own region does not meet the cell have a neighbour, one step toward
-// the cell, that beats them all over it. First the winners at a grid of sample directions are tried as the beating
-// points (linear cost), then in short lists all against all. A finer cell begins with the list of the coarser one,
-// which is why k is a power of two. An octant is no small cell; its list is what small pieces of it list, cube cells of
-// k = 2 to 64.
+// So only points that one other point beats at all corners are left out. In small cells these are nearly all points
+// that can be left out: on a fine surface, a point whose own region does not meet the cell has a neighbour, one step
+// toward the cell, that beats it everywhere in the cell. First the extreme points at a grid of sample directions are
+// tried as the beating points (linear cost), then in short lists all against all. A finer cell begins with the list of
+// the coarser one, which is why k is a power of two. An octant is not a small cell; its list is the union of the lists
+// of small pieces of it, cube cells of k = 2 to 64.
 //
 // Rounding, u = 2^-53, directions with largest coordinate 1, so |r| <= sqrt(3): a dot product is off by 6 u |p|, and a
 // direction may lie 2 u outside its cell by the rounding of its column. 32 u |p| for e covers both, in the comparison
@@ -99,7 +99,7 @@ static uint32_t find_winner(const filler *f, index_list list, vec3 direction) {
     return best;
 }
 
-/// Appends to `kept`, an empty list with room, the points that no winner of a grid of sample directions beats.
+/// Appends to `kept`, an empty list with room, the points that no extreme point of a grid of sample directions beats.
 static index_list cull_by_samples(const filler *f, index_list list, const cone *c, int samples, index_list kept) {
     uint32_t winners[FINE_SAMPLES * FINE_SAMPLES];
     int winner_count = 0;
@@ -119,7 +119,7 @@ static index_list cull_by_samples(const filler *f, index_list list, const cone *
     return kept;
 }
 
-/// Drops from the list, in place, the points that any other point of it beats.
+/// Drops from the list, in place, the points that another point of it beats.
 static index_list cull_by_pairs(const filler *f, index_list list, const cone *c) {
     fill_values(f, list, c);
     index_list kept = {list.items, 0};
@@ -131,7 +131,7 @@ static index_list cull_by_pairs(const filler *f, index_list list, const cone *c)
     return kept;
 }
 
-/// Appends a cell's list to the table; 0 where there is no memory.
+/// Appends a cell's list to the table; 0 if memory runs out.
 static int append(const filler *f, uint32_t cell, index_list list) {
     area_table *t = f->table;
     uint32_t count = list.count;
@@ -159,7 +159,7 @@ static int finish_cell(const filler *f, uint32_t cell, const cone *c, index_list
     return append(f, cell, list);
 }
 
-/// 1 where a piece of an octant needs no further division: its list is short, or the piece small.
+/// 1 if a piece of an octant needs no further division: its list is short, or the piece small.
 static int is_piece(uint32_t k, uint32_t count) { return k >= 2 && (count <= PIECE_LIST || k >= PIECE_K); }
 
 /// The octant's bit for every point of the piece's list.

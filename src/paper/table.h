@@ -1,5 +1,5 @@
-// Cells -> those of many points that can have the largest dot product with a direction of the cell. One table serves
-// vertices and polar dual points of facets alike.
+// Tables from cells to the points that can have the largest dot product with a direction of the cell. One table serves
+// vertices and polar dual points of facets.
 #ifndef OVOID_PAPER_TABLE_H
 #define OVOID_PAPER_TABLE_H
 
@@ -14,8 +14,9 @@ typedef struct area_table {
     uint32_t *entries;
 } area_table;
 
-/// Points in sphere space. For a direction whose largest coordinate is 1, errors[i] bounds by how much the dot product
-/// that a search uses for point i can differ from that with points[i], beyond what this floor's own arithmetic adds.
+/// Points in sphere space. For a direction whose largest coordinate is 1, errors[i] bounds the difference between the
+/// dot product that a search uses for point i and that with points[i], beyond the rounding of this folder's own
+/// arithmetic.
 typedef struct area_points {
     const vec3 *points;
     const double *errors;

@@ -1,4 +1,4 @@
-// The block's layout; a shape's getters, its copy and its end.
+// The layout of a shape's block; getters, copy and destruction of a shape.
 #include "shape/block.h"
 
 #include "base/allocator.h"
@@ -35,7 +35,7 @@ block_offsets block_compute_offsets(block_counts c) {
     return o;
 }
 
-// Clears the header and what lies between arrays, less than 64 bytes before each, so that equal shapes are equal
+// Clears the header and the padding between arrays, less than 64 bytes before each, so that equal shapes are equal
 // blocks.
 static void clear_padding(ovoid_shape *shape, const block_offsets *at) {
     const uint64_t ends[] = {

@@ -35,7 +35,8 @@ typedef struct shape_inner {
 /// A body that is not its polyhedron, in closed form: along z of the user's frame, around its origin.
 typedef enum round_kind { ROUND_NONE = 0, ROUND_CYLINDER, ROUND_CONE } round_kind;
 
-/// What is known of the true body beside the allowance. With the rounding radius around it.
+/// What is known about the true body beside the allowance, for instance that it is a cylinder; the rounding radius is
+/// around it.
 typedef struct round_form {
     round_kind kind;
     double radius, half_length; ///< a cone's apex is at +half_length
@@ -53,12 +54,13 @@ struct ovoid_shape {
     uint32_t vertex_count, padded_count;
     uint32_t rank;
     uint16_t has_origin;    ///< origin is not zero
-    uint16_t has_allowance; ///< ALLOWANCE_ANY where it has one, and ALLOWANCE_AXIS where that is along an axis
+    uint16_t has_allowance; ///< ALLOWANCE_ANY if there is one, and ALLOWANCE_AXIS if it is along an axis
     ovoid_vec3 first;       ///< vertex 0
     // With the allowance, rounded outward; without one they are radius, radius and extent.
-    double lower_radius; ///< radius + outside, what a lower bound of the distance loses
-    double upper_radius; ///< radius - inside, what an upper bound loses; inside at most 2 (extent + lower_radius)
-    double span;         ///< extent + 2 inside: with lower_radius above all lengths that a bound is made of
+    double lower_radius; ///< radius + outside: a lower bound of the distance is reduced by it
+    double
+        upper_radius; ///< radius - inside: an upper bound is reduced by it; inside is at most 2 (extent + lower_radius)
+    double span;      ///< extent + 2 inside: with lower_radius an upper bound of all lengths that a bound is made of
     block_offsets at;
     ovoid_allowance allowance;
     support_table support; ///< the table of supports; k = 0: none
@@ -72,7 +74,7 @@ struct ovoid_shape {
     ovoid_fit outer_fit, inner_fit;
     ovoid_report report;
     ovoid_measures measures;
-    round_form round; ///< not in files: of a shape that was read the polyhedron is known, and its allowance
+    round_form round; ///< not in files: a shape that was read has only its polyhedron and its allowance
     ovoid_allocator allocator;
 };
 
@@ -92,39 +94,40 @@ simd_extreme shape_find_extreme(const ovoid_shape *shape, ovoid_vec3 n);
 /// The layout of a block with these counts. All counts are 32-bit, so no sum overflows 64 bits.
 block_offsets block_compute_offsets(block_counts counts);
 
-/// A block with room for the counts, cleared but for its arrays, with counts, layout and allocator set. NULL with
+/// A block with room for the counts, cleared except for its arrays, with counts, layout and allocator set. NULL with
 /// *error filled.
 ovoid_shape *block_create(block_counts counts, const ovoid_allocator *given, ovoid_error *error);
 
-/// Copies the polytope's arrays into the block, and derives what follows from the vertices: structure of arrays,
-/// padding, sphere, extent, measures. The polytope must have the block's counts.
+/// Copies the polytope's arrays into the block, and computes everything that follows from the vertices: structure of
+/// arrays, padding, sphere, extent, measures. The polytope must have the block's counts.
 void block_fill(ovoid_shape *shape, const ovoid_polytope *polytope);
 
-/// Sets the radius and the allowance of a block that has been filled, and what follows from them. The true body is then
-/// known by these alone.
+/// Sets the radius and the allowance of a block that has been filled, and everything that follows from them. Nothing
+/// else is then known about the true body.
 void block_set_radius(ovoid_shape *shape, double radius, ovoid_allowance allowance);
 
-/// By how much the allowance widens a bracket, at most.
+/// The largest width that the allowance adds to a bracket.
 static inline double shape_get_width(const ovoid_shape *s) { return s->lower_radius - s->upper_radius; }
 
-/// What a unit direction in a shape's axes may be off by: as it is computed from one of the world (at most 36 u for
-/// each rotation, 82 u for that of B in the frame of A, and 20 u for products, for the direction's length and for the
-/// axis'); twice that for a claim, whose direction is taken to the world and back before it is measured again.
+/// The largest error of a unit direction in a shape's axes, computed from one in the world: at most 36 u for each
+/// rotation, 82 u for that of B in the frame of A, and 20 u for products, for the direction's length and for the axis'.
+/// Twice that for a claim, whose direction is transformed to the world and back before it is measured again.
 #define AXIS_CHECK (256 * 0x1p-53)
 #define AXIS_CLAIM (512 * 0x1p-53)
 
 static inline int shape_has_axis(const ovoid_shape *s) { return s->has_allowance >= ALLOWANCE_AXIS; }
 
-/// How far the true body stands out along the unit direction n, in the shape's axes, off by `error`, where the
-/// allowance is along an axis; else 0. But for one rounding of itself.
+/// How far the true body exceeds the shape along the unit direction n, given in the shape's axes with an error of
+/// `error`, if the allowance is along an axis; else 0. One rounding of the result is not included.
 static inline double shape_compute_across(const ovoid_shape *s, ovoid_vec3 n, double error) {
     return shape_has_axis(s) ? s->allowance.outside * (vec3_norm(vec3_cross(n, s->allowance.axis)) + error) : 0;
 }
 
-/// What a lower bound along n loses: lower_radius, or less where the allowance is along an axis. Rounded up.
+/// The amount by which a lower bound along n is reduced: lower_radius, or less if the allowance is along an axis.
+/// Rounded up.
 double shape_compute_lower_radius(const ovoid_shape *shape, ovoid_vec3 n, double error);
 
-/// What such a bound loses less than lower_radius. Rounded down, but for what `error` has room for.
+/// lower_radius minus shape_compute_lower_radius. Rounded down, except for what `error` has room for.
 static inline double shape_compute_gain(const ovoid_shape *s, ovoid_vec3 n, double error) {
     return shape_has_axis(s) ? s->lower_radius - shape_compute_lower_radius(s, n, error) : 0;
 }

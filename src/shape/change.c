@@ -1,6 +1,6 @@
-// Bodies that change: deformed, known to within another allowance, or divided by a plane. W.-K. Su, J.-S. Liu, I-F.
-// Chen, Enhancing Collision Detection Method Based on Enclosed Ellipsoid by Facial Areas Splitting, name these as the
-// cases in which the offline steps run again.
+// Bodies that change: deformed, with another allowance, or divided by a plane. W.-K. Su, J.-S. Liu, I-F. Chen,
+// Enhancing Collision Detection Method Based on Enclosed Ellipsoid by Facial Areas Splitting, name these as the cases
+// in which the offline steps run again.
 #include "base/allocator.h"
 #include "base/environment.h"
 #include "base/error.h"
@@ -45,15 +45,15 @@ typedef struct crossing {
     uint32_t below, above, facet;
 } crossing;
 
-// The state of a division. Of a solid each edge occurs twice, from the triangles on either side.
+// The state of a division. In a solid each edge occurs twice, from the triangles on either side.
 typedef struct division {
     const ovoid_shape *shape;
     const ovoid_shape_options *options;
     ovoid_error *error;
     double *height;  // of each vertex above the plane, in lengths of the normal
-    double *points;  // of the part that is made, user's frame
+    double *points;  // of the part under construction, user's frame
     double *cuts;    // the points where edges are cut, user's frame
-    crossing *edges; // room for all that there may be
+    crossing *edges; // room for all possible crossings
     uint32_t *order; // room for twice as many
     uint32_t edge_count, cut_count;
 } division;
@@ -74,8 +74,8 @@ static int compare_crossings(const void *context, uint32_t a, uint32_t b) {
     return (x->above > y->above) - (x->above < y->above);
 }
 
-// Edges between two triangles of one facet are left out, as they are no edges of the body: a point on them would lie on
-// the new edge to rounding, and make slivers.
+// Edges between two triangles of one facet are left out, since they are not edges of the body: a point on them would
+// lie on the new edge to rounding, and make slivers.
 static void find_cuts(division *d) {
     ovoid_polytope p = ovoid_shape_get_polytope(d->shape);
     for (uint32_t t = 0; t < p.triangle_count && p.rank == 3; t++)

@@ -19,7 +19,7 @@ int allowance_is_normal(const ovoid_allowance *allowance) {
     return allowance->outside > 0 && fabs(vec3_norm_squared(allowance->axis) - 1) <= 8 * 0x1p-53;
 }
 
-// The axis as a shape keeps it: none, or of length 1. One that is kept already stays as it is.
+// The axis as a shape stores it: none, or of length 1. An axis that a shape stores already is not changed.
 static vec3 make_axis(const ovoid_allowance *allowance) {
     if (!(allowance->outside > 0)) return (vec3){0, 0, 0};
     return allowance_is_normal(allowance) ? allowance->axis : vec3_unit(allowance->axis);
@@ -55,7 +55,7 @@ static ovoid_fit compute_phases(const ovoid_polytope *p, const ovoid_ellipsoid *
 }
 
 // No proof rests on the inner ellipsoid of a flat body, and a tilted one cannot be stored flatter than the root of a
-// rounding, 1e-8 of its size; so it is tested to ten times that, against the edges and the sides of the box.
+// rounding, 1e-8 of its size. So it is tested with ten times that, against the edges and the sides of the box.
 static int is_flat_inner(const ovoid_polytope *p, const ovoid_measures *m, const ovoid_ellipsoid *e, double slack) {
     halfspaces w = halfspaces_make(p);
     for (uint32_t i = 0; i < w.count; i++) {
@@ -73,8 +73,8 @@ static int is_flat_inner(const ovoid_polytope *p, const ovoid_measures *m, const
     return 1;
 }
 
-// An ellipsoid that is just a vertex lies inside, whatever the rounded halfspaces say (for a ribbon of 1e40 by 1e25
-// they say nothing).
+// An ellipsoid that is only a vertex lies inside, even if the rounded halfspaces do not show it (they do not for a
+// ribbon of 1e40 by 1e25).
 static int is_vertex(const ovoid_polytope *p, const ovoid_ellipsoid *e) {
     const ovoid_sym3 *q = &e->q;
     if (q->xx != 0 || q->xy != 0 || q->xz != 0 || q->yy != 0 || q->yz != 0 || q->zz != 0) return 0;
@@ -89,7 +89,7 @@ int shape_is_inner(const ovoid_shape *shape, const ovoid_ellipsoid *e) {
     return is_vertex(&p, e) || is_flat_inner(&p, &shape->measures, e, 1e-7 * shape->extent);
 }
 
-// The ellipsoids of a shape in the body frame of another one.
+// The ellipsoids of a shape, transformed to the body frame of another one.
 static fit_start make_start(const ovoid_shape *near, const ovoid_shape *shape) {
     vec3 shift = vec3_sub(near->origin, shape->origin);
     fit_start start = {near->outer, near->inner};
@@ -111,7 +111,7 @@ static ovoid_code fit_ellipsoids(ovoid_shape *shape, const ovoid_shape_options *
     else
         inner = compute_phases(&p, &outer.ellipsoid);
     if (code != OVOID_OK) return code;
-    // Ribbons thinner than 1e-8 of their length may have no inner ellipsoid that can be stored; a vertex always is one.
+    // Ribbons thinner than 1e-8 of their length may have no inner ellipsoid that can be stored; a vertex always can be.
     if (!shape_is_inner(shape, &inner.ellipsoid))
         inner = (ovoid_fit){.ellipsoid.center = vec3_at(p.vertices, 0), .gap = INFINITY};
     shape_set_fits(shape, &outer, &inner);

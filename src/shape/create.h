@@ -8,20 +8,20 @@
 /// The options with their defaults; NULL allowed. Errors: RADIUS, RANGE, ARGUMENT.
 ovoid_code shape_options_make(const ovoid_shape_options *given, ovoid_shape_options *options, ovoid_error *error);
 
-/// 1 if the allowance's axis is zero, or of length 1 and there for a length `outside`.
+/// 1 if the allowance's axis is zero, or has length 1 and belongs to an `outside` above zero.
 int allowance_is_normal(const ovoid_allowance *allowance);
 
-/// A block with all that follows from the hull; radius, report and ellipsoids are not set. NULL with MEMORY.
+/// A block with everything that follows from the hull; radius, report and ellipsoids are not set. NULL with MEMORY.
 ovoid_shape *shape_create_block(const hull *polytope, const ovoid_allocator *allocator, ovoid_error *error);
 
-/// 1 if the ellipsoid is proven to lie in the shape's hull; of a flat body, if it lies there to 1e-7 of its size.
+/// 1 if the ellipsoid is proven to lie in the shape's hull; for a flat body, if it lies there to 1e-7 of its size.
 int shape_is_inner(const ovoid_shape *shape, const ovoid_ellipsoid *ellipsoid);
 
-/// Sets both ellipsoids and what queries read of them.
+/// Sets both ellipsoids and the values that queries read of them.
 void shape_set_fits(ovoid_shape *shape, const ovoid_fit *outer, const ovoid_fit *inner);
 
-/// The shape of a hull with its ellipsoids. The options are checked already. near: a shape from whose ellipsoids the
-/// fits start, or NULL. NULL with MEMORY.
+/// The shape of a hull with its ellipsoids. The options must be checked. near: a shape from whose ellipsoids the fits
+/// start, or NULL. NULL with MEMORY.
 ovoid_shape *shape_create_from_hull(const hull *polytope, const ovoid_shape_options *options, const ovoid_shape *near,
                                     ovoid_error *error);
 

@@ -1,13 +1,13 @@
-// From vertices and faces that claim to be a convex polyhedron. What is checked:
+// A shape from vertices and faces that are stated to be a convex polyhedron. The checks:
 //
 // (1) Indices are in range, faces have three corners or more, no corner twice. Equal points count as one.
-// (2) The surface is closed and oriented: every edge is run through once in each direction.
-// (3) Every face supports the body: no vertex is farther above the face's plane than the face's own corners are off it,
-//     or 64 roundings of the largest coordinate where that is more. The plane is Newell's, through the mean corner.
-//     A face lower than that has no plane of its own and is not tested.
+// (2) The surface is closed and oriented: every edge occurs once in each direction.
+// (3) Every face supports the body: no vertex is farther above the face's plane than the largest distance of the face's
+// own corners from it, or than 64 roundings of the largest coordinate if that is more. The plane is Newell's, through
+// the mean corner. A face lower than that has no plane of its own and is not tested.
 //
 // By (3) every face lies on the boundary of the hull, as far as it is flat itself, and a closed oriented surface in
-// that boundary that uses no edge twice covers it once. The shape is then the hull of the vertices, as always.
+// that boundary that uses no edge twice covers it once. The shape is then the hull of the vertices.
 //
 // The vertex that is highest above a face is found by climbing from edge to edge of the hull, which is exactly convex.
 // Cost: linear in the faces' corners, times the climb.
@@ -25,7 +25,7 @@
 
 #define NOTHING UINT32_MAX
 
-// Most corners of all faces together: as many directed edges are held in a hash table.
+// The largest number of corners of all faces together: a hash table holds as many directed edges.
 #define CORNERS_MAX ((size_t)1 << 28)
 
 typedef struct checker {
@@ -33,7 +33,7 @@ typedef struct checker {
     const hull *hull;
     const ovoid_allocator *allocator;
     ovoid_error *error;
-    uint32_t *first; // of each vertex: the first one that equals it
+    uint32_t *first; // for each vertex the first one that equals it
     size_t corners;  // of all faces
     double scale;    // 1 over the body's size, a power of two, so that no area underflows
 } checker;
@@ -72,7 +72,7 @@ typedef struct edge {
 } edge;
 
 typedef struct edge_table {
-    edge *slots; // face is NOTHING where empty
+    edge *slots; // face is NOTHING in an empty slot
     size_t mask;
 } edge_table;
 
@@ -81,7 +81,7 @@ static int is_end(const void *table, size_t slot, const void *key) {
     return held->face == NOTHING || (held->from == wanted->from && held->to == wanted->to);
 }
 
-// The slot of the edge, or the empty one where it belongs.
+// The slot of the edge, or the empty slot where it belongs.
 static edge *find_edge(const edge_table *t, uint32_t from, uint32_t to) {
     return &t->slots[hash_find(hash_pair(from, to), t->mask + 1, t->slots, &(edge){from, to, 0}, is_end)];
 }
@@ -104,7 +104,7 @@ static ovoid_code add_edges(const checker *c, edge_table *t) {
     return OVOID_OK;
 }
 
-// Refuses the first face, in the order given, that has an edge without a face beyond it.
+// Refuses the first face, in the given order, that has an edge without a face beyond it.
 static ovoid_code validate_edges(const checker *c, const edge_table *t) {
     const uint32_t *corner = c->faces->indices;
     for (size_t face = 0; face < c->faces->face_count; corner += c->faces->sizes[face++])
@@ -168,7 +168,8 @@ static face_plane make_plane(const checker *c, const uint32_t *corner, uint32_t 
     return p;
 }
 
-// The vertex of the hull that is highest along n, by climbing from `start`; of a flat body by a search of all.
+// The vertex of the hull that is highest along n, by climbing from `start`; for a flat body by a search of all
+// vertices.
 static uint32_t find_highest(const checker *c, vec3 n, uint32_t start) {
     const hull *polytope = c->hull;
     uint32_t best = start, from;
@@ -186,7 +187,8 @@ static uint32_t find_highest(const checker *c, vec3 n, uint32_t start) {
     return best;
 }
 
-// Six times the volume, as the sum of the cones from the hull's first vertex: negative where faces are seen clockwise.
+// Six times the volume, as the sum of the cones from the hull's first vertex: negative if faces are clockwise from
+// outside.
 static double compute_volume(const checker *c) {
     double volume = 0;
     const uint32_t *corner = c->faces->indices;

@@ -1,15 +1,15 @@
 // The file of a shape (".ovoid"): version 1; 2 where it has an allowance; 3 with the triangles of its hull, for solids
 // of many vertices; 4 and 5 are 2 and 3 with the allowance's axis. docs/polytope.md has the table.
 //
-// A file holds what a shape cannot be made from again: the vertices, the ellipsoids as they were fitted, the radius,
-// the allowance, and what became of the points given. Facets, adjacency, planes and measures depend on the vertices and
-// the triangles alone, and the triangles on the vertices alone, bit for bit (polytope/hull.h). They are computed anew,
-// but for the triangles where a file holds them: these are proven to be the hull (polytope/surface_proof.h), which
-// takes a fraction of the time of finding them. So nothing in a file can contradict the vertices.
+// A file holds what cannot be recomputed: the vertices, the fitted ellipsoids, the radius, the allowance, and the
+// report of the given points. Facets, adjacency, planes and measures depend on the vertices and the triangles alone,
+// and the triangles on the vertices alone, bit for bit (polytope/hull.h). They are computed again, except for triangles
+// that a file holds: these are proven to be the hull (polytope/surface_proof.h), which takes a fraction of the time of
+// finding them. So nothing in a file can contradict the vertices.
 //
-// Reading checks every byte: the checksum (FNV-1a, whose every step is a bijection, so that no single wrong byte
-// escapes), the size against the count, every number's range, that all vertices are extreme and in the body frame, that
-// the rank is right, and that the ellipsoids are proven to enclose and to be enclosed.
+// Reading checks every byte: the checksum (FNV-1a, whose every step is a bijection, so that it detects every single
+// wrong byte), the size against the count, the range of every number, that all vertices are extreme and in the body
+// frame, that the rank is right, and that the ellipsoids are proven to enclose and to be enclosed.
 #include "shape/file.h"
 #include "base/allocator.h"
 #include "base/environment.h"
@@ -39,11 +39,11 @@ static uint64_t compute_checksum(const uint8_t *bytes, size_t size) {
     return h;
 }
 
-// The parts of a file that differ between versions.
+// The properties of a file that depend on its version.
 typedef struct layout {
     uint32_t version;
     size_t vertices_at, triangles_at, size; // bytes
-    uint32_t triangle_count;                // that it holds
+    uint32_t triangle_count;                // in the file
 } layout;
 
 static int has_triangles(uint32_t version) { return version == 3 || version == 5; }
@@ -125,7 +125,7 @@ size_t shape_write_version(const ovoid_shape *shape, uint32_t version, void *buf
     return l.size;
 }
 
-// The proof of the triangles wants a point inside: the centre of an inner ellipsoid that is more than a point.
+// The proof of the triangles needs a point inside: the centre of an inner ellipsoid that is more than a point.
 static uint32_t choose_version(const ovoid_shape *s) {
     int is_large = s->rank == 3 && s->vertex_count >= SHAPE_TRIANGLES_LEAST && s->inner.q.xx != 0;
     if (shape_has_axis(s)) return is_large ? 5 : 4;
@@ -186,14 +186,14 @@ typedef struct content {
     ovoid_report report;
     ovoid_fit outer, inner;
     double *vertices;
-    uint32_t *triangles; // NULL where the file holds none
+    uint32_t *triangles; // NULL if the file has none
 } content;
 
 static ovoid_code refuse(const reader *r, size_t place, const char *what) {
     return error_set(r->error, OVOID_ERROR_FORMAT, (int64_t)place, "byte %zu: %s", place, what);
 }
 
-// Magic, version, size and checksum show that it is a file of this format, and complete.
+// Checks by magic, version, size and checksum that it is a complete file of this format.
 static ovoid_code validate_envelope(reader *r, size_t size, content *c) {
     if (size < sizeof magic || memcmp(r->bytes, magic, sizeof magic) != 0) return refuse(r, 0, "not an .ovoid file");
     if (size < HEADER_SIZE + CHECKSUM_SIZE) return refuse(r, size, "the file ends within its header");
@@ -246,7 +246,7 @@ static ovoid_code read_report(reader *r, content *c) {
     return OVOID_OK;
 }
 
-// An axis is there for an allowance `outside`, and of length 1 as shape_options_make leaves it.
+// Reads the axis: zero unless the allowance has an `outside`, else of length 1 as shape_options_make makes it.
 static ovoid_code read_axis(reader *r, content *c) {
     size_t start = r->at;
     c->allowance.axis = get_vec3(r);
@@ -277,7 +277,7 @@ static ovoid_code read_header(reader *r, content *c) {
     return code ? code : read_allowance(r, c);
 }
 
-// Reads coordinates of the body frame: origin + vertex is exactly a double, and no zero is negative.
+// Reads coordinates of the body frame: origin + vertex must be exactly a double, and no zero negative.
 static ovoid_code read_vertices(reader *r, content *c) {
     const double origin[3] = {c->origin.x, c->origin.y, c->origin.z};
     for (size_t i = 0; i < 3 * (size_t)c->vertex_count; i++) {
@@ -290,12 +290,12 @@ static ovoid_code read_vertices(reader *r, content *c) {
     return OVOID_OK;
 }
 
-// Reads the triangles; that their corners are vertices belongs to the proof.
+// Reads the triangles; the proof checks that their corners are vertices.
 static void read_triangles(reader *r, content *c) {
     for (size_t i = 0; i < 3 * (size_t)c->at.triangle_count; i++) c->triangles[i] = (uint32_t)get_integer(r, 4);
 }
 
-// The hull of the vertices must be these vertices.
+// Checks that the vertices of the hull are these vertices.
 static ovoid_code validate_hull(const reader *r, const content *c, const hull *polytope) {
     if (polytope->vertex_count != c->vertex_count) return refuse(r, c->at.vertices_at, "a vertex is not extreme");
     if (polytope->origin.x != 0 || polytope->origin.y != 0 || polytope->origin.z != 0)
@@ -304,7 +304,7 @@ static ovoid_code validate_hull(const reader *r, const content *c, const hull *p
     return OVOID_OK;
 }
 
-// 1 for a body far below OVOID_LENGTH_MIN: its Q underflows to zero, and queries cannot tell it from a point.
+// 1 for a body far below OVOID_LENGTH_MIN: its Q underflows to zero, and queries cannot distinguish it from a point.
 static int is_point_to_queries(const ovoid_polytope *p, const ovoid_ellipsoid *e) {
     const double least = OVOID_LENGTH_MIN / 16;
     int is_small = p->rank > 0 && vec3_max_abs(e->center) <= least;
@@ -321,8 +321,7 @@ static ovoid_code validate_ellipsoids(const reader *r, const content *c, const o
     return OVOID_OK;
 }
 
-// Sets radius and allowance. What a body of this size cannot have inside, block_set_radius takes away, so that no file
-// that was written holds it.
+// Sets radius and allowance. A file whose allowance block_set_radius would reduce is refused, since no writer makes it.
 static ovoid_code set_radius(const reader *r, const content *c, ovoid_shape *shape) {
     block_set_radius(shape, c->radius, c->allowance);
     if (shape->allowance.inside == c->allowance.inside) return OVOID_OK;
@@ -340,14 +339,14 @@ static ovoid_shape *make_shape(const reader *r, const content *c, hull *polytope
     return NULL;
 }
 
-// The hull from the vertices alone.
+// The hull of the vertices, computed from the vertices alone.
 static ovoid_code find_hull(const reader *r, const content *c, const ovoid_allocator *allocator, hull *polytope) {
     ovoid_code code = hull_create(c->vertices, c->vertex_count, allocator, polytope, r->error);
     if (code == OVOID_OK || code == OVOID_ERROR_MEMORY) return code;
     return refuse(r, c->at.vertices_at, "the vertices have no hull");
 }
 
-// The hull from vertices and triangles.
+// The hull of the vertices, proven from vertices and triangles.
 static ovoid_code prove_hull(const reader *r, const content *c, const ovoid_allocator *allocator, hull *polytope) {
     surface_claim claim = {c->vertices, c->vertex_count, c->triangles, c->at.triangle_count, c->inner.ellipsoid.center};
     surface_flaw flaw;

@@ -1,13 +1,13 @@
-// Eight points are the corners of a parallelepiped if from the first of them three edges lead to three others, and
-// their sums to the rest. Only one triple of points can be the ends of those edges, so all 35 are tried. Centre and
-// axes are means over all eight, so that each takes its share of the rounding of a body that was rotated before.
+// Eight points are the corners of a parallelepiped if three edges lead from the first of them to three others, and the
+// sums of these edges to the rest. Only one triple of points can be the ends of those edges, so all 35 triples are
+// tried. Centre and axes are means over all eight corners, to average the rounding of a body that was rotated before.
 #include "shape/parallelepiped.h"
 
 #include "linear/vec3.h"
 
 enum { CORNERS = 8 };
 
-// How much a coordinate of a corner may differ, in parts of the extent: two roundings of a rotation.
+// The largest difference of a coordinate of a corner, relative to the extent: two roundings of a rotation.
 #define CORNER_FLATNESS (4 * 0x1p-53)
 
 // The vertex nearest to x by coordinates; CORNERS where none is within `most`.
@@ -34,7 +34,7 @@ static int find_corners(const double *vertices, const uint32_t ends[3], double m
     return met == 0xff;
 }
 
-// The mean of the corners, each with the sign of its coefficient; axis 3: without signs.
+// The mean of the corners, each with the sign of its coefficient; axis 3: all signs positive.
 static vec3 compute_mean(const double *vertices, const parallelepiped *p, int axis) {
     vec3 sum = {0, 0, 0};
     for (unsigned bits = 0; bits < CORNERS; bits++) {
@@ -60,7 +60,7 @@ parallelepiped parallelepiped_find(const double *vertices, uint32_t count, doubl
     for (uint32_t i = 1; i < CORNERS; i++)
         for (uint32_t j = i + 1; j < CORNERS; j++)
             for (uint32_t k = j + 1; k < CORNERS; k++) {
-                // An edge and its ends are off by as much each.
+                // The edge and both of its ends have an error of this size each.
                 if (!find_corners(vertices, (uint32_t[]){i, j, k}, 8 * CORNER_FLATNESS * extent, &p)) continue;
                 p.center = compute_mean(vertices, &p, 3);
                 for (int axis = 0; axis < 3; axis++) p.axis[axis] = compute_mean(vertices, &p, axis);

@@ -1,4 +1,4 @@
-// Bodies that are parallelepipeds: boxes, however they came to be.
+// Bodies that are parallelepipeds, for example boxes, however they were made.
 #ifndef OVOID_SHAPE_PARALLELEPIPED_H
 #define OVOID_SHAPE_PARALLELEPIPED_H
 
@@ -9,11 +9,11 @@ typedef struct parallelepiped {
     ovoid_vec3 center;
     ovoid_vec3 axis[3];  ///< half edges, right-handed or left-handed
     uint8_t corner[8];   ///< the vertex whose coefficient of axis[k] is positive where bit k is set
-    uint32_t is_present; ///< 0: the body is none; then all the rest is zero
+    uint32_t is_present; ///< 0: the body is not a parallelepiped; then all other fields are zero
 } parallelepiped;
 
-/// The parallelepiped whose corners the vertices are. extent: no vertex is farther from the frame's origin. Cost: of
-/// other numbers of vertices than 8, none.
+/// The parallelepiped with these corners. extent: no vertex is farther from the frame's origin. Cost: none unless there
+/// are 8 vertices.
 parallelepiped parallelepiped_find(const double *vertices, uint32_t count, double extent);
 
 #endif

@@ -35,7 +35,7 @@ ovoid_shape *ovoid_shape_create_box(ovoid_vec3 half, const ovoid_shape_options *
     ENVIRONMENT_RETURN(ovoid_shape *, half, create_box(half, options, error));
 }
 
-// Points enlarged by a radius on top of that of the options.
+// The shape of points, enlarged by a radius in addition to that of the options.
 static ovoid_shape *create_rounded(const double *xyz, size_t count, double radius, const ovoid_shape_options *options,
                                    ovoid_error *error) {
     ovoid_shape_options o;
@@ -67,7 +67,7 @@ ovoid_shape *ovoid_shape_create_capsule(double radius, double half_length, const
     ENVIRONMENT_RETURN(ovoid_shape *, lengths, create_capsule(lengths[0], lengths[1], options, error));
 }
 
-// Most sides of a cylinder or cone.
+// The largest number of sides of a cylinder or cone.
 enum { SIDES_MAX = 1 << 16 };
 
 // `sides` points of a circle around z, from *xyz on.
@@ -118,23 +118,23 @@ static ovoid_shape *create_turned(const turned *t, const ovoid_shape_options *op
     return shape;
 }
 
-// ---- the round bodies, held by polyhedra
+// ---- round bodies, stored as polyhedra
 //
 // With the greatest angle g between neighbours of a circle of radius R, the cylinder's extreme points, those of its two
-// circles, are within R (1 - cos(g / 2)) of the prism, and across the axis; the distance from a convex body is a convex
-// function, so no point of the cylinder is farther. Nor does it stand out along the axis: the allowance has that axis.
-// With u = 2^-53, rounding moves a corner along the circle by less than 32 u R and away from it by less than 4 u R: 64
-// u R and 8 u R pay for both. A cone has the same circle, and its apex is exact.
+// circles, are within R (1 - cos(g / 2)) of the prism, measured across the axis; the distance from a convex body is a
+// convex function, so no point of the cylinder is farther. Along the axis the cylinder does not exceed the prism, so
+// the allowance has that axis. With u = 2^-53, rounding moves a corner along the circle by less than 32 u R and away
+// from it by less than 4 u R; 64 u R and 8 u R cover both. A cone has the same circle, and its apex is exact.
 
-// By how much the circle of radius 1 stands out of a regular polygon: 1 - cos(pi / n), rounding included.
+// By how much the circle of radius 1 exceeds a regular polygon: 1 - cos(pi / n), rounding included.
 static double compute_sagitta(double sides) {
     double s = sin(1.5707963267948966 / sides);
     return 2 * (s * s) + 64 * 0x1p-53;
 }
 
-// The fewest sides whose circle stands out by no more than `most`; more than SIDES_MAX where there are none so few.
+// The fewest sides whose circle exceeds the polygon by at most `most`; more than SIDES_MAX if that many do not suffice.
 static uint32_t find_sides(double most) {
-    // sin x < x, so this is no fewer than are needed, and few more.
+    // sin x < x, so this is at least the number that is needed, and not much more.
     double sides = ceil(1.5707963267948966 / sqrt(most / 2));
     if (!(sides <= SIDES_MAX)) return SIDES_MAX + 1;
     if (sides < 3) sides = 3;
@@ -166,7 +166,7 @@ static ovoid_shape *create_round(const turned *t, const ovoid_shape_options *opt
     o.allowance.outside += by.radius * compute_sagitta(by.sides);
     o.allowance.inside += by.radius * (8 * 0x1p-53);
     ovoid_shape *shape = create_turned(&by, &o, error);
-    // An allowance that was given leaves the true body open.
+    // An allowance given by the caller leaves the true body unknown.
     int is_known = !options || (!(options->allowance.outside > 0) && !(options->allowance.inside > 0));
     round_kind kind = by.rings == 2 ? ROUND_CYLINDER : ROUND_CONE;
     if (shape && is_known) shape->round = (round_form){kind, by.radius, by.half_length};

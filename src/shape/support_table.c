@@ -1,26 +1,26 @@
-// A table of supports: the areas of W.-K. Su, J.-S. Liu, I-F. Chen, Enhancing Collision Detection Method Based on
-// Enclosed Ellipsoid by Facial Areas Splitting, 3.2-3.3, as a cube map of directions whose cells list the vertices that
-// can be extreme; a cell with too long a list is divided into four, and so on.
+// A table for support functions: the areas of W.-K. Su, J.-S. Liu, I-F. Chen, Enhancing Collision Detection Method
+// Based on Enclosed Ellipsoid by Facial Areas Splitting, 3.2-3.3, as a cube map of directions whose cells list the
+// vertices that can be extreme. A cell with too long a list is divided into four, recursively.
 //
 // Directions are mapped by the root of the vertices' second moments, which makes those of a stretched body even. The
 // map is only where the cells are: products are taken in the body frame, so an answer is that of a search of all
 // vertices, bit for bit.
 //
 // Theorem (as in paper/table.c). Let the directions r_1 .. r_4 span a cone and x_i.r_k > x_j.r_k + e for each of them,
-// e above what rounding does to both products of any direction of the cone that is a sum of w_k r_k with sum 1. Then j
-// is never the extreme vertex of a direction of the cone, as computed: i is ahead by more than rounding. So a list may
-// leave out whatever one vertex beats at all four corners, and no search in it can miss the vertex that wins, nor one
-// that equals it.
+// where e exceeds the rounding of both products for any direction of the cone that is a sum of w_k r_k with sum 1. Then
+// j is never the extreme vertex of a direction of the cone, as computed: i is ahead by more than the rounding. So a
+// list may leave out every vertex that one other vertex beats at all four corners; no search in it can miss the extreme
+// vertex, nor one that equals it.
 //
 // Rounding, u = 2^-53: a product with a direction r of the cone is off by 4 u |x| |r|, and so is one with a corner; 32
 // u X N covers both products twice, X and N the greatest lengths. A mapped direction is off by 8 u of its length times
 // the ratio of the map's radii, at most 1e3, so its place on the cube's face by 1e-12; each cell is taken wider by 1e-7
 // of itself, at least 1e-10.
 //
-// A face of the cube begins with all vertices, each division with the list of the cell around it. The winners at nine
-// directions of a cell beat most vertices; in lists that are short, all are tested against all. Cost: about half a us a
-// vertex. Lists of round bodies are 5 long, and take 270 bytes a vertex; where they are long and stay so, as for the
-// rings of a cylinder, cells are coarser and no more than 512 bytes a vertex are used.
+// A face of the cube begins with all vertices, each division with the list of the cell around it. The extreme vertices
+// at nine directions of a cell beat most vertices; in short lists all are tested against all. Cost: about half a us a
+// vertex. Lists of round bodies have 5 vertices and take 270 bytes a vertex. If lists stay long, as for the rings of a
+// cylinder, cells are coarser, and at most 512 bytes a vertex are used.
 #include "shape/support_table.h"
 
 #include "base/allocator.h"
@@ -43,10 +43,10 @@ typedef struct builder {
     const ovoid_allocator *allocator;
     support_table *table;
     simd_cell *cells;
-    uint32_t capacity;           ///< most cells
-    uint32_t used, divided_most; ///< cells in use; from divided_most on no cell is divided any more
+    uint32_t capacity;           ///< the largest number of cells
+    uint32_t used, divided_most; ///< cells in use; from divided_most on no cell is divided further
     sym3 inverse;
-    double reach;        ///< the length of no vertex is above it
+    double reach;        ///< the largest length of a vertex
     list levels[LEVELS]; ///< room for the lists of a cell and of those around it
     uint8_t *bits;
 } builder;
@@ -66,7 +66,7 @@ typedef struct square {
     double a, b, side; ///< from (a, b) to (a + side, b + side)
 } square;
 
-/// The points that may beat others in the cone of a square, by their products with its corners.
+/// The points that may beat others in the cone of a square, with their products with its corners.
 typedef struct contest {
     square s;
     double corners[4][3];
@@ -91,7 +91,7 @@ static void contest_make(const builder *b, const square *s, contest *c) {
     c->margin = 32 * 0x1p-53 * b->reach * sqrt(longest);
 }
 
-/// Adds point i of the list to those that may beat others.
+/// Adds point i of the list to the points that may beat others.
 static void enter(contest *c, const list *l, uint32_t i) {
     for (int k = 0; k < 4; k++)
         c->limits[c->count][k] =
@@ -120,7 +120,7 @@ static void cull(const builder *b, const contest *c, const list *from, list *to)
     keep(b->bits, from, to);
 }
 
-/// Adds the winner at a direction of the cell, if it is not there yet.
+/// Adds the extreme point at a direction of the cell, unless it is there already.
 static void enter_winner(contest *c, const list *from, vec3 n, uint32_t *winners) {
     uint32_t w = simd_find_support(from->x, from->y, from->z, padded(from->count), n.x, n.y, n.z).index, known = 0;
     while (known < c->count && winners[known] != w) known++;
@@ -129,7 +129,7 @@ static void enter_winner(contest *c, const list *from, vec3 n, uint32_t *winners
     enter(c, from, w);
 }
 
-/// Adds the winners at the cell's corners, its centre and the middles of its sides.
+/// Adds the extreme points at the cell's corners, its centre and the middles of its sides.
 static void enter_winners(const builder *b, contest *c, const list *from) {
     static const double at[SAMPLES][2] = {{0, 0},   {0, 1},   {1, 0},   {1, 1},  {0.5, 0.5},
                                           {0, 0.5}, {0.5, 0}, {1, 0.5}, {0.5, 1}};
@@ -137,14 +137,15 @@ static void enter_winners(const builder *b, contest *c, const list *from) {
     for (int i = 0; i < SAMPLES; i++) enter_winner(c, from, direction_at(b, &c->s, at[i][0], at[i][1]), winners);
 }
 
-/// Copies the points that no other one of the list beats.
+/// Copies the points that no other point of the list beats.
 static void cull_by_pairs(const builder *b, contest *c, const list *from, list *to) {
     c->count = 0;
     for (uint32_t i = 0; i < from->count; i++) enter(c, from, i);
     cull(b, c, from, to);
 }
 
-/// Copies the points that the winners at nine directions of the cell do not beat; in a short list all are tested.
+/// Copies the points that the extreme points at nine directions of the cell do not beat; in a short list all are
+/// tested.
 static void cull_by_samples(const builder *b, contest *c, const list *from, list *to) {
     if (from->count <= SHORT) {
         cull_by_pairs(b, c, from, to);
@@ -159,7 +160,7 @@ static square quarter(const square *s, uint32_t i) {
     return (square){s->face, s->a + (i >> 1) * side, s->b + (i & 1) * side, side};
 }
 
-/// Reserves consecutive blocks, cleared; 0 where there are too many.
+/// Reserves consecutive cleared blocks; 0 if there are too many.
 static int reserve(builder *b, uint32_t blocks, uint32_t *at) {
     *at = b->used;
     if (blocks > b->capacity - b->used) return 0;
@@ -186,8 +187,8 @@ static int fill_list(builder *b, uint32_t at, const list *l) {
     return 1;
 }
 
-/// Fills the cell at a place of the array from the candidates of the cell around it, which are at `level`. nested: how
-/// often the cell has been divided.
+/// Fills the cell at a place of the array from the candidates of the cell around it, which are at `level`. nested: the
+/// number of divisions of the cell.
 static int fill_cell(builder *b, const square *s, uint32_t at, int level, int nested) {
     contest c;
     list *l = &b->levels[level + 1];
@@ -221,7 +222,7 @@ static int fill_grid(builder *b, const square *s, uint32_t row, uint32_t column,
     return 1;
 }
 
-/// Fills all cells of a grid of 6 k k; 0 where they take too much memory.
+/// Fills all cells of a grid of 6 k k; 0 if they take too much memory.
 static int fill_all(builder *b) {
     uint32_t k = b->table->k, grid;
     b->used = 0;
@@ -251,7 +252,7 @@ static void find_map(const double *xyz, uint32_t count, double size, sym3 *root,
     *inverse = sym3_from_eigen(s, e.v);
 }
 
-/// Allocates the lists; the first holds all vertices, those below fewer.
+/// Allocates the lists; the first has room for all vertices, the lower ones for fewer.
 static int make_room(builder *b, const double *xyz, uint32_t count, double **numbers) {
     size_t each = padded(count);
     *numbers = allocator_allocate(b->allocator, LEVELS * each, 4 * sizeof **numbers);

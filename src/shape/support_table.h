@@ -1,5 +1,5 @@
-// The support of a body of many vertices: from a direction to the few vertices that can be extreme along it, at a cost
-// that does not depend on their number.
+// The support function of a body of many vertices: from a direction to the few vertices that can be extreme along it,
+// at a cost that does not depend on the number of vertices.
 #ifndef OVOID_SHAPE_SUPPORT_TABLE_H
 #define OVOID_SHAPE_SUPPORT_TABLE_H
 
@@ -15,15 +15,15 @@ typedef struct support_table {
     uint32_t cell_count; ///< blocks of the array
 } support_table;
 
-/// Bodies of at least so many vertices get a table; below, a search of all vertices is as fast.
+/// The smallest number of vertices of a body with a table; for fewer, a search of all vertices is as fast.
 enum { SUPPORT_TABLE_LEAST = 96 };
 
-/// The table of count vertices and its array of cell_count blocks, which the caller releases. NULL and k = 0 where a
-/// table is of no use or the lengths are unusual. OVOID_OK or MEMORY.
+/// The table of count vertices and its array of cell_count blocks, which the caller releases. NULL and k = 0 if a table
+/// would not help or the lengths are unusual. OVOID_OK or MEMORY.
 ovoid_code support_table_create(const double *xyz, uint32_t count, const ovoid_allocator *allocator,
                                 support_table *table, simd_cell **cells);
 
-/// The vertex extreme along n, with the bits of simd_find_support over all vertices; 0, and nothing found, where n is
+/// The vertex extreme along n, with the bits of simd_find_support over all vertices. Returns 0 without a result if n is
 /// zero, not finite or of extreme length.
 static inline int support_table_find(const support_table *t, const simd_cell *cells, vec3 n, simd_extreme *found) {
     vec3 v = sym3_mul_vec3(t->root, n);
