@@ -1,8 +1,8 @@
 // The dual bound of the maximum-volume inscribed ellipsoid.
 //
-// Let g_i be any directions, b_i the support of the body along them less that of the centre c, M the map of the
-// ellipsoid at hand, h_i = |M' g_i|, u_i = M' g_i / h_i. Any ellipsoid in the body is { c + M (p + G v) : |v| <= 1 }
-// with G symmetric positive semidefinite, and b_i / h_i >= u_i . p + |G u_i| >= u_i . p + u_i' G u_i. With weights l_i
+// Let g_i be any directions, b_i the support of the body along them less that of the centre c, M the map of the given
+// ellipsoid, h_i = |M' g_i|, u_i = M' g_i / h_i. Any ellipsoid in the body is { c + M (p + G v) : |v| <= 1 } with G
+// symmetric positive semidefinite, and b_i / h_i >= u_i . p + |G u_i| >= u_i . p + u_i' G u_i. With weights l_i
 // >= 0, P = sum l_i u_i u_i', r = sum l_i u_i: tr(G P) <= sum l_i b_i / h_i - r . p <= B = sum l_i b_i / h_i + |r|
 // reach, and 3 det(G P)^(1/3) <= tr(G P). So det G <= (B / 3)^3 / det P, which is 1 at the optimum. The b_i and h_i are
 // computed in double-double.
@@ -36,7 +36,7 @@ static void find_dependence(const certificate *c, double a[CERTIFICATE_SIZE]) {
             for (int j = rank; j < COLUMNS; j++) m[i][order[j]] -= f * m[rank][order[j]];
         }
     }
-    // The first column without a pivot, by the others.
+    // The first column without a pivot, expressed by the others.
     for (int j = 0; j < COLUMNS; j++) a[order[j]] = j == rank;
     for (int i = rank - 1; i >= 0; i--) {
         double sum = 0;
@@ -52,8 +52,8 @@ void certificate_add(certificate *c, uint32_t halfspace, double weight, vec3 u, 
     c->halfspace[c->count] = halfspace;
     c->weight[c->count++] = weight;
     if (c->count < CERTIFICATE_SIZE) return;
-    // Along the dependence until a weight is zero. It has entries of both signs, since the moments of the squares are
-    // positive.
+    // Moves along the dependence until a weight is zero. The dependence has entries of both signs, since the moments of
+    // the squares are positive.
     double a[CERTIFICATE_SIZE], step = INFINITY;
     int gone = 0;
     find_dependence(c, a);

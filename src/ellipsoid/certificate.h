@@ -1,15 +1,15 @@
-// How much larger an inscribed ellipsoid could be: an upper bound that holds whatever the multipliers are.
+// An upper bound of how much larger an inscribed ellipsoid could be; it holds for any multipliers.
 #ifndef OVOID_ELLIPSOID_CERTIFICATE_H
 #define OVOID_ELLIPSOID_CERTIFICATE_H
 
 #include "linear/mat3.h"
 #include "ovoid/polytope.h"
 
-/// Most directions that the bound rests on.
+/// The largest number of directions of the bound.
 #define CERTIFICATE_SIZE 11
 
-/// Directions with weights: in the space where the ellipsoid at hand is the unit ball, unit normals u of halfspaces at
-/// distance d from its centre. Weights that sum u u' to the identity and u to zero are optimal (John 1948).
+/// Directions with weights: in the space where the given ellipsoid is the unit ball, unit normals u of halfspaces at
+/// distance d from its centre. Weights for which u u' sums to the identity and u to zero are optimal (John 1948).
 typedef struct certificate {
     int count;
     uint32_t halfspace[CERTIFICATE_SIZE]; ///< its index, as given by the caller
@@ -17,12 +17,12 @@ typedef struct certificate {
     double moment[CERTIFICATE_SIZE][10]; ///< u u', u, d
 } certificate;
 
-/// Adds a halfspace; where there would be too many, weight moves among them, all sums of weight times moment unchanged,
-/// until one has none and is dropped (C. Caratheodory, 1907).
+/// Adds a halfspace. If there would be too many, weight is moved among them, with all sums of weight times moment
+/// unchanged, until one has no weight and is dropped (C. Caratheodory, 1907).
 void certificate_add(certificate *c, uint32_t halfspace, double weight, vec3 u, double d);
 
-/// The body that the bound is about: the vertices, moved by -height to height along `normal`, and the ellipsoid
-/// { center + map u : |u| <= 1 } in it.
+/// The body of the bound: the vertices, moved by -height to height along `normal`, and the ellipsoid { center + map u :
+/// |u| <= 1 } in it.
 typedef struct inscribed_body {
     const double *vertices;
     uint32_t vertex_count;
@@ -33,9 +33,9 @@ typedef struct inscribed_body {
     double reach; ///< the whole body has |u| <= reach
 } inscribed_body;
 
-/// No ellipsoid in the body has more than this times the volume of the one at hand. directions[i]: of halfspace i of
-/// the certificate, in the body's frame. Any directions give a true bound, good ones a good one. Cost: linear in the
-/// vertices.
+/// An upper bound of the volume of any ellipsoid in the body, relative to the given one. directions[i]: of halfspace i
+/// of the certificate, in the body's frame. Any directions give a true bound, good directions a good bound. Cost:
+/// linear in the vertices.
 double certificate_compute_bound(const certificate *c, const inscribed_body *body, const vec3 *directions);
 
 #endif

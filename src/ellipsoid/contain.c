@@ -1,18 +1,18 @@
-// Proofs that an ellipsoid holds a polytope, or is inside one.
+// Proofs that an ellipsoid encloses a polytope, or lies inside one.
 //
 // Outside: with the proven factor W of Q (factor.h), (v - c)' Q^-1 (v - c) <= |W (v - c)|^2 / (1 - defect). Each term
-// is computed in doubles and enlarged by a bound of its rounding. The price is about 2^-50 times the ratio of the
-// longest to the shortest axis.
+// is computed in doubles and enlarged by a bound of its rounding, about 2^-50 times the ratio of the longest to the
+// shortest axis.
 //
 // Inside: let E be the ellipsoid, S the closed surface of the triangles.
-// (1) E meets no triangle: each triangle has a direction n with n . v > h(n) for its three vertices v. Any n will do,
-//     so the plane of its facet, rounded, is as good as an exact normal, and a sliver whose own normal is noise does no
-//     harm. n . (v - c) is bounded from below in doubles, n' Q n from above in double-double.
+// (1) E meets no triangle: each triangle has a direction n with n . v > h(n) for its three vertices v. Any n proves it,
+// so the plane of its facet, rounded, is as good as an exact normal, and a sliver whose own normal is noise does no
+// harm. n . (v - c) is bounded from below in doubles, n' Q n from above in double-double.
 // (2) S winds around the centre: the signed crossings of a ray from it do not sum to zero; exact orientations count
-//     them.
-// The winding number is constant on a connected set that misses S, so it is not zero on all of E; outside of the hull
-// of the vertices it is zero, as S can be contracted to a point within the hull. Hence E lies in the hull. Whether S is
-// convex to the last bit, or how facets were merged, does not matter.
+// them.
+// The winding number is constant on a connected set that does not meet S, so it is nonzero on all of E. Outside of the
+// hull of the vertices it is zero, as S can be contracted to a point within the hull. Hence E lies in the hull. Whether
+// S is convex to the last bit, or how facets were merged, does not matter.
 #include "ellipsoid/contain.h"
 
 #include "ellipsoid/factor.h"
@@ -55,7 +55,7 @@ int ellipsoid_is_enclosing(const ovoid_polytope *polytope, const ovoid_ellipsoid
     return vec3_is_finite(ellipsoid->center) && ellipsoid_compute_enclosing_bound(polytope, ellipsoid) <= 1;
 }
 
-// Q and lengths in a unit of their own, a power of two.
+// Q and lengths in a unit near their size, a power of two.
 typedef struct scaled {
     sym3dd q;
     vec3 center;
@@ -83,8 +83,8 @@ static double bound_reach(const scaled *s, vec3 direction) {
     return sqrt(fmax(sum.high, 0) + 0x1p-96 * size + 0x1p-900) * (1 + 4 * ROUNDING);
 }
 
-// An upper bound of bound_reach in doubles: products and sums are within 10 roundings of the sum of sizes, so that 32
-// are above what pairs of doubles leave too.
+// An upper bound of bound_reach in doubles: products and sums are within 10 roundings of the sum of sizes; 32 roundings
+// exceed that and the rounding of bound_reach.
 static double bound_reach_roughly(const scaled *s, vec3 n) {
     double xx = n.x * n.x * s->q.m[0][0].high, yy = n.y * n.y * s->q.m[1][1].high, zz = n.z * n.z * s->q.m[2][2].high;
     double xy = 2 * n.x * n.y * s->q.m[0][1].high, xz = 2 * n.x * n.z * s->q.m[0][2].high;
@@ -116,13 +116,13 @@ double ellipsoid_compute_clear_bound(const ovoid_polytope *polytope, const ovoid
         const uint32_t *index = polytope->triangles + 3 * (size_t)t;
         vec3 corner[3];
         for (int i = 0; i < 3; i++) corner[i] = vec3_at(polytope->vertices, index[i]);
-        // The facet's plane. Most triangles do not limit the factor, and a reach that is too large shows it.
+        // Uses the facet's plane. Most triangles do not limit the factor, which a rough upper bound of the reach shows.
         vec3 n = polytope->planes[polytope->triangle_facets[t]].normal;
         double clear = bound_factor(&s, corner, n, bound_reach_roughly(&s, n));
         if (clear >= bound && clear >= 0) continue;
         clear = bound_factor(&s, corner, n, bound_reach(&s, n));
         if (clear >= bound) continue;
-        // Where this triangle limits the factor, its own normal may give a larger one.
+        // If this triangle limits the factor, its own normal may give a larger one.
         vec3 own = triangle_compute_normal(corner);
         clear = fmax(clear, bound_factor(&s, corner, own, bound_reach(&s, own)));
         if (!(clear >= bound)) bound = clear;

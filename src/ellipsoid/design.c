@@ -9,20 +9,21 @@
 // vertex-exchange-method in D-optimal design theory, 1986. They converge linearly: S. D. Ahipasaoglu, P. Sun, M. J.
 // Todd, Linear convergence of a modified Frank-Wolfe algorithm for computing minimum-volume enclosing ellipsoids, 2008.
 //
-// Where they are slow, since the optimum is flat in the weights, the weight is moved to ten points of the same
+// If exchanges converge slowly, since the optimum is flat in the weights, the weight is moved to ten points of the same
 // covariance, and Newton steps on the weighted points follow.
 //
-// The steps run on a few points at a time; then all points are evaluated, the worst of each cell of directions join,
+// The steps work on a few points at a time. Then all points are evaluated, the worst of each cell of directions join,
 // and points that cannot carry weight at the optimum are dropped for good: R. Harman and L. Pronzato, Improvements on
 // removing nonoptimal support points in D-optimum design algorithms, 2007. Start: P. Kumar and E. A. Yildirim,
 // Minimum-volume enclosing ellipsoids and core sets, 2005.
 // Cost: about ten evaluations of all points, and some hundred steps of the cost of a few dozen points each; at most 200
 // and 600 000.
+// and 600 000.
 #include "ellipsoid/design.h"
 
 #include "ellipsoid/certificate.h"
 
-// Most weights that Newton steps are made for.
+// The largest number of weights for Newton steps.
 enum { POLISHED = 32 };
 
 // The points with the smallest and the largest n . x.
@@ -35,7 +36,7 @@ static void find_extremes(const ovoid_polytope *p, vec3 n, uint32_t extreme[2]) 
     }
 }
 
-// b less its part along the unit vector a, removed twice, so that rounding leaves nothing of it.
+// b minus its part along the unit vector a, subtracted twice, so that rounding leaves nothing of it.
 static vec3 reject(vec3 b, vec3 a) {
     b = vec3_add_scaled(b, a, -vec3_dot(a, b));
     return vec3_add_scaled(b, a, -vec3_dot(a, b));
@@ -53,7 +54,7 @@ static vec3 find_across(const ovoid_polytope *p, vec3 origin, vec3 a) {
     return most > 0 ? vec3_unit(reject(vec3_unit(best), a)) : vec3_orthogonal(a);
 }
 
-// Half of the extent of the vertices along a (1 where there is none), and the middle.
+// Half of the extent of the vertices along a (1 if there is none), and the middle.
 static double measure(const ovoid_polytope *p, vec3 origin, vec3 a, double *middle) {
     double low = INFINITY, high = -INFINITY;
     for (uint32_t i = 0; i < p->vertex_count; i++) {
@@ -103,7 +104,7 @@ vec3 frame_compute_local(const frame *f, vec3 x) {
 
 static double compute_variance(const design *d, vec3 y) { return 1 + sym3_quadratic(d->inverse, vec3_sub(y, d->mean)); }
 
-// Mean and inverse covariance of the weighted points; 0 where the covariance is not positive definite in doubles.
+// Mean and inverse covariance of the weighted points; 0 if the covariance is not positive definite in doubles.
 static int evaluate(design *d) {
     double total = 0;
     vec3 mean = {0, 0, 0};
@@ -123,7 +124,7 @@ static int evaluate(design *d) {
     return 1;
 }
 
-// Moves weight from the weighted point of least variance to the point of largest variance. 0, and no move, where the
+// Moves weight from the weighted point of least variance to the point of largest variance. 0, without a move, if the
 // largest excess is small enough.
 static int exchange(design *d, double excess) {
     uint32_t low = 0, high = 0;
@@ -172,13 +173,13 @@ static int compute_newton_step(const design *d, const uint32_t *index, uint32_t 
         p[i] /= a[i][i], q[i] /= a[i][i];
         sum_p += p[i], sum_q += q[i];
     }
-    // The sum of the weights stays.
+    // The step leaves the sum of the weights unchanged.
     for (uint32_t i = 0; i < n; i++) step[i] = p[i] - sum_p / sum_q * q[i];
     return 1;
 }
 
-// Moves weight among the points, mean and covariance unchanged, until at most ten carry any: so many are enough
-// (C. Caratheodory 1907), and exchanges spread it over ever more where many points are nearly as far out.
+// Moves weight among the points, with mean and covariance unchanged, until at most ten carry any; ten are enough (C.
+// Caratheodory 1907). Otherwise exchanges spread the weight over ever more points if many are nearly as far out.
 static void reduce(design *d) {
     certificate c = {0};
     for (uint32_t i = 0; i < d->count; i++)
@@ -193,8 +194,8 @@ static uint32_t count_weighted(const design *d) {
     return count;
 }
 
-// Newton steps on the weights that are not zero, as long as the determinant grows; where a weight would turn negative
-// the step ends at zero. For optima so flat in the weights that exchanges are slow.
+// Newton steps on the weights that are not zero, as long as the determinant grows; if a weight would turn negative the
+// step ends at zero. For optima so flat in the weights that exchanges are slow.
 static int polish(design *d, double excess) {
     for (int iteration = 0; iteration < 20; iteration++) {
         uint32_t index[POLISHED], n = 0, gone = UINT32_MAX;
@@ -262,7 +263,7 @@ static double find_worst(const design *d, double worst[24], uint32_t which[24]) 
     return top;
 }
 
-// Evaluates all candidates, drops those that cannot matter, and adds the worst of each cell. 0 where none was added.
+// Evaluates all candidates, drops those that cannot matter, and adds the worst of each cell. 0 if none was added.
 static int scan(design *d) {
     double m = d->rank + 1, worst[24];
     uint32_t which[24];
@@ -290,8 +291,8 @@ static void add_weight(design *d, uint32_t point, double weight) {
     d->weight[d->count++] = weight;
 }
 
-// Of each cell the point farthest out in the space where `near` is a ball, if it is within a tenth of the farthest of
-// all: most points that carry weight at the optimum are among them.
+// Adds for each cell the point farthest out in the space where `near` is a ball, if it is within a tenth of the
+// farthest of all: most points that carry weight at the optimum are among these.
 static void add_near(design *d, const frame *f) {
     const vec3 part = {1 / f->half.x, 1 / f->half.y, 1 / f->half.z};
     mat3 map = {vec3_scale(f->axes.r0, part.x), vec3_scale(f->axes.r1, part.y), vec3_scale(f->axes.r2, part.z)};
@@ -317,13 +318,14 @@ void design_solve(design *d, const frame *f, const ovoid_polytope *polytope, dou
         d->local[3 * (size_t)i] = y.x, d->local[3 * (size_t)i + 1] = y.y, d->local[3 * (size_t)i + 2] = y.z;
     }
     if (d->near) add_near(d, f);
-    // Extreme points make the covariance definite, whatever came before.
+    // Extreme points make the covariance definite, whatever the other points are.
     double share = d->count ? 0.1 / (2 * d->rank) : 1.0 / (2 * d->rank);
     for (uint32_t i = 0; i < 2 * d->rank; i++) add_weight(d, f->extreme[i], share);
     // Below this, coordinates along thin axes may be noise.
     double longest = vec3_max_abs(f->half), shortest = fmin(f->half.x, fmin(f->half.y, f->half.z));
     double noise = 32 * 0x1p-53 * (longest + vec3_max_abs(f->origin)) / shortest;
-    // The design's points are settled more finely than all points are; three rounds without progress end the search.
+    // The weights of the design's points converge further than those of all points; three rounds without progress end
+    // the search.
     d->excess = INFINITY;
     for (int round = 0, stalls = 0; round < 200 && stalls < 3; round++) {
         double before = d->excess;

@@ -1,11 +1,11 @@
-// The ellipsoid as a value: radii, volume, and what a pose makes of it.
+// The ellipsoid as a value: radii, volume, and the ellipsoid under a pose.
 #include "ovoid/ellipsoid.h"
 
 #include "base/environment.h"
 #include "ellipsoid/factor.h"
 #include "linear/rotation.h"
 
-// Eigenvalues of Q lose those far below the largest to rounding; these are the largest of Q^-1 = W' W.
+// In eigenvalues of Q rounding loses those far below the largest; they are recomputed as the largest of Q^-1 = W' W.
 static void improve_small(sym3 q, double square[3]) {
     factor f;
     if (!factor_make(q, &f) || f.count < 3) return;

@@ -1,5 +1,6 @@
 // The proven factor: Cholesky in double-double on a matrix whose axes were first scaled, by powers of two, to a unit
-// diagonal. A. van der Sluis, Condition numbers and equilibration of matrices, 1969: such scaling is nearly the best.
+// diagonal. A. van der Sluis, Condition numbers and equilibration of matrices, 1969, shows that this scaling is nearly
+// the best.
 #include "ellipsoid/factor.h"
 
 sym3dd sym3dd_from(sym3 s) {
@@ -17,14 +18,14 @@ static int half_exponent(double x) {
 // a 2^e
 static dd dd_ldexp(dd a, int e) { return (dd){ldexp(a.high, e), ldexp(a.low, e)}; }
 
-// Axes of a matrix in units of their own: lengths along axis[i] are divided by 2^exponent[i].
+// Axes of a matrix with a unit of length for each: lengths along axis[i] are divided by 2^exponent[i].
 typedef struct scaling {
     int count;
     int axis[3], exponent[3];
 } scaling;
 
-// The axes that are not exactly zero, each with the power of two that brings its diagonal entry to [1/4, 1). 0 where
-// the diagonal alone shows that the matrix is not positive semidefinite.
+// The axes that are not exactly zero, each with the power of two that brings its diagonal entry to [1/4, 1). 0 if the
+// diagonal alone shows that the matrix is not positive semidefinite.
 static int find_axes(const sym3dd *s, scaling *u) {
     u->count = 0;
     for (int i = 0; i < 3; i++) {
@@ -45,7 +46,7 @@ static void take_scaled(const sym3dd *s, const scaling *u, dd a[3][3]) {
             a[i][j] = dd_ldexp(s->m[u->axis[i]][u->axis[j]], -u->exponent[i] - u->exponent[j]);
 }
 
-// a = l d l' with unit lower triangular l; 0 where a pivot is not above the rounding of double-double.
+// a = l d l' with unit lower triangular l; 0 if a pivot is not above the rounding of double-double.
 static int decompose(int count, dd a[3][3], dd l[3][3], dd d[3]) {
     for (int j = 0; j < count; j++) {
         d[j] = a[j][j];
@@ -93,7 +94,7 @@ static double compute_defect(int count, dd a[3][3], double w[3][3]) {
     return defect * (1 + 8 * ROUNDING);
 }
 
-// Everything but the defect; the scaled matrix in a.
+// Everything but the defect; the scaled matrix is in a.
 static int make_unproven(const sym3dd *s, factor *f, dd a[3][3]) {
     scaling u;
     if (!find_axes(s, &u)) return 0;

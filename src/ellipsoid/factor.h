@@ -17,10 +17,10 @@ typedef struct sym3dd {
 /// The matrix in double-double.
 sym3dd sym3dd_from(sym3 s);
 /// Doubles near s, chosen together (round.c): the ellipsoid of the result is as near to that of s, in its own metric,
-/// as doubles allow, though it be a needle or a slab.
+/// as doubles allow, even for a needle or a slab.
 sym3 sym3dd_round(const sym3dd *s);
 
-/// The factor, in units of its own for every axis: powers of two, so that changing to them is exact.
+/// The factor, with a unit for every axis: powers of two, so that conversion is exact.
 typedef struct factor {
     int count;       ///< axes along which Q is not exactly zero
     int axis[3];     ///< these axes, ascending
@@ -29,14 +29,14 @@ typedef struct factor {
     double defect;   ///< at least |W Q W' - I|, rounding included
 } factor;
 
-/// 1 and the factor, or 0 where Q is not proven positive definite on the axes where it is not zero.
+/// 1 and the factor, or 0 if Q is not proven positive definite on its nonzero axes.
 int factor_make(sym3 q, factor *f);
 /// A factor of a matrix in double-double, with no defect computed.
 int factor_make_unproven(const sym3dd *s, factor *f);
 
 /// The square root of the sum of the principal minors of order `rank` (1 to 3): the product of the radii of a solid, of
-/// the two radii of a flat ellipsoid, the radius of a segment. 0 where the sum is not positive. *error (may be NULL)
-/// bounds the relative error, for entries that are true to 2^-92 of the diagonal.
+/// the two radii of a flat ellipsoid, the radius of a segment. 0 if the sum is not positive. *error (may be NULL)
+/// bounds the relative error, for entries with an error of up to 2^-92 of the diagonal.
 double sym3dd_compute_content(const sym3dd *s, int rank, double *error);
 
 /// The measure of the unit ball of that dimension: 4/3 pi, pi, 2, 0.

@@ -4,11 +4,11 @@
 //
 // The body is first mapped so that its outer ellipsoid is about the unit ball: needles and slabs are then as round as
 // other bodies. There each facet becomes one halfspace, with the normal of its largest triangle and the offset of its
-// lowest vertex, so that the intersection of the halfspaces lies in the body. inscribe.c solves; the result is mapped
-// back, rounded, and shrunk by what its proof needs (shrink_to_fit.c); certificate.c bounds how much larger any other
-// could be, which makes the reported gap true. A flat polygon is solved as a prism over it, whose largest ellipsoid is
-// the polygon's, times the height. Cost: some 30 iterations on a few hundred halfspaces, and some 15 passes over facets
-// and vertices.
+// lowest vertex, so that the intersection of the halfspaces lies in the body. inscribe.c solves the problem; the result
+// is mapped back, rounded, and shrunk until its proof holds (shrink_to_fit.c). certificate.c bounds how much larger any
+// other ellipsoid could be, which gives the reported gap. A flat polygon is solved as a prism over it, whose largest
+// ellipsoid is the polygon's, times the height. Cost: some 30 iterations on a few hundred halfspaces, and some 15
+// passes over facets and vertices.
 #include "ellipsoid/certificate.h"
 #include "ellipsoid/contain.h"
 #include "ellipsoid/design.h"
@@ -39,7 +39,7 @@ static mat3 mat3_scale_rows(mat3 m, vec3 s) {
     return (mat3){vec3_scale(m.r0, s.x), vec3_scale(m.r1, s.y), vec3_scale(m.r2, s.z)};
 }
 
-// The lower triangular L with L L' = s, and its inverse; the identity where s is not positive definite.
+// The lower triangular L with L L' = s, and its inverse; the identity if s is not positive definite.
 static mat3 compute_root(sym3 s, mat3 *inverse) {
     double a = sqrt(s.xx), b = s.xy / a, c = s.xz / a, d = sqrt(s.yy - b * b), e = (s.yz - b * c) / d;
     double f = sqrt(s.zz - c * c - e * e);
@@ -82,8 +82,8 @@ static void lower(const work *w, uint32_t t, constraint *c) {
     }
 }
 
-// The halfspaces of a solid: one for each facet that has a triangle, by the exact normal of its largest triangle; by
-// the normal of its plane where the former cuts much deeper, as that of a sliver folded against its neighbours may.
+// The halfspaces of a solid: one for each facet that has a triangle, by the exact normal of its largest triangle, or by
+// the normal of its plane if the former cuts much deeper, as that of a sliver folded against its neighbours may.
 static void build_from_facets(work *w) {
     const ovoid_polytope *p = w->polytope;
     for (uint32_t f = 0; f < p->facet_count; f++) w->set.items[f] = (constraint){.y = 0};
@@ -139,7 +139,7 @@ static inscribed guess(const work *w) {
     return (inscribed){.e = sym3_from_eigen(q.value, q.v), .x = x};
 }
 
-// The solver's ellipsoid; a small ball where it failed or could not start.
+// The solver's ellipsoid; a small ball if it failed or could not start.
 static inscribed solve(const work *w, double gap) {
     double least = INFINITY;
     for (uint32_t i = 0; i < w->set.count; i++) least = fmin(least, w->set.items[i].b);
@@ -151,7 +151,7 @@ static inscribed solve(const work *w, double gap) {
     return vec3_is_finite(solved.x) && sym3_solve(solved.e, (vec3){0, 0, 0}, &x) ? solved : s;
 }
 
-// M M', from the columns along which the body has extent.
+// M M', from the columns in whose directions the body has extent.
 static sym3dd compute_square(const mat3 *m, uint32_t rank) {
     const double full[3][3] = {{m->r0.x, m->r0.y, m->r0.z}, {m->r1.x, m->r1.y, m->r1.z}, {m->r2.x, m->r2.y, m->r2.z}};
     sym3dd q;
@@ -174,8 +174,8 @@ static double compute_volume_factor(const mat3 *m) {
     return fabs(dd_add(sum, dd_mul(x[2], dd_from(m->r0.z))).high) * (1 + ROUNDING) + 0x1p-96;
 }
 
-// How much larger than { center + m u } any ellipsoid in the body can be. Halfspaces of weights far below the gap are
-// left out: the bound holds for any halfspaces, and loses about their sum.
+// The bound of how much larger than { center + m u } any ellipsoid in the body can be. Halfspaces of weights far below
+// the gap are left out: the bound holds for any halfspaces, and loses about the sum of their weights.
 static double compute_bound(const work *w, const inscribed *s, vec3 center, mat3 m, double gap) {
     certificate c = {0};
     double total = 0;
@@ -206,7 +206,7 @@ static void fill_fit(const work *w, const inscribed *s, double gap, ovoid_fit *f
     mat3 e = {{s->e.xx, s->e.xy, s->e.xz}, {s->e.xy, s->e.yy, s->e.yz}, {s->e.xz, s->e.yz, s->e.zz}};
     mat3 m = mat3_mul(w->map, e);
     vec3 center = vec3_add(w->origin, mat3_mul_vec3(w->map, s->x));
-    // The solution keeps a little distance from the halfspaces: it is enlarged until it meets the first.
+    // The solution keeps a small distance from the halfspaces; it is enlarged until it meets the first.
     sym3dd q = compute_square(&m, rank);
     ovoid_ellipsoid loose = {center, sym3dd_round(&q)};
     double clear = rank == 3 ? ellipsoid_compute_clear_bound(w->polytope, &loose) : 1, scale = 1;
@@ -215,7 +215,7 @@ static void fill_fit(const work *w, const inscribed *s, double gap, ovoid_fit *f
         for (int j = 0; j < 3; j++) q.m[i][j] = dd_mul(q.m[i][j], dd_from(scale));
     *fit = (ovoid_fit){.ellipsoid = ellipsoid_shrink_to_fit(w->polytope, center, &q), .iterations = s->iterations};
     fit->volume = ellipsoid_compute_measure(&fit->ellipsoid, rank);
-    // The bound is about the ellipsoid of m, for a flat polygon about that of the prism. In units of the body.
+    // The bound is for the ellipsoid of m, for a flat polygon for that of the prism. In units of the body.
     double reach = fmax(vec3_max_abs(m.r0), fmax(vec3_max_abs(m.r1), vec3_max_abs(m.r2)));
     double unit = ldexp(1, -find_unit_exponent(reach));
     mat3 whole = mat3_scale_rows(m, (vec3){unit, unit, unit});

@@ -3,11 +3,11 @@
 // Primal-dual interior point on the conditions
 //     E^-1 = sym sum y_i w_i n_i',  w_i = E n_i / |E n_i|,   sum y_i n_i = 0,   |E n_i| + n_i . x + z_i = b_i,   y_i
 //     z_i = mu
-// as in Y. Zhang and L. Gao, On numerical solution of the maximum volume ellipsoid problem, 2003; but where they solve
-// a system as large as the number of constraints, the multipliers are eliminated here, which leaves the nine unknowns
-// of E and x, so that an iteration is linear in the constraints. Predictor and corrector as in S. Mehrotra, On the
+// as in Y. Zhang and L. Gao, On numerical solution of the maximum volume ellipsoid problem, 2003. They solve a system
+// as large as the number of constraints; here the multipliers are eliminated, which leaves the nine unknowns of E and
+// x, so that an iteration is linear in the constraints. Predictor and corrector as in S. Mehrotra, On the
 // implementation of a primal-dual interior point method, 1992. The constraints' convexity makes the system positive
-// definite. Nothing here is promised: the caller proves what it returns.
+// definite. The result is not trusted: the caller proves what it returns.
 #include "ellipsoid/inscribe.h"
 
 // Unknowns: xx xy xz yy yz zz of E, then x.
@@ -23,7 +23,7 @@ typedef struct step {
     vec3 x;
 } step;
 
-// |E n|, its direction, and what the slack misses.
+// Computes |E n|, its direction, and the residual of the slack.
 static void evaluate(constraint *c, const inscribed *s) {
     vec3 p = sym3_mul_vec3(s->e, c->n);
     c->h = vec3_norm(p);
@@ -80,7 +80,7 @@ static void add_barrier(newton *m, sym3 e) {
     }
 }
 
-// The system of the Newton step, factored; 0 where it is not positive definite in doubles.
+// The system of the Newton step, factored; 0 if it is not positive definite in doubles.
 static int prepare(newton *m, constraint_set set, const inscribed *s) {
     *m = (newton){0};
     sym3 curvature = {0, 0, 0, 0, 0, 0};
@@ -108,7 +108,7 @@ static int prepare(newton *m, constraint_set set, const inscribed *s) {
     return 1;
 }
 
-// The step toward y z = center, less the products dy dz of the predictor where `correct` is set.
+// The step toward y z = center, minus the products dy dz of the predictor if `correct` is set.
 static step solve(const newton *m, constraint_set set, double center, int correct) {
     double r[UNKNOWNS];
     for (int k = 0; k < UNKNOWNS; k++) r[k] = m->gradient[k];
@@ -129,7 +129,7 @@ static step solve(const newton *m, constraint_set set, double center, int correc
     return (step){{r[0], r[1], r[2], r[3], r[4], r[5]}, {r[6], r[7], r[8]}};
 }
 
-// Computes the step of multipliers and slacks; returns the largest part of it, at most 1, that keeps them positive.
+// Computes the step of multipliers and slacks; returns the largest share of it, at most 1, that keeps them positive.
 static double spread(constraint_set set, const step *d, double center, int correct) {
     double part = 1;
     for (uint32_t i = 0; i < set.count; i++) {
@@ -143,7 +143,7 @@ static double spread(constraint_set set, const step *d, double center, int corre
     return part;
 }
 
-// The sum of y z after that part of the step.
+// The sum of y z after that share of the step.
 static double compute_gap(constraint_set set, double part) {
     double sum = 0;
     for (uint32_t i = 0; i < set.count; i++) {
@@ -158,10 +158,10 @@ static int is_positive(sym3 e) {
     return sym3_solve(e, (vec3){0, 0, 0}, &x);
 }
 
-// Takes that part of the step; slacks are made exact again where that does not cut them by much. 0 where hardly any
-// part leaves E positive definite.
+// Takes that share of the step; slacks are made exact again if that does not reduce them by much. 0 if only a tiny
+// share leaves E positive definite.
 static int move(inscribed *s, constraint_set set, const step *d, double part) {
-    // E must stay positive definite, with something left of it.
+    // E must stay positive definite, with a margin.
     sym3 e;
     do {
         e = sym3_add(s->e, sym3_scale(d->e, part));
@@ -204,7 +204,7 @@ inscribed inscribe_solve(constraint_set set, double gap) {
     while (s.iterations < 80 && s.gap > gap) {
         newton m;
         if (!prepare(&m, set, &s)) break;
-        // Predictor: how far it gets says how much centring is wanted.
+        // Predictor: the length of its step decides how much centring is needed.
         step d = solve(&m, set, 0, 0);
         double part = spread(set, &d, 0, 0);
         double share = compute_gap(set, part) / s.gap;

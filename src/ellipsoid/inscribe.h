@@ -11,7 +11,7 @@ typedef struct constraint {
     double y, z;   ///< multiplier and slack
     vec3 w;        ///< E n / |E n|
     double h;      ///< |E n|
-    double miss;   ///< b - n . x - h - z
+    double miss;   ///< b - n . x - h - z, the residual
     double dy, dz; ///< the step of y and z
 } constraint;
 
@@ -28,9 +28,9 @@ typedef struct inscribed {
     uint32_t iterations;
 } inscribed;
 
-/// The constraints must bound a body that holds the origin (all b > 0) and is of about the size of the unit ball,
-/// neither thin nor long. Stops at that gap, or where no progress is left. Cost: 10 to 30 iterations, each linear in
-/// the constraints.
+/// The constraints must bound a body that contains the origin (all b > 0) and is of about the size of the unit ball,
+/// neither thin nor long. Stops at that gap, or if there is no progress. Cost: 10 to 30 iterations, each linear in the
+/// constraints.
 inscribed inscribe_solve(constraint_set set, double gap);
 
 #endif

@@ -1,14 +1,14 @@
-// The Loewner-John ellipsoid, step (a) of Su, Liu, Chen. Weights come from design.c; what is returned and promised is
-// computed from them and the vertices alone, in double-double:
+// The Loewner-John ellipsoid, step (a) of Su, Liu, Chen. Weights come from design.c; the returned ellipsoid and its
+// promises are computed from them and the vertices alone, in double-double:
 //
-// Let k be the rank, c and S the weighted mean and covariance of the vertices. Any ellipsoid with matrix Q that holds
-// all vertices has, by the inequality of the means, det Q >= det k S: the lower bound of the volume, whatever the
-// weights. And Q = t k S holds all of them once t is the largest (v - c)' (k S)^-1 (v - c). So the gap reported,
+// Let k be the rank, c and S the weighted mean and covariance of the vertices. Any ellipsoid with matrix Q that
+// contains all vertices has, by the inequality of the means, det Q >= det k S: a lower bound of the volume for any
+// weights. And Q = t k S contains all of them once t is the largest (v - c)' (k S)^-1 (v - c). So the reported gap,
 // sqrt(det Q / det k S) - 1 for the Q that is returned, is true. docs/ellipsoid.md has the proofs.
 //
-// Q is stored in six doubles. Rounding it moves a thin axis: of a body thinner than 1e-8 of its length and not along
-// the axes, nothing of the thickness is left. So the check of contain.c is repeated on the stored Q: it is scaled up
-// until the check holds, and where it is too flat to be factored, every axis is lengthened a little first.
+// Q is stored in six doubles. Rounding it moves a thin axis; for a body thinner than 1e-8 of its length and not along
+// the axes, nothing of the thickness is left. So the check of contain.c is repeated on the stored Q, which is scaled up
+// until the check holds; if it is too flat to be factored, every axis is lengthened a little first.
 #include "ellipsoid/contain.h"
 #include "ellipsoid/design.h"
 #include "ellipsoid/factor.h"
@@ -25,7 +25,8 @@ typedef struct moments {
     int fixed[3]; // all vertices have the same coordinate
 } moments;
 
-// The power of two that brings the differences of the vertices to about 1, and the axes along which there are none.
+// The power of two that brings the differences of the vertices to about 1, and the axes along which all differences are
+// zero.
 static void find_unit(const double *vertices, uint32_t count, moments *m) {
     double extent = 0;
     for (size_t i = 0; i < 3 * (size_t)count; i++) extent = fmax(extent, fabs(vertices[i] - vertices[i % 3]));
@@ -46,7 +47,7 @@ static moments compute_moments(const design *d, const double *vertices, uint32_t
     }
     for (int k = 0; k < 3; k++) center[k] = m.fixed[k] ? vertices[k] : dd_div(mean[k], total).high / unit;
     m.center = vec3_at(center, 0);
-    // About the rounded centre, less what the rounding took.
+    // Relative to the rounded centre, minus its rounding error.
     dd sum[3][3] = {{{0, 0}}}, rest[3] = {{0, 0}, {0, 0}, {0, 0}};
     for (uint32_t i = 0; i < d->count; i++) {
         dd x[3], w = dd_from(d->weight[i]);
@@ -85,7 +86,7 @@ static sym3 enclose(const ovoid_polytope *polytope, const moments *m, double ran
         ovoid_ellipsoid e = {m->center, sym3_scale(sym3_scale(q, unit), unit)};
         double bound = ellipsoid_compute_enclosing_bound(polytope, &e);
         if (bound <= 1) break;
-        // What is missing is either size, or thickness that rounding destroyed.
+        // The ellipsoid lacks either size, or thickness that rounding destroyed.
         if (bound <= 2) {
             scale *= bound * (1 + slack);
             slack *= 2;
@@ -103,7 +104,7 @@ static void fill_fit(const ovoid_polytope *polytope, const design *d, double gap
     double least_error, error, least = sym3dd_compute_content(&m.covariance, (int)rank, &least_error);
     least *= sqrt(rank == 3 ? 27 : rank == 2 ? 4 : 1) * (1 - fmin(least_error, 1));
     *fit = (ovoid_fit){.ellipsoid.center = m.center, .iterations = d->steps, .gap = INFINITY};
-    // Where rounding hurts thin axes, a little thickness beforehand may cost less than a larger scale afterwards.
+    // If rounding affects thin axes, a little thickness beforehand may cost less than a larger scale afterwards.
     for (int i = 0; i < 5 && !fit->converged; i++) {
         sym3 q = enclose(polytope, &m, rank, i ? ldexp(ROUNDING, i - 2) : 0);
         sym3dd q2 = sym3dd_from(q);

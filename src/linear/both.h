@@ -1,4 +1,4 @@
-// Two numbers side by side, for arithmetic that is done twice alike: the bits are those of each alone.
+// Two numbers side by side, for arithmetic that is done on both at once; the bits are those of each alone.
 #ifndef OVOID_LINEAR_BOTH_H
 #define OVOID_LINEAR_BOTH_H
 

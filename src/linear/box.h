@@ -6,7 +6,7 @@
 
 typedef ovoid_box box;
 
-/// The empty box: overlaps no box, and leaves every box it is joined to as it is.
+/// The empty box: overlaps no box, and a join with it leaves the other box unchanged.
 static inline box box_make_empty(void) {
     return (box){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
 }

@@ -31,7 +31,7 @@ static inline dd dd_sqrt(dd a) {
     double rest = ((a.high - square.high) - square.low) + a.low;
     return quick_two_sum(r, rest / (2 * r));
 }
-/// The largest double that is not above a, the least that is not below.
+/// The largest double that is not above a; the least double that is not below a.
 static inline double dd_round_down(dd a) { return a.low < 0 ? nextafter(a.high, -INFINITY) : a.high; }
 static inline double dd_round_up(dd a) { return a.low > 0 ? nextafter(a.high, INFINITY) : a.high; }
 

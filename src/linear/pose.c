@@ -1,4 +1,4 @@
-// Poses: points through them, and what is wrong with one. From matrices: pose_matrix.c.
+// Poses: transforming points, and validation. From matrices: pose_matrix.c.
 #include "linear/pose.h"
 
 #include "base/environment.h"

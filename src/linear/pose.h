@@ -1,4 +1,4 @@
-// Poses, for the floors above.
+// Functions of poses for callers inside the library.
 #ifndef OVOID_LINEAR_POSE_H
 #define OVOID_LINEAR_POSE_H
 

@@ -17,7 +17,7 @@ static uint64_t interleave(const uint32_t cell[3]) {
     return key;
 }
 
-// Cells of a cube: a flat box has few across it.
+// Sorting entries by the cells of a cube: a flat box spans few cells in its thin direction.
 static void fill_entries(const double *grid, uint32_t count, sort_entry *entries) {
     box b = box_make_around(grid, count);
     vec3 size = vec3_sub(b.max, b.min);

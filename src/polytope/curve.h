@@ -1,4 +1,4 @@
-// Points along a curve that fills space, so that those near in a list are near in memory.
+// Points along a space-filling curve, so that points near in space are near in memory.
 #ifndef OVOID_POLYTOPE_CURVE_H
 #define OVOID_POLYTOPE_CURVE_H
 
@@ -12,8 +12,8 @@ typedef struct curve {
     uint32_t *given; ///< its index before
 } curve;
 
-/// Puts points into the order of the curve through their box; equal places keep their order. 0 where there is no
-/// memory; *c needs no destroying then. Cost: linear.
+/// Puts points into the order of the curve through their box; points with equal cells keep their order. 0 if memory
+/// runs out; then *c needs no destroying. Cost: linear.
 int curve_create(const double *grid, uint32_t count, const ovoid_allocator *allocator, curve *c);
 void curve_destroy(curve *c, const ovoid_allocator *allocator);
 

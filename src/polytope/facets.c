@@ -1,10 +1,10 @@
 // Facets of a triangulated hull.
 //
 // Faces that were flat before their points were rounded come as bundles of triangles whose planes differ in the last
-// bits, some of them slivers whose own normal is noise. They are joined from the largest triangle on: to it every
-// triangle that is reached over edges, faces the same way and has its three corners within FACET_FLATNESS of its plane.
-// The facet's normal is the sum of its triangles' areas as vectors, so that slivers do not count; its offset is the
-// largest n . v of its corners and of the corners next to them. The triangles remain the body; planes are
+// bits; some are slivers whose own normal is noise. Triangles are joined starting from the largest: a facet takes every
+// triangle that is reached over edges, faces the same way and has its three corners within FACET_FLATNESS of the plane
+// of the largest. The facet's normal is the sum of its triangles' areas as vectors, so that slivers do not matter; its
+// offset is the largest n . v of its corners and of the corners next to them. The triangles remain the body; planes are
 // approximations.
 #include "polytope/facets.h"
 
@@ -16,7 +16,7 @@
 
 #define NOTHING UINT32_MAX
 
-// From so many triangles on a radix sort is faster than one by merging.
+// The number of triangles from which radix sort is faster than merge sort.
 #define RADIX_LEAST 256
 
 // a b - c d, rounded.
@@ -67,7 +67,7 @@ thickness surface_compute_thickness(const surface *s, const double *grid, uint32
 
 // ---- joining triangles ----
 
-// What is known of a triangle before any is joined.
+// What is known of a triangle before triangles are joined.
 enum { TRIANGLE_PLAIN = 0, TRIANGLE_NEAR = 1, TRIANGLE_SLIVER = 2 };
 
 typedef struct joiner {
@@ -77,7 +77,7 @@ typedef struct joiner {
     double *area;        // of each triangle, twice
     uint32_t *order;     // triangles, the largest first
     uint32_t *queue;     // of the facet that grows
-    uint32_t *seeds;     // of each facet its first triangle
+    uint32_t *seeds;     // for each facet its first triangle
     uint32_t *facet_of;
     uint8_t *kinds;
     double flatness;
@@ -99,7 +99,7 @@ static double compute_distance(const joiner *j, uint32_t t, const ovoid_plane *p
     return max2(max2(a, b), compute_height(j, corner[2], plane));
 }
 
-// A triangle that faces the other way is the back of something thin, however near it is.
+// A triangle that faces the other way is the back of a thin body, however near it is.
 static int is_in_plane(const joiner *j, uint32_t t, const ovoid_plane *plane) {
     return compute_distance(j, t, plane) <= j->flatness && vec3_dot(j->s->areas[t], plane->normal) > 0;
 }
@@ -117,8 +117,8 @@ static void grow_facet(joiner *j, uint32_t seed, uint32_t facet) {
         }
 }
 
-// A triangle lower than the flatness has no plane of its own: it goes with the neighbor whose facet it is nearest to.
-// NOTHING where none is near.
+// The neighbour whose facet is nearest to a triangle lower than the flatness, which has no plane of its own. NOTHING if
+// none is near.
 static uint32_t find_host(const joiner *j, uint32_t t) {
     double nearest = 4 * j->flatness;
     uint32_t host = NOTHING;
@@ -130,8 +130,8 @@ static uint32_t find_host(const joiner *j, uint32_t t) {
     return host;
 }
 
-// Planes, areas and kinds, in the order of the triangles, while their corners are at hand. A triangle is near where one
-// across an edge may join it: the corner beyond is looked at first, as it decides mostly.
+// Computes planes, areas and kinds, in the order of the triangles, for locality. A triangle is "near" if one across an
+// edge may join it: the corner beyond the edge is tested first, as it mostly decides.
 static void prepare(joiner *j) {
     const surface *s = j->s;
     for (uint32_t t = 0; t < s->triangle_count; t++) {
@@ -152,7 +152,7 @@ static void prepare(joiner *j) {
     }
 }
 
-// Larger triangles first, equal ones in their order. 0 where there is no memory.
+// Larger triangles first, equal ones in their order. 0 if memory runs out.
 static int order_triangles(joiner *j, const ovoid_allocator *allocator) {
     uint32_t count = j->s->triangle_count;
     if (count < RADIX_LEAST) {
@@ -162,7 +162,7 @@ static int order_triangles(joiner *j, const ovoid_allocator *allocator) {
     }
     sort_entry *entries = allocator_allocate(allocator, 2 * (size_t)count, sizeof *entries);
     for (uint32_t t = 0; t < count && entries; t++) {
-        // The bits of doubles that are not negative ascend as they do.
+        // For doubles that are not negative the order of their bits is the order of their values.
         uint64_t bits;
         memcpy(&bits, &j->area[t], sizeof bits);
         entries[t] = (sort_entry){~bits, t};
@@ -188,15 +188,15 @@ static uint32_t join(joiner *j) {
     return joined;
 }
 
-// Adds a number to a sum and what rounding took from it to the rest.
+// Adds a number to a sum, and the rounding error to the rest.
 static void add_compensated(double *sum, double *rest, double value) {
     dd s = two_sum(*sum, value);
     *sum = s.high;
     *rest += s.low;
 }
 
-// From the planes of first triangles to those of facets: the sum of the areas that face the same way. Thousands of
-// slivers of a round face would turn a plain sum by their roundings. rests: cleared, one a facet.
+// Replaces the planes of first triangles by those of facets: the sum of the areas that face the same way. In a plain
+// sum the roundings of thousands of slivers would turn the plane of a round face. rests: cleared, one a facet.
 static void compute_normals(const joiner *j, ovoid_plane *planes, vec3 *rests, uint32_t count) {
     for (uint32_t f = 0; f < count; f++) planes[f] = (ovoid_plane){{0, 0, 0}, -INFINITY};
     for (uint32_t t = 0; t < j->s->triangle_count; t++) {
@@ -214,7 +214,7 @@ static double get_support(const ovoid_plane *plane, const double *vertices, uint
     return vec3_dot(plane->normal, vec3_at(vertices, corner));
 }
 
-// A facet is supported by the corners of its triangles and those beyond their edges. + 0.0 makes a zero a positive one,
+// The corners of a facet's triangles and those beyond their edges support it. + 0.0 makes every zero positive,
 // whichever corner it comes from.
 void facets_set_offsets(const surface *s, const double *vertices, facets *f) {
     for (uint32_t t = 0; t < s->triangle_count; t++) {

@@ -5,15 +5,15 @@
 #include "ovoid/polytope.h"
 #include "polytope/quickhull.h"
 
-/// Vertices nearer to a plane than this times the largest coordinate of the body frame lie on it, as far as facets and
-/// the rank are concerned: 64 roundings, what points on a common plane are off by after a rotation or two.
+/// Vertices nearer to a plane than this times the largest coordinate of the body frame count as on it, for facets and
+/// for the rank: 64 roundings, the error of points on a common plane after a rotation or two.
 #define FACET_FLATNESS (64 * 0x1p-53)
 
 /// Twice the area of a triangle as a vector, through double-double: in doubles the normal of a thin triangle is off by
 /// a rounding over its least angle.
 vec3 compute_area(vec3 a, vec3 b, vec3 c);
 
-/// Fills s->areas: twice the area of each triangle. 0 where there is no memory. Cost: linear.
+/// Fills s->areas: twice the area of each triangle. 0 if memory runs out. Cost: linear.
 int surface_compute_areas(surface *s, const double *grid, const ovoid_allocator *allocator);
 
 /// How thick a hull is.
@@ -35,8 +35,8 @@ typedef struct facets {
 } facets;
 
 /// Joins triangles to facets: from the largest triangle not yet taken, over edges, all whose corners lie on its plane
-/// to within FACET_FLATNESS. Fills *f but for the planes' offsets. The areas must be there. 0 where there is no
-/// memory. Cost: linear.
+/// to within FACET_FLATNESS. Fills *f except the planes' offsets. The areas must be computed. 0 if memory runs out.
+/// Cost: linear.
 int facets_create(const surface *s, const points *p, facets *f, const ovoid_allocator *allocator);
 
 /// The planes' offsets, in the frame of the vertices. Cost: linear.
@@ -44,7 +44,7 @@ void facets_set_offsets(const surface *s, const double *vertices, facets *f);
 
 /// Adjacency by the edges of the triangles of a surface all of whose points are corners: the neighbors of v are those
 /// from starts[v] to starts[v + 1], ascending. Room for one start more than there are points and 3 triangle_count
-/// neighbors. 0 where there is no memory. Cost: linear.
+/// neighbors. 0 if memory runs out. Cost: linear.
 int neighbors_compute(const surface *s, uint32_t *starts, uint32_t *neighbors, const ovoid_allocator *allocator);
 
 #endif

@@ -1,5 +1,5 @@
 // From points to a polytope: points.h makes them distinct, quickhull.h finds the extreme ones and then the hull of
-// these alone, so that triangles, facets and adjacency depend on nothing but the vertices. Bodies whose thickness is
+// these alone, so that triangles, facets and adjacency depend only on the vertices. Bodies whose thickness is only
 // rounding get a lower rank, but keep every extreme point.
 #include "polytope/hull.h"
 
@@ -56,8 +56,8 @@ static ovoid_code keep_only(builder *b, const uint32_t *list, uint32_t count) {
     return OVOID_OK;
 }
 
-// An axis along which three points are not seen as collinear, by exact signs; of these one along which they span the
-// largest area, to rounding. Where they are collinear any axis does.
+// The axis for the projection of a flat body: among those along which three points do not appear collinear, by exact
+// signs, the one along which they span the largest area, to rounding. Any axis if the points are collinear.
 static int find_axis(const points *p, const uint32_t corner[3]) {
     vec3 c[3];
     for (int i = 0; i < 3; i++) c[i] = vec3_at(p->grid, corner[i]);
@@ -79,7 +79,7 @@ static ovoid_code find_flat(builder *b) {
     return code;
 }
 
-// Drops all points that are not extreme; the surface is that of the rest.
+// Drops all points that are not extreme; the surface is that of the others.
 static ovoid_code find_extreme(builder *b) {
     ovoid_code code = find_solid(b);
     if (code || b->s.rank == 3) return code;
@@ -99,7 +99,7 @@ static double compute_line_distance(const points *p, const uint32_t end[2]) {
     return width;
 }
 
-// The rank to rounding, and of a nearly flat body the normal.
+// The rank to rounding, and the normal of a nearly flat body.
 static uint32_t find_rank(const points *p, const surface *s, vec3 *normal) {
     double flatness = FACET_FLATNESS * compute_extent(p->grid, p->count);
     if (s->rank < 2) return s->rank;
@@ -152,7 +152,7 @@ static ovoid_code fill_solid(builder *b) {
     return OVOID_OK;
 }
 
-// Joins each corner of a loop to the one before and the one after; two corners to each other.
+// Joins each corner of a loop to the one before and the one after; if there are two, to each other.
 static void join_loop(hull *polytope, const uint32_t *loop, uint32_t count) {
     uint32_t degree = count > 2 ? 2 : count - 1;
     for (uint32_t i = 0; i < count; i++) polytope->neighbor_starts[loop[i] + 1] = degree;
@@ -165,7 +165,7 @@ static void join_loop(hull *polytope, const uint32_t *loop, uint32_t count) {
     }
 }
 
-// A fan from the first corner, and the plane on its side.
+// A fan of triangles from the first corner, and the plane on its side.
 static ovoid_code fill_fan(const builder *b, const uint32_t *loop, uint32_t count, vec3 normal) {
     hull *polytope = b->hull;
     polytope->triangle_count = count - 2;
@@ -188,8 +188,8 @@ static ovoid_code fill_fan(const builder *b, const uint32_t *loop, uint32_t coun
     return OVOID_OK;
 }
 
-// The loop of a flat body is seen along the axis nearest to its normal, counter-clockwise from that axis' positive end,
-// so the normal is turned to that end too. Only a nearly flat body has vertices off the loop.
+// The loop of a flat body runs counter-clockwise as seen from the positive end of the axis nearest to its normal, so
+// the normal is turned to that end too. Only a nearly flat body has vertices off the loop.
 static ovoid_code fill_polygon(const builder *b, vec3 normal, uint32_t *loop) {
     double size[3] = {fabs(normal.x), fabs(normal.y), fabs(normal.z)};
     int axis = size[0] >= size[1] && size[0] >= size[2] ? 0 : size[1] >= size[2] ? 1 : 2;
@@ -225,7 +225,7 @@ static ovoid_code fill(builder *b) {
     return error_set(b->error, code, -1, "no memory for a hull of %u vertices", b->p.count);
 }
 
-// The hull from the points left and their surface, unless finding these failed; both are destroyed.
+// Makes the hull from the remaining points and their surface, unless computing these failed; both are destroyed.
 static ovoid_code finish(builder *b, size_t count, ovoid_code code) {
     hull *polytope = b->hull;
     if (!code) code = fill(b);

@@ -15,17 +15,18 @@ typedef struct hull {
     uint32_t vertex_count, triangle_count, facet_count, rank;
 } hull;
 
-/// The convex hull of the points: exactly its extreme points, in the order given, in the body frame. All but the report
-/// and the origin depends on these vertices alone: the hull of a hull's vertices is that hull, bit for bit.
-/// Errors: EMPTY, LIMIT, NOT_FINITE and RANGE (place: the point), MEMORY, HULL; *polytope needs no destroying then.
-/// Cost: n log n for points as they come.
+/// The convex hull of the points: exactly its extreme points, in their given order, in the body frame. Everything but
+/// the report and the origin depends on these vertices alone: the hull of a hull's vertices is that hull, bit for bit.
+/// Errors: EMPTY, LIMIT, NOT_FINITE and RANGE (place: the point), MEMORY, HULL; then *polytope needs no destroying.
+/// Cost: n log n for points in random order.
 ovoid_code hull_create(const double *xyz, size_t count, const ovoid_allocator *allocator, hull *polytope,
                        ovoid_error *error);
 
-/// The hull of vertices whose surface is claimed: the proof of the claim, then facets, planes and adjacency from it.
-/// With the triangles of hull_create and its vertices this is that hull, bit for bit, and costs a fraction; with others
-/// that hold, it is the same body, and they are its triangles. A rank below 3, to rounding, is no error; the triangles
-/// are then not the claim's. Errors: MEMORY; HULL, with *flaw filled. *polytope needs no destroying then. Cost: linear.
+/// The hull of vertices whose surface is claimed: the claim is proven, then facets, planes and adjacency are computed
+/// from it. With the triangles of hull_create and its vertices the result is that hull, bit for bit, at a fraction of
+/// the cost; with other valid triangles it is the same body with those triangles. A rank below 3, to rounding, is no
+/// error; the triangles are then not those of the claim. Errors: MEMORY; HULL, with *flaw filled. Then *polytope needs
+/// no destroying. Cost: linear.
 ovoid_code hull_create_proven(const surface_claim *claim, const ovoid_allocator *allocator, hull *polytope,
                               surface_flaw *flaw);
 void hull_destroy(hull *polytope, const ovoid_allocator *allocator);

@@ -1,8 +1,8 @@
-// Measures by exact polyhedral formulas: the surface's triangles, with the mean vertex where the body is solid, span
+// Measures by exact polyhedral formulas. The surface's triangles, with the mean vertex if the body is solid, span
 // simplices whose measure, first and second moments are polynomials of their corners and add up. For a simplex of
-// dimension d with corners v_i and s their sum, the first moment is measure / (d + 1) s and the second
-// measure / ((d + 1) (d + 2)) (sum of v_i v_i' + s s'). Everything is computed in units of the body's size, a power of
-// two, so that only results can underflow.
+// dimension d with corners v_i and s their sum, the first moment is measure / (d + 1) s and the second measure / ((d +
+// 1) (d + 2)) (sum of v_i v_i' + s s'). Everything is computed in units of the body's size, a power of two, so that
+// only results can underflow.
 #include "base/environment.h"
 #include "linear/box.h"
 #include "linear/mat3.h"
@@ -18,7 +18,7 @@ typedef struct moments {
     sym3 second;
 } moments;
 
-// Adds a simplex of that dimension; the corners in v that it does not need are zero.
+// Adds a simplex of that dimension; unused corners in v are zero.
 static void add_simplex(moments *m, double measure, int dimension, const vec3 v[3]) {
     vec3 s = vec3_add(vec3_add(v[0], v[1]), v[2]);
     sym3 sum = sym3_outer(s, 1);
@@ -28,7 +28,7 @@ static void add_simplex(moments *m, double measure, int dimension, const vec3 v[
     m->second = sym3_add(m->second, sym3_scale(sum, measure / ((dimension + 1) * (dimension + 2))));
 }
 
-// A frame to compute in: about the mean vertex, which is inside, so that no volumes cancel.
+// A frame for the computation: about the mean vertex, which is inside, so that no volumes cancel.
 typedef struct frame {
     const ovoid_polytope *polytope;
     vec3 middle;

@@ -2,13 +2,13 @@
 //
 // Body frame. A component of the origin is zero unless the points lie farther than four times their size from zero
 // along it; then it is the centre rounded to a multiple of a power of two near the size. Every coordinate is then a
-// multiple of an ulp that divides the origin too, and the difference is smaller than the coordinate, so it is exact;
-// that is checked for every point, and the component falls back to zero where it does not hold.
+// multiple of an ulp that divides the origin too, and the difference is smaller than the coordinate, so it is exact.
+// This is checked for every point, and the component falls back to zero if it fails.
 //
 // Grid. Signs of determinants are computed from coordinates scaled by a power of two, so that the largest lies between
 // 2^239 and 2^240, and rounded to multiples of 2^-340. Then no product of three differences can overflow or underflow
-// (2^-340 cubed is 2^-1020), so the signs are those of exact arithmetic, of whatever size the body is. What the grid
-// takes away is below 2^-580 of the body's size, 1e-174 of it: the only rounding of this floor.
+// (2^-340 cubed is 2^-1020), so the signs are those of exact arithmetic, for bodies of any size. The grid loses less
+// than 2^-580, or 1e-174, of the body's size: the only rounding in this folder.
 //
 // Distinct points are found with a hash table of open addresses. Cost: linear; 8 to 16 bytes a point for the table.
 #include "polytope/points.h"
@@ -45,7 +45,7 @@ static ovoid_code validate_points(const double *xyz, size_t count, bounds *b, ov
     return OVOID_OK;
 }
 
-// The origin's component for points between low and high of a body of that size.
+// The component of the origin, for points between low and high of a body of that size.
 static double choose_origin(double low, double high, double size) {
     double center = low / 2 + high / 2;
     if (!(fabs(center) > 4 * size)) return 0;
@@ -95,7 +95,7 @@ int points_find_first(const double *xyz, size_t count, const ovoid_allocator *al
     return 1;
 }
 
-// Leaves in p->source the points that equal no earlier one.
+// Leaves in p->source the points that do not equal an earlier one.
 static int drop_duplicates(const double *xyz, const ovoid_allocator *allocator, points *p) {
     uint32_t *source = p->source, count = p->count, kept = 0;
     if (!points_find_first(xyz, count, allocator, source)) return 0;
@@ -149,7 +149,7 @@ static ovoid_code create(const double *xyz, size_t count, const ovoid_allocator 
     return OVOID_OK;
 }
 
-// The grid of the points in p->source; `good`: these could be found.
+// Finishes the points in p->source with their grid; `good` is 0 if these could not be found.
 static ovoid_code finish(const double *xyz, int good, const ovoid_allocator *allocator, points *p, ovoid_error *error) {
     if (good) p->grid = allocator_allocate(allocator, p->count, 3 * sizeof *p->grid);
     if (!p->grid) {

@@ -1,16 +1,16 @@
-// The points of a body made ready for its hull: checked, moved to the body frame, each kept once.
+// The points of a body, prepared for its hull: validated, moved to the body frame, each kept once.
 #ifndef OVOID_POLYTOPE_POINTS_H
 #define OVOID_POLYTOPE_POINTS_H
 
 #include "linear/vec3.h"
 
-/// Most points that a body may be made from: the working memory is below 150 bytes a point and 600 a vertex.
+/// The largest number of points of a body: the working memory is below 150 bytes a point and 600 a vertex.
 #define POINTS_MAX ((size_t)1 << 24)
 
 /// The distinct points of a body.
 typedef struct points {
-    double *grid;     ///< xyz in units of the grid: only for exact signs and what leads to them
-    uint32_t *source; ///< the index at which each was given first, ascending
+    double *grid;     ///< xyz in units of the grid: only for exact signs and the search for them
+    uint32_t *source; ///< the index at which each point was first given, ascending
     uint32_t count;
     uint64_t duplicates; ///< points that equal an earlier one
     vec3 origin;         ///< of the body frame; given - origin is exact for every point
@@ -28,7 +28,7 @@ ovoid_code points_create_distinct(const double *xyz, size_t count, const ovoid_a
 vec3 points_to_grid(const points *p, vec3 v);
 void points_destroy(points *p, const ovoid_allocator *allocator);
 
-/// The first point that equals each one, 0 and -0 being the same; count at most POINTS_MAX. 0 where there is no memory.
+/// The first point that equals each one, 0 and -0 being equal; count at most POINTS_MAX. 0 if memory runs out.
 int points_find_first(const double *xyz, size_t count, const ovoid_allocator *allocator, uint32_t *first);
 
 /// Drops the points where keep is zero.

@@ -8,7 +8,7 @@
 
 typedef struct projection {
     const double *grid;
-    int u, v; // the coordinates that are seen
+    int u, v; // the coordinates of the projection
     int axis;
 } projection;
 
@@ -24,7 +24,7 @@ typedef struct chain {
     uint32_t *items, count;
 } chain;
 
-// Appends a point to the chain that begins at items[start]; corners that then do not turn left are dropped.
+// Appends a point to the chain that begins at items[start]; corners that then no longer turn left are dropped.
 static void extend(const projection *p, chain *c, uint32_t start, uint32_t next) {
     vec3 end = vec3_at(p->grid, next);
     while (c->count >= start + 2) {
@@ -44,7 +44,7 @@ static void rotate_to_lowest(uint32_t *loop, uint32_t *scratch, uint32_t count) 
 }
 
 uint32_t polygon_find_loop(const points *p, int axis, uint32_t *loop, const ovoid_allocator *allocator) {
-    // The indices, and a chain that may hold every point and its start again.
+    // The indices, and a chain with room for every point and its start again.
     uint32_t count = p->count, *order = allocator_allocate(allocator, 2 * (size_t)count + 2, sizeof *order);
     if (!order) return 0;
     chain c = {order + count, 0};

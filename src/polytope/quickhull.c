@@ -2,23 +2,23 @@
 //
 // C. B. Barber, D. P. Dobkin, H. Huhdanpaa, The quickhull algorithm for convex hulls, 1996: every facet keeps the
 // points above it; the highest point of a facet is added to the hull: the facets that it is above, the visible ones,
-// are replaced by a cone over their horizon, and their points are shared out among the cone's facets. Here facets are
-// triangles and whether a point is above one is the exact sign of a determinant, so nothing is merged, no tolerance is
-// needed and no point that is above a facet can be lost:
+// are replaced by a cone over their horizon, and their points are distributed among the cone's facets. Here facets are
+// triangles, and the exact sign of a determinant decides whether a point is above one. So nothing is merged, no
+// tolerance is needed and no point above a facet is lost:
 //
-//   A point q above a replaced facet f that is in the new hull's outside is above a facet of the cone. For the facets
-//   of the old hull that q is strictly above are connected through edges. If q is above a facet g that stays, some edge
-//   on the way from f to g is part of the horizon, q is above both of its facets, and the plane of the cone through
-//   this edge has a normal that is a nonnegative combination of theirs.
+// Let a point q be above a replaced facet f and outside of the new hull; then it is above a facet of the cone. The
+// facets of the old hull that q is strictly above are connected through edges. If q is above a facet g that stays, some
+// edge on the way from f to g is part of the horizon, q is above both of its facets, and the plane of the cone through
+// this edge has a normal that is a nonnegative combination of theirs.
 //
-// Heights in doubles choose only which point is next. Triangles may be coplanar; the new point is strictly above a
-// facet at each horizon edge, so it is not collinear with the edge and no triangle degenerates. Points exactly on a new
-// triangle are kept with it until it goes. In the end a point of the surface is extreme if at least three of its edges
+// Heights in doubles only choose the next point. Triangles may be coplanar; the new point is strictly above a facet at
+// each horizon edge, so it is not collinear with the edge and no triangle degenerates. Points exactly on a new triangle
+// are kept with it until it is replaced. At the end a point of the surface is extreme if at least three of its edges
 // are creases; others are marked as on a face, and the caller runs again without them.
 //
-// Which facet is next is free. Those with many points go first, in turn, so that no list is shared out too often; those
-// with few go last in, first out: a cone's facets while they, their neighbors and their points are in the cache. Of
-// many points these are in the order of a curve that fills space. At 100 000 points both together take about half of
+// The order of the facets is free. Those with many points are processed first, in turn, so that no list is distributed
+// too often; those with few points last in, first out: the facets of a cone while they, their neighbors and their
+// points are in the cache. Many points are sorted along a space-filling curve. At 100 000 points both together halve
 // the time.
 //
 // The sign is first computed in doubles with the facet's normal, against a bound of its rounding (Shewchuk 1997), so
@@ -35,7 +35,7 @@
 
 #define NOTHING UINT32_MAX
 
-// From so many points on their order in memory counts, and a facet has few points with at most FEW.
+// From this number of points on their order in memory matters, and a facet has few points if it has at most FEW.
 enum { MANY = 2048, FEW = 128 };
 
 typedef struct facet {
@@ -43,7 +43,7 @@ typedef struct facet {
     double bound;       // of the rounding of normal . (q - c), for any point q
     uint32_t vertex[3]; // a, b, c
     uint32_t across[3]; // beyond a b, b c, c a
-    uint32_t points;    // its list: the highest point above it first, if there is any; NOTHING where empty
+    uint32_t points;    // its list: the highest point above it first, if there is any; NOTHING if it is empty
     uint32_t count;     // of its list
     uint32_t pending;   // the next facet of the queue or the stack, NOTHING at its end
     uint32_t stamp;     // of the last point for which is_above was computed
@@ -65,7 +65,7 @@ typedef struct builder {
     const double *grid;
     const ovoid_allocator *allocator;
     uint8_t *state;
-    uint32_t *next;         // of a point in its list; of a horizon's corner: the facet that starts there
+    uint32_t *next;         // of a point in its list; of a corner of the horizon: the facet that starts there
     array facets, free;     // facet, uint32_t
     array visible, horizon; // uint32_t, edge
     uint32_t first, last;   // of the queue of facets with points above
@@ -97,8 +97,8 @@ static facet *get_facet(const builder *b, uint32_t f) { return (facet *)b->facet
 static vec3 get_point(const builder *b, uint32_t p) { return vec3_at(b->grid, p); }
 
 int orient2d_sign(vec3 a, vec3 b, vec3 c, int axis) {
-    // Seen along the axis the three points lie in a plane; the fourth one a unit below the first makes the
-    // determinant the area.
+    // In the projection along the axis the three points lie in a plane; with the fourth one a unit below the first, the
+    // determinant is the area.
     vec3 p[3] = {a, b, c};
     for (int i = 0; i < 3; i++)
         p[i] = axis == 0   ? (vec3){p[i].y, p[i].z, 0}
@@ -115,7 +115,7 @@ static int is_collinear(vec3 a, vec3 b, vec3 c) {
     return 1;
 }
 
-// The least and the greatest point in the order of x, y, z: the ends, where all are collinear.
+// The least and the greatest point in the order of x, y, z; these are the ends if all points are collinear.
 static void find_ends(const builder *b, uint32_t count, uint32_t end[2]) {
     end[0] = end[1] = 0;
     for (uint32_t i = 1; i < count; i++) {
@@ -127,8 +127,8 @@ static void find_ends(const builder *b, uint32_t count, uint32_t end[2]) {
     }
 }
 
-// Two points far apart, beginning with those in `far`: where all points are nearly collinear, the ends of the line
-// whatever its direction.
+// Two points far apart, starting from those in `far`. If all points are nearly collinear these are the ends of the
+// line, in any direction.
 static void find_far(const builder *b, uint32_t count, uint32_t far[2]) {
     for (int k = 0; k < 2; k++) {
         vec3 from = get_point(b, far[1 - k]);
@@ -139,7 +139,7 @@ static void find_far(const builder *b, uint32_t count, uint32_t far[2]) {
     }
 }
 
-// How far a point is from the span of the first `rank` + 1 corners, times a constant; in doubles.
+// The distance of a point from the span of the first `rank` + 1 corners, times a constant; in doubles.
 static double compute_height(const vec3 corner[3], vec3 normal, int rank, vec3 p) {
     vec3 d = vec3_sub(p, corner[0]);
     if (rank == 2) return fabs(vec3_dot(normal, d));
@@ -151,11 +151,11 @@ static int is_in_span(const vec3 corner[3], int rank, vec3 p) {
 }
 
 // The next corner: the farthest point, if it is outside the span of the others by exact signs; else any point that is.
-// 0 where there is none.
+// 0 if there is none.
 static int find_corner(const builder *b, uint32_t count, int rank, uint32_t corner[4]) {
     vec3 c[3] = {{0, 0, 0}};
     for (int i = 0; i <= rank; i++) c[i] = get_point(b, corner[i]);
-    // Powers of two near the lengths at hand, so that no square overflows.
+    // Powers of two near the present lengths, so that no square overflows.
     double unit = 0x1p-240;
     for (int i = 0; i < 3; i++) c[i] = vec3_scale(c[i], unit);
     vec3 edge1 = vec3_sub(c[1], c[0]), normal = rank == 2 ? vec3_cross(edge1, vec3_sub(c[2], c[0])) : edge1;
@@ -197,7 +197,7 @@ void simplex_find(const points *p, surface *s) {
 
 // ---- facets ----
 
-// A free facet, with nothing across yet. NOTHING where there is no memory.
+// A free facet, with nothing across yet. NOTHING if memory runs out.
 static uint32_t add_facet(builder *b, uint32_t u, uint32_t v, uint32_t w) {
     uint32_t index;
     if (b->free.count)
@@ -258,7 +258,7 @@ static int has_above(const builder *b, const facet *f) {
     return f->points != NOTHING && b->state[f->points] == POINT_EXTREME;
 }
 
-// Puts a point into a facet's list. Points above are marked as extreme until proven otherwise.
+// Puts a point into a facet's list. Points above count as extreme until proven otherwise.
 static void list_point(builder *b, uint32_t index, uint32_t p, int side, double height) {
     facet *f = get_facet(b, index);
     b->state[p] = side > 0 ? POINT_EXTREME : POINT_ON_FACE;
@@ -270,7 +270,7 @@ static void list_point(builder *b, uint32_t index, uint32_t p, int side, double 
     if (side > 0 && !b->few) queue_facet(b, index);
 }
 
-// Assigns a point: to the first of the facets that it is above, else to one that it is on, else it is inside. Only a
+// Assigns a point to the first of the facets that it is above, else to one that it is on; else it is inside. Only a
 // point that was above a replaced facet can be above a new one.
 static void place_point(builder *b, uint32_t p, const uint32_t *facets, uint32_t count) {
     uint32_t on = NOTHING;
@@ -290,7 +290,7 @@ static void place_point(builder *b, uint32_t p, const uint32_t *facets, uint32_t
         b->state[p] = POINT_INSIDE;
 }
 
-// New facets, whose lists are complete; of few points each went in with its first one.
+// Queues new facets, whose lists are complete; with few points each facet was queued with its first point.
 static void queue_facets(builder *b, const uint32_t *facets, uint32_t count) {
     for (uint32_t i = 0; i < count && b->few; i++)
         if (has_above(b, get_facet(b, facets[i]))) queue_facet(b, facets[i]);
@@ -361,8 +361,8 @@ static int join_across(builder *b, const edge *e, uint32_t index) {
     return 0;
 }
 
-// The cone from the point over the horizon; the facets' indices replace the edges' `across`. OVOID_ERROR_HULL where the
-// horizon is not one closed loop: exact signs do not allow it.
+// The cone from the point over the horizon; the facets' indices replace the edges' `across`. OVOID_ERROR_HULL if the
+// horizon is not one closed loop, which exact signs exclude.
 static ovoid_code make_cone(builder *b, uint32_t p) {
     edge *edges = b->horizon.items;
     for (uint32_t i = 0; i < b->horizon.count; i++) {
@@ -384,9 +384,9 @@ static ovoid_code make_cone(builder *b, uint32_t p) {
     return OVOID_OK;
 }
 
-// Shares out the points of the facets that the point replaces, and frees these.
+// Distributes the points of the facets that the point replaces, and frees these facets.
 static int share_points(builder *b, uint32_t p) {
-    // The edges have served: their memory becomes a plain list of the new facets.
+    // The edges are no longer needed: their memory becomes a plain list of the new facets.
     uint32_t *fresh = b->horizon.items;
     const edge *edges = b->horizon.items;
     for (uint32_t i = 0; i < b->horizon.count; i++) fresh[i] = edges[i].across;
@@ -429,9 +429,9 @@ static ovoid_code build(builder *b, uint32_t count, const uint32_t corner[4]) {
 
 // ---- the result ----
 
-// The states of the points that were corners of facets at some time: inside if no facet is left at them, on a face if
-// fewer than three of the edges left are creases. (A corner all of whose facets are replaced is strictly inside: the
-// new point is above all of them.)
+// Sets the states of the points that were corners of facets at some time: inside if no facet is left at them, on a face
+// if fewer than three of the remaining edges are creases. (A corner all of whose facets are replaced is strictly
+// inside: the new point is above all of them.)
 static void mark_corners(builder *b, const surface *s, uint32_t count) {
     uint32_t *creases = b->next;
     memset(creases, 0xff, count * sizeof *creases);
@@ -439,7 +439,7 @@ static void mark_corners(builder *b, const surface *s, uint32_t count) {
     for (uint32_t t = 0; t < s->triangle_count; t++) {
         const uint32_t *corner = s->triangles + 3 * (size_t)t;
         vec3 p[3] = {get_point(b, corner[0]), get_point(b, corner[1]), get_point(b, corner[2])};
-        // Each edge from the first of its triangles.
+        // Each edge is counted at the first of its triangles.
         for (uint32_t k = 0; k < 3; k++) {
             int is_first = t < s->across[3 * (size_t)t + k];
             if (is_first && orient3d_sign(p[0], p[1], p[2], get_point(b, surface_get_beyond(s, t, k)))) {
@@ -457,15 +457,15 @@ static void mark_corners(builder *b, const surface *s, uint32_t count) {
     }
 }
 
-// From so many triangles on the surface does not stay in the nearest cache.
+// From this number of triangles on the surface does not stay in the nearest cache.
 #define WALK_LEAST 1020
 
-// Numbers the triangles anew in the order in which a walk over edges from the first one meets them, breadth first: who
-// goes through them then finds the corners of one at hand from the one before. 0 where there is no memory.
+// Renumbers the triangles in the order of a walk over edges from the first one, breadth first, so that a loop over them
+// finds their corners in the cache. 0 if memory runs out.
 static int order_by_walk(surface *s, const ovoid_allocator *allocator) {
     uint32_t count = s->triangle_count;
     if (count < WALK_LEAST) return 1;
-    // The walk is its own queue.
+    // The array of the walk is its queue too.
     uint32_t *walk = allocator_allocate(allocator, 2 * (size_t)count, sizeof *walk), met = 1;
     uint32_t *place = walk ? walk + count : NULL;
     uint32_t *triangles = allocator_allocate(allocator, count, 3 * sizeof *triangles);
@@ -492,13 +492,13 @@ static int order_by_walk(surface *s, const ovoid_allocator *allocator) {
     return good;
 }
 
-// The facets in use as plain arrays.
+// Copies the facets in use to plain arrays.
 static int extract(builder *b, uint32_t count, surface *s) {
     uint32_t used = b->facets.count - b->free.count;
     s->triangles = allocator_allocate(b->allocator, used, 3 * sizeof *s->triangles);
     s->across = allocator_allocate(b->allocator, used, 3 * sizeof *s->across);
     if (!s->triangles || !s->across) return 0;
-    // New numbers of the facets, in their stamps.
+    // Stores the new numbers of the facets in their stamps.
     for (uint32_t i = 0; i < b->facets.count; i++)
         if (!get_facet(b, i)->is_free) get_facet(b, i)->stamp = s->triangle_count++;
     uint32_t t = 0;
@@ -520,7 +520,7 @@ static vec3 compute_size(const double *grid, uint32_t count) {
     return vec3_scale(vec3_sub(b.max, b.min), 1 + 0x1p-50);
 }
 
-// The hull of points as they lie in memory, from its first simplex.
+// The hull of points in their order in memory, from its first simplex.
 static ovoid_code find_hull(builder *b, uint32_t count, surface *s) {
     b->first = b->last = b->top = NOTHING;
     b->size = compute_size(b->grid, count);
@@ -536,7 +536,7 @@ static ovoid_code find_hull(builder *b, uint32_t count, surface *s) {
     return code;
 }
 
-// The surface of points in another order as that of the points as they were given. 0 where there is no memory.
+// Translates the surface of points in another order to the order in which they were given. 0 if memory runs out.
 static int restore_order(const curve *c, uint32_t count, surface *s, const ovoid_allocator *allocator) {
     uint8_t *state = allocator_allocate(allocator, count, 1);
     if (!state) return 0;

@@ -4,7 +4,7 @@
 
 #include "polytope/points.h"
 
-/// Where a point lies with respect to the hull.
+/// The position of a point relative to the hull.
 enum { POINT_INSIDE = 0, POINT_ON_FACE = 1, POINT_EXTREME = 2 };
 
 /// The hull. Members marked (rank 3) are empty for lower ranks.
@@ -15,11 +15,11 @@ typedef struct surface {
     uint32_t *triangles;     ///< three points each, counter-clockwise from outside (rank 3)
     uint32_t *across;        ///< at 3 t + i the triangle beyond the edge from corner i to i + 1 of t (rank 3)
     vec3 *areas;             ///< of the triangles, twice; NULL until surface_compute_areas (polytope/facets.h)
-    uint32_t triangle_count; ///< 2 corners - 4 (rank 3); the corners are the extreme points where none is on a face
+    uint32_t triangle_count; ///< 2 corners - 4 (rank 3); the corners are the extreme points if no point is on a face
 } surface;
 
-/// The hull of at least one point. Errors: MEMORY, HULL. *s needs no destroying then. Cost: n log n for points as they
-/// come, as quickhull.
+/// The hull of at least one point. Errors: MEMORY, HULL; then *s needs no destroying. Cost: n log n for points in
+/// random order, as for quickhull.
 ovoid_code quickhull_create(const points *p, const ovoid_allocator *allocator, surface *s, ovoid_error *error);
 /// Sets the rank and the corners of the surface, as quickhull_create does, and nothing else. Cost: linear.
 void simplex_find(const points *p, surface *s);

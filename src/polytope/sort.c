@@ -1,6 +1,6 @@
 // Merge sort from the bottom up: runs of 1, 2, 4, ... are merged until one is left. Stable, n log n, no recursion.
 // Radix sort from the lowest byte (H. H. Seward, Information sorting in the application of electronic digital computers
-// to business operations, 1954); bytes that are the same in all keys are passed over.
+// to business operations, 1954); bytes that are equal in all keys are skipped.
 #include "polytope/sort.h"
 
 #include <string.h>

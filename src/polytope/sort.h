@@ -10,7 +10,7 @@ typedef int (*index_order)(const void *context, uint32_t a, uint32_t b);
 /// Sorts `count` indices; scratch has room for as many. Cost: n log n.
 void sort_indices(uint32_t *index, uint32_t *scratch, uint32_t count, index_order order, const void *context);
 
-/// A key and what it belongs to.
+/// A key and its index.
 typedef struct sort_entry {
     uint64_t key;
     uint32_t index;

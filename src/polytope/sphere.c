@@ -1,9 +1,9 @@
 // The smallest enclosing sphere is that of at most four of the points. Each step adds the point farthest outside the
 // sphere of the present few, and the smallest sphere of those at most five points gives the next few; the radius grows
-// with every step, until no point is outside. E. Welzl, Smallest enclosing disks (balls and ellipsoids), 1991 (what it
-// rests on); B. Gaertner, Fast and robust smallest enclosing balls, 1999 (the farthest point as the next one). Rounding
-// may end the search early; the radius is then computed from the centre and all points and rounded up, so the sphere
-// encloses them whatever the search did.
+// with every step, until no point is outside. E. Welzl, Smallest enclosing disks (balls and ellipsoids), 1991 (the
+// principle); B. Gaertner, Fast and robust smallest enclosing balls, 1999 (the farthest point as the next one).
+// Rounding may end the search early; the radius is then computed from the centre and all points and rounded up, so the
+// sphere encloses the points whatever the search did.
 #include "polytope/sphere.h"
 
 #include "linear/box.h"
@@ -42,7 +42,7 @@ static int make_through(const vec3 *p, int k, sphere *s) {
 }
 
 // The smallest sphere of n <= 5 points that goes through the last one; the points on it become the first ones. Returns
-// their number, 0 where rounding leaves none.
+// their number, 0 if rounding leaves none.
 static int find_smallest(vec3 *p, int n, sphere *best) {
     int best_set = 0;
     for (int set = 0; set < 1 << (n - 1); set++) {

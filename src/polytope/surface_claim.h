@@ -1,10 +1,10 @@
-// What somebody says of a hull's surface, and what is wrong with it.
+// A claimed surface of a hull, and the flaw that refutes a claim.
 #ifndef OVOID_POLYTOPE_SURFACE_CLAIM_H
 #define OVOID_POLYTOPE_SURFACE_CLAIM_H
 
 #include "linear/vec3.h"
 
-/// What is claimed to be the hull of solid points, each of them extreme.
+/// A surface that is claimed to be the hull of points of full dimension, each of them extreme.
 typedef struct surface_claim {
     const double *xyz; ///< the points
     size_t count;

@@ -16,7 +16,7 @@
 // lies in it. A body that is convex is the hull of its corners.
 //
 // (4) A vertex of it is extreme if and only if at least three of its edges are creases, at which the triangles are not
-// coplanar: with none it lies inside a face, with two inside an edge, one or a reversal there cannot be.
+// coplanar: with no crease it lies inside a face, with two inside an edge; one crease alone is not possible.
 //
 // By (2) points that are equal are refused too: the map to the sphere is one-to-one.
 //
@@ -84,8 +84,8 @@ static ovoid_code list_edges(const prover *w) {
 
 static uint32_t get_degree(const prover *w, uint32_t v) { return w->starts[v + 1] - w->starts[v]; }
 
-// The edges from `to` to `from`, counted; one of them is written. They are sought at the vertex that has fewer edges:
-// each triangle there has one edge that goes out and one that comes in.
+// Counts the edges from `to` to `from` and writes one of them. They are searched at the vertex with fewer edges: each
+// triangle there has one outgoing and one incoming edge.
 static uint32_t count_opposite(prover *w, uint32_t from, uint32_t to, size_t *found) {
     int at_from = get_degree(w, from) < get_degree(w, to);
     uint32_t at = at_from ? from : to, count = 0;
@@ -98,9 +98,10 @@ static uint32_t count_opposite(prover *w, uint32_t from, uint32_t to, size_t *fo
     return count;
 }
 
-// Finds the triangle across each edge. The edges of a hull are a planar graph, whose edges have smaller degrees of sum
-// at most 6 times their number (N. Chiba, T. Nishizeki, Arboricity and subgraph listing algorithms, 1985); here each is
-// passed in both directions. So a surface that takes longer is no hull, and the cost is linear whatever is claimed.
+// Finds the triangle across each edge. The edges of a hull form a planar graph, in which the sum over all edges of the
+// smaller degree of their ends is at most 6 times their number (N. Chiba, T. Nishizeki, Arboricity and subgraph listing
+// algorithms, 1985); here each edge is processed in both directions. So a surface that takes longer is not a hull, and
+// the cost is linear for every claim.
 static ovoid_code find_across(prover *w) {
     size_t edges = 3 * (size_t)w->s->triangle_count;
     for (size_t e = 0; e < edges; e++) {

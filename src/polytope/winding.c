@@ -1,11 +1,11 @@
-// The winding number of a closed surface: the signed crossings of a ray from the point, by exact orientations. Most
-// triangles are seen in doubles to lie beside the ray.
+// The winding number of a closed surface: the signed crossings of a ray from the point, by exact orientations. For most
+// triangles doubles show that they lie beside the ray.
 #include "polytope/winding.h"
 
 #include "linear/exact.h"
 #include "polytope/facets.h"
 
-// The signed crossing of the ray from c through q with a triangle: 1, 0 or -1, or 2 where the ray meets its border.
+// The signed crossing of the ray from c through q with a triangle: 1, 0 or -1, or 2 if the ray meets its border.
 static int count_crossing(vec3 c, vec3 q, const vec3 corner[3]) {
     int s0 = orient3d_sign(c, q, corner[0], corner[1]), s1 = orient3d_sign(c, q, corner[1], corner[2]);
     if (s0 * s1 < 0) return 0;
@@ -43,7 +43,7 @@ int64_t polytope_compute_winding(const ovoid_polytope *polytope, vec3 point) {
     // In units of the body: the orientations underflow for bodies below 1e-90.
     double unit = ldexp(1, -find_unit_exponent(compute_extent(polytope->vertices, polytope->vertex_count)));
     vec3 c = vec3_scale(point, unit);
-    // Rays through points inside a triangle, at weights of no symmetry; another one where a ray meets an edge.
+    // Rays through points inside a triangle, at weights of no symmetry; another one if a ray meets an edge.
     for (uint32_t attempt = 0; attempt < 8 && polytope->triangle_count > 0; attempt++) {
         const uint32_t *aim = polytope->triangles + 3 * (size_t)(polytope->triangle_count * (uint64_t)attempt / 8);
         double wa = 0.371 + 0.02 * attempt, wb = 0.297 - 0.013 * attempt, wc = 1 - wa - wb;

@@ -1,16 +1,16 @@
 // Whether two ellipsoids share a point. The pencil (pencil.c) decides in doubles. "Apart" needs no proof here, since 0
-// also means "not known"; "share a point" does: the rounded point itself is shown to lie strictly inside both.
+// also means "not known". "Share a point" is proven: the rounded point itself lies strictly inside both.
 //
-// With v and s as they are, rounded, the exact points xa = ca + (1 - s) Qa v and xb = cb - s Qb v have the exact norms
-// ma, mb of the pencil. The point returned differs from them by roundings and by what the solve left over, all of which
-// is computed and bounded; a point off by e has a norm higher by at most e / r, where r^2 is a lower bound of the least
-// eigenvalue. So ellipsoids too thin for doubles (radii 1 : 1e-7) get 0, and of a flat ellipsoid only the centre, which
-// is exact, can be shown to be in another. Cost: 15 ns for most pairs apart, about 100 ns for a proof.
+// With the rounded v and s, the exact points xa = ca + (1 - s) Qa v and xb = cb - s Qb v have the exact norms ma, mb of
+// the pencil. The returned point differs from them by roundings and by the residual of the solve, all of which is
+// computed and bounded; a point off by e has a norm higher by at most e / r, where r^2 is a lower bound of the least
+// eigenvalue. So ellipsoids too thin for doubles (radii 1 : 1e-7) get 0, and for a flat ellipsoid only the centre,
+// which is exact, can be proven to be in another. Cost: 15 ns for most pairs apart, about 100 ns for a proof.
 #include "base/environment.h"
 #include "ellipsoid/distance/gap.h"
 #include "ellipsoid/distance/pencil.h"
 
-/// At most the least eigenvalue of Q, rounding included; not positive where that is not certain. The trace of Q^-1 =
+/// A lower bound of the least eigenvalue of Q, rounding included; not positive if none is certain. The trace of Q^-1 =
 /// L'^-1 D^-1 L^-1 bounds its largest eigenvalue; the computed factor belongs to a matrix off by less than 16 u trace.
 static double least_eigenvalue_below(sym3 q) {
     ldl3 f;
@@ -75,7 +75,7 @@ int ellipsoids_are_overlapping(const ovoid_ellipsoid *a, const ovoid_ellipsoid *
     if (size > 1e-60 && size < 1e60) {
         known = is_overlapping(a, b, &x);
     } else {
-        // Far from one: in units of a power of two near the pair's size, which changes no digit.
+        // For sizes far from one: computed in units of a power of two near the pair's size, which changes no digit.
         scaled_pair p = ellipsoids_make_scaled(a, b);
         ovoid_ellipsoid near_a = {vec3_scale(a->center, 1 / p.unit), p.qa};
         ovoid_ellipsoid near_b = {vec3_scale(b->center, 1 / p.unit), p.qb};

@@ -6,7 +6,7 @@
 //     (x - ca)' Qa^-1 (x - ca) = (1 - s)^2 v' Qa v = ma,    (x - cb)' Qb^-1 (x - cb) = s^2 v' Qb v = mb,
 // and minimises s ma(x) + (1 - s) mb(x), whose value there is F(s) = s (1 - s) d' v = s ma + (1 - s) mb. So one solve
 // gives two answers: F(s) > 1 shows that no point is in both, ma, mb <= 1 that x is. F is concave with slope ma - mb,
-// so at its maximum ma = mb = F: no third case but touching. No matrix is inverted, so one of the two may be flat.
+// so at its maximum ma = mb = F: the only third case is touching. No matrix is inverted, so one of the two may be flat.
 // Cost: one evaluation for most pairs (30 ns), two or three near contact, where Newton's method runs inside a bracket.
 #include "ellipsoid/distance/pencil.h"
 
@@ -48,7 +48,7 @@ pencil pencil_search(sym3 qa, sym3 qb, vec3 d) {
         r.ma = t * t * alpha;
         r.mb = s * s * beta;
         r.state = s * r.ma + t * r.mb > 1 ? PENCIL_APART : r.ma < 1 && r.mb < 1 ? PENCIL_COMMON : PENCIL_TOUCHING;
-        // A point well inside both is easier to prove than one near the surface: a few more rounds look for one.
+        // A point well inside both is easier to prove than one near the surface, so a few more rounds look for one.
         if (r.state == PENCIL_APART || max2(r.ma, r.mb) <= 0.999) return r;
 
         // Newton's step for (1 - s) sqrt(alpha) = s sqrt(beta), kept in the bracket.

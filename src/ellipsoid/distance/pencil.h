@@ -9,7 +9,7 @@ typedef struct ldl3 {
     double l10, l20, l21, r0, r1, r2;
 } ldl3;
 
-/// Factors Q; 0 where it is not positive definite in doubles.
+/// Factors Q; 0 if it is not positive definite in doubles.
 int ldl3_make(sym3 q, ldl3 *f);
 vec3 ldl3_solve(const ldl3 *f, vec3 b);
 
@@ -21,7 +21,7 @@ typedef struct pencil {
     enum pencil_state {
         PENCIL_APART,   ///< F(s) > 1 in doubles: the ellipsoids share no point
         PENCIL_COMMON,  ///< ma, mb < 1 in doubles: the point of s is in both
-        PENCIL_TOUCHING ///< at the maximum, or G is singular (v is zero then), and neither of the two
+        PENCIL_TOUCHING ///< at the maximum, or G is singular (then v is zero), and neither of the two
     } state;
 } pencil;
 

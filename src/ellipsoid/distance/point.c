@@ -4,10 +4,10 @@
 //
 // In the ellipsoid's axes, radii e_i and y the point from the centre, the nearest point is x_i = e_i^2 y_i / (t +
 // e_i^2) where t >= 0 is the root of r(t) = |p(t)| = 1, p_i = x_i / e_i = e_i y_i / (t + e_i^2). 1 / r is a power mean
-// of linear functions of t, hence concave and increasing: Newton's method on 1 / r = 1, begun below the root, stays
-// below, and one radius alone it solves in one step. It begins at the largest t where one term alone reaches 1, where r
-// is between 1 and sqrt(3); 3 to 8 steps reach rounding. A zero radius contributes nothing to p, and x_i = 0: so flat
-// ellipsoids, segments and points need no case of their own.
+// of linear functions of t, hence concave and increasing: Newton's method on 1 / r = 1, started below the root, stays
+// below, and with a single nonzero term one step solves it. It starts at the largest t for which one term alone reaches
+// 1; there r is between 1 and sqrt(3), and 3 to 8 steps reach rounding. A zero radius contributes nothing to p, and x_i
+// = 0: so flat ellipsoids, segments and points need no special case.
 #include "base/environment.h"
 #include "ellipsoid/distance/gap.h"
 
@@ -47,7 +47,7 @@ static vec3 find_outward(const double *square, vec3 y) {
 }
 
 static ovoid_nearest compute_nearest_to_point(const ovoid_ellipsoid *ellipsoid, ovoid_vec3 point) {
-    // The point as seen from the ellipsoid's axes, in units of the pair's size.
+    // The point in the ellipsoid's axes, in units of the pair's size.
     ovoid_ellipsoid b = {point, {0, 0, 0, 0, 0, 0}};
     scaled_pair p = ellipsoids_make_scaled(ellipsoid, &b);
     eigen3 axes = sym3_compute_eigen(p.qa);
@@ -71,8 +71,8 @@ static ovoid_nearest compute_nearest_to_point(const ovoid_ellipsoid *ellipsoid, 
     r.distance = vec3_norm(vec3_sub(r.point_b, r.point_a));
     r.lower = fmin(ellipsoids_compute_gap(ellipsoid, &b, r.normal), r.distance);
 
-    // Eigenvalues are off by roundings of the largest; where that shows in a thin body, the search for two ellipsoids,
-    // which needs none, is used.
+    // Eigenvalues are off by roundings of the largest. If that matters, in a thin body, the search for two ellipsoids,
+    // which needs no eigenvalues, is used.
     if (!r.overlap && r.distance - r.lower > 1e-12 * p.unit) {
         r = ovoid_ellipsoid_compute_nearest(ellipsoid, &b);
         r.point_b = point;

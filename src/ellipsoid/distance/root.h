@@ -9,8 +9,8 @@ typedef struct root3 {
     vec3 axis[3];
 } root3;
 
-/// By Cholesky with diagonal pivots, in doubles or in double-double: of a thin body doubles lose the thin axis. Pivots
-/// that are rounding errors of the largest are taken for zero.
+/// Q = E E' by Cholesky with diagonal pivots, in doubles or in double-double (doubles lose the thin axis of a thin
+/// body). Pivots that are rounding errors of the largest are taken for zero.
 root3 root3_make(sym3 q, int is_exact);
 
 /// E p
@@ -29,8 +29,8 @@ typedef struct root3_nearest {
     uint32_t rounds;
 } root3_nearest;
 
-/// Nearest points from the roots themselves, so that what is flat stays flat; lengths about one. 0 where they are not
-/// apart. Defined in nearest.c.
+/// Nearest points from the roots themselves, so that flat bodies stay flat; lengths must be about one. 0 if the bodies
+/// are not apart. Defined in nearest.c.
 int roots_find_nearest(const root3 *a, const root3 *b, vec3 d, root3_nearest *found);
 
 #endif

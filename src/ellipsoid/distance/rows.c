@@ -11,7 +11,7 @@ static void swap(double *a, double *b) {
     *b = t;
 }
 
-/// The longest column of what is left comes to column k; returns its squared length.
+/// Moves the longest remaining column to column k; returns its squared length.
 static double pivot_column(double m[ROWS_COUNT][ROWS_WIDTH], int count, int k, int *column) {
     double longest = -1;
     int best = k;
@@ -30,7 +30,7 @@ static double pivot_column(double m[ROWS_COUNT][ROWS_WIDTH], int count, int k, i
     return longest;
 }
 
-/// The row with the largest entry in column k comes to row k.
+/// Moves the row with the largest entry in column k to row k.
 static void pivot_row(double m[ROWS_COUNT][ROWS_WIDTH], int count, int k) {
     int best = k;
     for (int i = k + 1; i < ROWS_COUNT; i++)

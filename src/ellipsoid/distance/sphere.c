@@ -3,12 +3,12 @@
 // section 3.2.
 //
 // The paper maps x' = M^(1/2) (x - ca), M = Qa^-1. Any other factor, x' = E^-1 (x - ca) with Qa = E E', differs from
-// that by a rotation of the sphere's space and gives the same X* and Y*; we take Cholesky's, which needs no
+// that by a rotation of the sphere's space and gives the same X* and Y*; here it is Cholesky's, which needs no
 // eigenvalues. There b is an ellipsoid about z = E^-1 (cb - ca) with Q' = E^-1 Qb E'^-1. Its point y nearest to the
-// sphere's centre and the sphere's point y / |y| are mapped back. So X*, Y* and ca lie on one line: they are no
-// Euclidean nearest points, and |X* Y*| is only an upper bound of the distance. But a and b share a point if and only
-// if |y| <= 1, and the plane across y, which separates sphere and b', maps back to one whose normal is E'^-1 y: a lower
-// bound that is positive whenever the ellipsoids are apart. Cost: one 3x3 eigenproblem.
+// sphere's centre and the sphere's point y / |y| are mapped back. So X*, Y* and ca lie on one line: they are not the
+// Euclidean closest points, and |X* Y*| is only an upper bound of the distance. But a and b share a point if and only
+// if |y| <= 1, and the plane perpendicular to y, which separates sphere and b', maps back to one whose normal is E'^-1
+// y: a lower bound that is positive whenever the ellipsoids are apart. Cost: one 3x3 eigenproblem.
 #include "base/environment.h"
 #include "ellipsoid/distance/gap.h"
 
@@ -17,7 +17,7 @@ typedef struct cholesky3 {
     double xx, yx, yy, zx, zy, zz;
 } cholesky3;
 
-/// 0 where Q is so thin (radii 1 : 1e-5) that the map would lose half the digits, or flat.
+/// 0 if Q is so thin (radii 1 : 1e-5) that the map would lose half the digits, or flat.
 static int cholesky3_make(sym3 q, cholesky3 *e) {
     double least = 1e-10 * sym3_trace(q);
     if (!(q.xx > least)) return 0;
@@ -75,7 +75,7 @@ static ovoid_nearest compute_nearest_by_sphere(const ovoid_ellipsoid *a, const o
     r.point_a = vec3_add_scaled(a->center, map_back(&e, x), p.unit);
     r.point_b = r.overlap ? r.point_a : vec3_add_scaled(a->center, map_back(&e, y), p.unit);
 
-    // The separating plane; where y is the sphere's centre, the direction to the other centre is as good as any.
+    // The separating plane; if y is the sphere's centre, the direction to the other centre is used.
     r.normal = vec3_unit(map_normal_back(&e, length > 0 ? y : mapped.center));
     if (!(vec3_norm_squared(r.normal) > 0)) r.normal = (vec3){1, 0, 0};
     r.distance = vec3_norm(vec3_sub(r.point_b, r.point_a));
