@@ -118,7 +118,7 @@ static int run_table(const settings *how) {
     return good && unproven == 0;
 }
 
-/// "8,16": 0 where it is not such a list, or longer than `most`.
+/// "8,16": 0 if it is not such a list, or longer than `most`.
 static int read_list(const char *text, uint32_t *items, uint32_t most, uint32_t *count) {
     *count = 0;
     while (*text) {
@@ -145,7 +145,7 @@ static int add_module(settings *how, const char *path) {
     return 1;
 }
 
-/// An option with its value; 0 where it is none.
+/// An option with its value; 0 if it is none.
 static int read_valued(settings *how, const char *name, const char *value) {
     if (!value) return 0;
     if (!strcmp(name, "--workload"))
@@ -175,7 +175,7 @@ static int read_valued(settings *how, const char *name, const char *value) {
     return 1;
 }
 
-/// An option alone; 0 where it is none.
+/// An option alone; 0 if it is none.
 static int read_switch(settings *how, const char *name) {
     if (!strcmp(name, "--alone"))
         how->alone = 1;

@@ -12,11 +12,11 @@
 /// long as the judge, or judge_forget must be called before it is destroyed). One thread at a time.
 typedef struct judge judge;
 
-/// NULL where memory is out. The caller destroys it.
+/// NULL if memory runs out. The caller destroys it.
 judge *judge_create(void);
 void judge_destroy(judge *context);
 
-/// What is to be called where memory is out, by any judge of the process: it must not return, as neither GMP nor the
+/// What is to be called if memory runs out, by any judge of the process: it must not return, as neither GMP nor the
 /// judge can go on. NULL, and until this is called: abort. Call it before the first judge is made.
 void judge_set_out_of_memory(void (*handler)(void));
 

@@ -10,7 +10,7 @@ static int compare_keys(const void *a, const void *b) {
     return x < y ? -1 : x > y;
 }
 
-// The directed edges in ascending order; NULL where an index is out of range.
+// The directed edges in ascending order; NULL if an index is out of range.
 static uint64_t *create_sorted_edges(const shell *s) {
     size_t count = 3 * (size_t)s->triangle_count;
     uint64_t *keys = judge_allocate(count, sizeof *keys);
@@ -41,7 +41,7 @@ int shell_is_closed(const shell *s) {
     return closed;
 }
 
-// +1 or -1 where the ray along g crosses the triangle, 0 where it misses; *ok = 0 where it meets an edge's line or the
+// +1 or -1 if the ray along g crosses the triangle, 0 if it misses; *ok = 0 if it meets an edge's line or the
 // origin lies in the triangle's plane, so that the ray decides nothing.
 static int count_crossing(pool *p, nvec g, nvec a, nvec b, nvec c, int *ok) {
     int ab = num_sign(nvec_det(p, g, a, b)), bc = num_sign(nvec_det(p, g, b, c));

@@ -13,7 +13,7 @@ typedef struct shell {
     uint32_t point_count, triangle_count;
 } shell;
 
-/// 1 if all indices are in range and each directed edge is met once and its reverse once. 0 also where memory is out.
+/// 1 if all indices are in range and each directed edge is met once and its reverse once. 0 also if memory runs out.
 int shell_is_closed(const shell *s);
 
 /// 1 if the closed surface winds a nonzero number of times around the origin; 0 if not, or if the origin lies on it.

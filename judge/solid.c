@@ -181,7 +181,7 @@ static scaled find_point(pool *p, const side *own, const side *other, ovoid_vec3
     return (scaled){body_rotate_back(p, &other->posed, nvec_sub(p, x, from)), num_mul(p, own->posed.n, other->posed.n)};
 }
 
-/// The signed crossing of a ray with a triangle, corners from the ray's origin: 1, -1, 0; *ok = 0 where it meets an
+/// The signed crossing of a ray with a triangle, corners from the ray's origin: 1, -1, 0; *ok = 0 if it meets an
 /// edge's line or the origin is in the triangle's plane.
 static int count_crossing(pool *p, nvec g, const nvec c[3], int *ok) {
     int s[3];
@@ -221,7 +221,7 @@ static long count_winding(pool *p, const side *s, const scaled *at, ovoid_vec3 r
     return winding;
 }
 
-/// 1 if the other body winds around the point, 0 if not, -1 where that is open: on its surface.
+/// 1 if the other body winds around the point, 0 if not, -1 if that is open: on its surface.
 static int is_inside(const trial *t, const side *own, const side *other, ovoid_vec3 local) {
     static const ovoid_vec3 rays[] = {{1, 0, 0},         {1009, 2003, -3001}, {-4001, 907, 1301},
                                       {577, -2741, 991}, {-1511, -3307, 271}, {89, 233, 4657}};

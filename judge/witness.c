@@ -16,7 +16,7 @@ static double compute_tolerance(const posed *s) {
     return WITNESS_ROUNDING * (s->a.reach + s->b.reach + num_to_double(s->radii)) + OVOID_LENGTH_MIN;
 }
 
-// A point that carries a factor: the point is point / factor. is_known is 0 where the proof names none.
+// A point that carries a factor: the point is point / factor. is_known is 0 if the proof names none.
 typedef struct named {
     nvec point;
     num factor;

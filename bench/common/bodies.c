@@ -10,7 +10,7 @@ static const double turn = 6.283185307179586;
 
 double body_get_reach(const body *b) { return ovoid_shape_get_measures(b->shape).sphere_radius; }
 
-/// Views into the shape, the vertices in the user's frame; takes the shape. 0 where memory is out.
+/// Views into the shape, the vertices in the user's frame; takes the shape. 0 if memory runs out.
 static int fill_body(body *b, ovoid_shape *shape) {
     ovoid_polytope p = ovoid_shape_get_polytope(shape);
     double *vertices = malloc(sizeof(double) * 3 * p.vertex_count);

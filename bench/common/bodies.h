@@ -11,7 +11,7 @@ typedef struct bodies {
     uint32_t count;
 } bodies;
 
-/// Points on a sphere, stretched by 1 to 4 along two axes. count 0 where memory is out.
+/// Points on a sphere, stretched by 1 to 4 along two axes. count 0 if memory runs out.
 bodies bodies_create_hulls(uint32_t vertices, uint32_t count);
 /// Half sizes 1 to 4.
 bodies bodies_create_boxes(uint32_t count);
@@ -21,7 +21,7 @@ bodies bodies_create_paper(void);
 /// The first `count` solids of a file of point clouds (a 32-bit count n, then n times three 32-bit floats, repeated).
 /// count 0: no such file.
 bodies bodies_create_from_clouds(const char *path, uint32_t count);
-/// Adds the shape to a list that has room for it, and takes it; 0 where it is NULL or memory is out.
+/// Adds the shape to a list that has room for it, and takes it; 0 if it is NULL or memory is out.
 int bodies_add_shape(bodies *all, ovoid_shape *shape);
 void bodies_destroy(bodies *all);
 

@@ -62,7 +62,7 @@ static int is_normal_wrong(const workload *work, const placed *p, const found *a
     return !(fabs(dot(n, n) - 1) < 1e-3 && fmin(there, thence) <= depth * 1.001 + 1e-9 * p->size);
 }
 
-/// The true answer to a yes or no question; NONE where the bracket does not say.
+/// The true answer to a yes or no question; NONE if the bracket does not say.
 static verdict get_truth(const truth *t, question what, double margin) {
     double limit = what == QUESTION_WITHIN ? margin : 0;
     if (t->lower > limit) return VERDICT_NO;

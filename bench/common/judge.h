@@ -10,7 +10,7 @@ typedef struct truth {
 } truth;
 
 /// Proven by ovoid_depth, each proof checked. *open: how many brackets are wider than 1e-7 of the size, because a limit
-/// ended the search; by those only signs are judged. NULL where memory is out.
+/// ended the search; by those only signs are judged. NULL if memory runs out.
 truth *truths_create(const workload *work, uint32_t *open);
 
 /// Wrong answers. Touching pairs (0 or the margin inside the bracket) are not judged.

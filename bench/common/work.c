@@ -31,7 +31,7 @@ ovoid_pair workload_get_pair(const workload *work, uint32_t index) {
     return (ovoid_pair){work->bodies[p->a].shape, work->bodies[p->b].shape, p->pose_a, p->pose_b};
 }
 
-/// A workload with room for its pairs, which are returned; NULL where memory is out.
+/// A workload with room for its pairs, which are returned; NULL if memory runs out.
 static placed *make_room(workload *work, const char *name, const bodies *all, uint32_t pairs) {
     *work = (workload){.bodies = all->items, .body_count = all->count, .pair_count = pairs};
     (void)snprintf(work->name, sizeof work->name, "%s", name);

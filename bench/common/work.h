@@ -18,7 +18,7 @@ typedef enum placement {
 /// "gap 500%" and so on.
 const char *placement_get_name(placement place);
 
-/// Neighbours in the list, uncorrelated poses. pairs NULL where memory is out. Free with workload_destroy.
+/// Neighbours in the list, uncorrelated poses. pairs NULL if memory runs out. Free with workload_destroy.
 workload workload_create_still(const char *name, const bodies *all, placement place);
 
 /// As workload_create_still, each pair over so many frames: both turn, and B goes around A by 1 % of the size a frame,

@@ -114,14 +114,14 @@ static balled make_ball(const workcell *what, const ovoid_pose *links, uint32_t 
     return ball;
 }
 
-/// 0 where the spheres show that the two are farther than the margin.
+/// 0 if the spheres show that the two are farther than the margin.
 static int may_meet(const balled *a, const balled *b, double margin) {
     double x = a->middle.x - b->middle.x, y = a->middle.y - b->middle.y, z = a->middle.z - b->middle.z;
     double most = (a->radius + b->radius + margin) * (1 + 1e-9);
     return x * x + y * y + z * z <= most * most;
 }
 
-/// 1 where the two are sure to meet.
+/// 1 if the two are sure to meet.
 static int decide_near(const balled balls[2], const uint32_t names[2], double margin, meeting_truth *truth) {
     ovoid_pair pair = {balls[0].body->shape, balls[1].body->shape, balls[0].pose, balls[1].pose};
     ovoid_answer answer = margin > 0 ? ovoid_distance(&pair, NULL, NULL) : ovoid_collide(&pair, NULL, NULL);

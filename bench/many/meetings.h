@@ -22,7 +22,7 @@ typedef struct meeting_truth {
 void meeting_truth_destroy(meeting_truth *truth);
 
 /// Of a frame: all pairs whose boxes overlap, by a sweep of sorted boxes that shares nothing with any contestant, each
-/// decided by ovoid_collide and its proof put before ovoid_answer_verify. 0 where memory is out.
+/// decided by ovoid_collide and its proof put before ovoid_answer_verify. 0 if memory runs out.
 int swarm_compute_truth(const swarm *what, const ovoid_pose *poses, meeting_truth *truth);
 
 /// Of a state: every pair within the margin (0: that touch) with its distance, by trying all pairs; overlapping ones

@@ -37,7 +37,7 @@ void robot_destroy(robot *all) {
     memset(all, 0, sizeof *all);
 }
 
-/// Room for the lists; neighbours in the chain are ignored. 0 where memory is out.
+/// Room for the lists; neighbours in the chain are ignored. 0 if memory runs out.
 static int make_room(robot *all, uint32_t link_count) {
     uint32_t *shape_of = calloc(ROBOT_LINKS_MOST + PARTS, sizeof *shape_of);
     ovoid_pose *parts = calloc(PARTS, sizeof *parts);
@@ -143,7 +143,7 @@ static int add_panda_links(robot *all, const char *data) {
 }
 
 /// The parts of one decomposed object, a few units large in its file, as 5 % of that, somewhere around the robot. 0
-/// where memory is out; a file that is not there adds nothing.
+/// if memory runs out; a file that is not there adds nothing.
 static int add_object(robot *all, uint64_t *state, const char *path) {
     ovoid_mesh *mesh = ovoid_mesh_read(path, &(ovoid_read_options){.scale = 0.05, .parts = 1}, NULL);
     if (!mesh) return 1;

@@ -20,7 +20,7 @@ typedef struct swarm_motion {
 } swarm_motion;
 
 /// Hulls of so many vertices at random places, at the density where the boxes of a body meet those of about five
-/// others. 0 where memory is out.
+/// others. 0 if memory runs out.
 int swarm_create(swarm_motion *all, uint32_t count, uint32_t vertices);
 /// One frame on: each body moves and turns by up to 1 % of its size; at a wall it is thrown back.
 void swarm_move(swarm_motion *all);

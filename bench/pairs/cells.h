@@ -20,7 +20,7 @@ typedef struct cells {
     uint32_t own; ///< how many entrants are ovoid's
 } cells;
 
-/// A copy of the cell at the end; 0 where memory is out.
+/// A copy of the cell at the end; 0 if memory runs out.
 int cells_add(cells *all, const cell *one);
 void cells_destroy(cells *all);
 

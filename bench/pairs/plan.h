@@ -18,7 +18,7 @@ typedef struct plan {
 /// What is done with each workload. 0: stop, it failed.
 typedef int (*visitor)(void *context, const workload *work);
 
-/// 0 where a visitor failed or memory is out.
+/// 0 if a visitor failed or memory is out.
 int plan_visit(const plan *what, visitor call, void *context);
 
 #endif

@@ -191,7 +191,7 @@ static void crowd_destroy(crowd *c) {
     free(c->verdicts);
 }
 
-/// Hulls in random poses, the centres of a pair within two sizes: some touch, most do not. 0 where memory is out.
+/// Hulls in random poses, the centres of a pair within two sizes: some touch, most do not. 0 if memory runs out.
 static int crowd_create(crowd *c, const bodies *set, uint32_t count) {
     *c = (crowd){malloc(sizeof *c->bodies * 2 * count), malloc(sizeof *c->couples * count),
                  malloc(sizeof *c->verdicts * count)};
@@ -247,7 +247,7 @@ static void *run_singly(void *data) {
     return NULL;
 }
 
-/// Seconds for all pairs on so many threads, by the time that the slowest had its processor; 0 where a thread cannot be
+/// Seconds for all pairs on so many threads, by the time that the slowest had its processor; 0 if a thread cannot be
 /// started.
 static double time_threads(const crowd *c, uint32_t count, uint32_t threads) {
     pthread_t ids[THREADS_MOST];

@@ -4,7 +4,7 @@
 
 #include "pairs/plan.h"
 
-/// Prints it for every workload of the plan; 0 where memory is out.
+/// Prints it for every workload of the plan; 0 if memory runs out.
 int stages_run(const plan *what);
 
 #endif

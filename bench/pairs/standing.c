@@ -6,7 +6,7 @@
 static const char *const ways[] = {"ovoid", "prepared", "batch"};
 enum { WAYS = sizeof ways / sizeof ways[0] };
 
-/// The peer's time over ours; 0 where one of them was not measured.
+/// The peer's time over ours; 0 if one of them was not measured.
 static double get_lead(const entrant *other, const entrant *own) {
     return other && own ? other->time.median / own->time.median : 0;
 }

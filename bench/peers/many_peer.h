@@ -27,7 +27,7 @@ typedef struct workcell {
     const uint32_t *shape_of; ///< of links, then parts
     const ovoid_pose *parts;
     uint32_t shape_count, link_count, part_count;
-    const unsigned char *ignored; ///< link_count x link_count: 1 where two links are not asked about; symmetric
+    const unsigned char *ignored; ///< link_count x link_count: 1 if two links are not asked about; symmetric
     double margin;                ///< of the monitor
 } workcell;
 

@@ -38,7 +38,7 @@ typedef enum question {
 /// little.
 typedef struct workload {
     char name[40];
-    uint32_t vertices; ///< of each body; 0 where they differ
+    uint32_t vertices; ///< of each body; 0 if they differ
     const body *bodies;
     const placed *pairs;
     uint32_t body_count, pair_count, tracks;

@@ -30,7 +30,7 @@ typedef struct robot_scene {
     const solid *solids;
     const placed_solid *elements, *obstacles;
     uint32_t solid_count, element_count, obstacle_count, link_count, variable_count;
-    const unsigned char *ignored; ///< link_count x link_count: 1 where two links are not asked about; symmetric
+    const unsigned char *ignored; ///< link_count x link_count: 1 if two links are not asked about; symmetric
     double margin;                ///< of `measure`
 } robot_scene;
 

@@ -111,7 +111,7 @@ typedef struct tallies {
 /// The line of that name; made where there is none.
 tally *tallies_get(tallies *all, const char *line);
 void tally_add(tally *t, double sample);
-/// truth: 1 a hit, 0 free; depth: of the hit, NaN where none is known.
+/// truth: 1 a hit, 0 free; depth: of the hit, NaN if none is known.
 void tally_judge(tally *t, int said_hit, int is_hit, double depth);
 /// Adds rows, prints percentiles and what was wrong, and frees the tallies.
 void tallies_report(tallies *all, rows *out, const char *chart, const char *unit, double x);

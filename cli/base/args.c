@@ -103,7 +103,7 @@ int args_parse_number(const char *text, double *value) {
     return !*end;
 }
 
-/// Parses numbers separated by spaces or commas, at most `most`; their count, or -1 where there are more or other text.
+/// Parses numbers separated by spaces or commas, at most `most`; their count, or -1 if there are more or other text.
 static int parse_numbers(const char *text, double *values, int most) {
     for (int count = 0;; count++) {
         while (isspace((unsigned char)*text) || *text == ',') text++;
@@ -317,7 +317,7 @@ static int complain_missing(const cli_command *command, int place) {
                          command->name, line, command->usage);
 }
 
-/// Reports too few operands or too many; -1 where their number is right.
+/// Reports too few operands or too many; -1 if their number is right.
 static int validate_count(const cli_command *command, const cli_operands *operands) {
     if (operands->count < command->operands_min) return complain_missing(command, operands->count);
     if (command->operands_max >= 0 && operands->count > command->operands_max)
@@ -326,7 +326,7 @@ static int validate_count(const cli_command *command, const cli_operands *operan
     return -1;
 }
 
-/// Refuses standard input in two places; -1 where it is in one at most.
+/// Refuses standard input in two places; -1 if it is in one at most.
 static int validate_input(const cli_command *command, const void *settings, const cli_operands *operands) {
     int count = 0;
     for (int i = 0; i < operands->count; i++) count += strcmp(operands->items[i], "-") == 0;

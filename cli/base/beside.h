@@ -5,7 +5,7 @@
 /// Room for a folder, and for a path in it.
 enum { BESIDE_FOLDER_ROOM = 4096, BESIDE_PATH_ROOM = BESIDE_FOLDER_ROOM + 32 };
 
-/// The folder of this program; 0 where the system does not say it.
+/// The folder of this program; 0 if the system does not say it.
 int beside_find_folder(char folder[BESIDE_FOLDER_ROOM]);
 
 #endif

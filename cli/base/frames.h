@@ -16,7 +16,7 @@ typedef struct cli_frames {
     double time, earlier;   ///< of this frame and of the one before; the first frame has its own time for both
     ovoid_pose *poses;      ///< in this frame
     ovoid_pose *starts;     ///< in the frame before
-    ovoid_vec3 (*speed)[2]; ///< linear and angular, from this frame on; NULL where the file has poses
+    ovoid_vec3 (*speed)[2]; ///< linear and angular, from this frame on; NULL if the file has poses
     ovoid_vec3 (*used)[2];  ///< linear and angular, from the frame before to this one
     uint32_t *moved;        ///< objects whose pose is not that of the frame before
     unsigned char *is_moved;

@@ -31,7 +31,7 @@ static void *get_slot(const ring *r, uint64_t number) {
     return r->slots + (size_t)(number % r->count) * r->pipeline->slot_size;
 }
 
-/// Waits until the next slot is free. 0 where no more slots are to be filled.
+/// Waits until the next slot is free. 0 if no more slots are to be filled.
 static int wait_for_room(ring *r, uint64_t *number) {
     pthread_mutex_lock(&r->lock);
     while (!r->ended && !r->stopped && r->filled - r->drained == r->count) pthread_cond_wait(&r->changed, &r->lock);
@@ -43,7 +43,7 @@ static int wait_for_room(ring *r, uint64_t *number) {
 
 static void start_worker(ring *r);
 
-/// Claims and fills the next slot, and starts another worker, for what comes after it. 0 where there is no slot to
+/// Claims and fills the next slot, and starts another worker, for what comes after it. 0 if there is no slot to
 /// fill.
 static int claim(ring *r, uint64_t *number) {
     pthread_mutex_lock(&r->filling);

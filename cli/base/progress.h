@@ -4,7 +4,7 @@
 
 #include <stddef.h>
 
-/// Starts the bar. what: for example "pairs"; total: 0 where it is not known. One bar at a time, from one thread.
+/// Starts the bar. what: for example "pairs"; total: 0 if it is not known. One bar at a time, from one thread.
 void progress_start(const char *what, size_t total);
 
 /// Says that a file is being read, where it is so large that this takes a while; progress_hide or a bar removes it.

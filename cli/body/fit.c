@@ -83,7 +83,7 @@ static int is_written(const fit *f, const char *path) {
     return 0;
 }
 
-/// The path "FOLDER/NAME-PART.ovoid", with "-2" and so on where this run has written that already. NULL where memory is
+/// The path "FOLDER/NAME-PART.ovoid", with "-2" and so on where this run has written that already. NULL if memory is
 /// out.
 static char *make_path(const fit *f, const char *mesh, const char *part) {
     char name[200] = "";
@@ -222,7 +222,7 @@ static int fit_file(fit *f, const char *path) {
     return code;
 }
 
-/// Gives a hull that its mesh is only nearly the allowance for that; 0 where memory is out.
+/// Gives a hull that its mesh is only nearly the allowance for that; 0 if memory runs out.
 static int allow(const fit *f, ovoid_shape **shape, fitted *found, ovoid_error *error) {
     if (f->settings->read.hull || f->settings->parts) found->convexity.allowance = 0;
     if (!(found->convexity.allowance > 0)) return 1;

@@ -39,7 +39,7 @@ typedef struct info {
 
 static int is_inside_out(const info *report) { return report->report.is_closed && report->report.volume < 0; }
 
-/// 1 where there is nothing to find fault with.
+/// 1 if there is nothing to find fault with.
 static int is_clean(const info *report) {
     const ovoid_solid_report *r = &report->report;
     return r->is_closed && r->volume > 0 && !r->edges_crowded && !r->degenerate && !r->duplicates &&

@@ -28,7 +28,7 @@ page_body *page_bodies_list(const ovoid_scene *scene) {
 
 // ---- choosing
 
-/// Takes an object; 0 where there is no room.
+/// Takes an object; 0 if there is no room.
 static int take(page_choice *c, uint32_t object) {
     if (c->numbers[object] != PAGE_NO_NUMBER) return 1;
     if (c->count == BODIES_MOST) return 0;
@@ -94,7 +94,7 @@ static int is_identity(const ovoid_pose *pose) {
     return p.x == 0 && p.y == 0 && p.z == 0 && q.w == 1 && q.x == 0 && q.y == 0 && q.z == 0;
 }
 
-/// Writes one part. 0 where memory is out.
+/// Writes one part. 0 if memory runs out.
 static int write_part(FILE *file, page_shapes *shapes, const ovoid_posed_shape *part) {
     size_t number;
     if (!page_shapes_add(shapes, part->shape, &number)) return 0;
@@ -125,7 +125,7 @@ static int write_body(FILE *file, page_shapes *shapes, const page_body *b) {
     return done;
 }
 
-/// The text of all bodies, which is written behind the shapes that it adds; NULL where memory is out.
+/// The text of all bodies, which is written behind the shapes that it adds; NULL if memory runs out.
 static char *make_bodies(page_shapes *shapes, const page_body *bodies, const page_choice *c, size_t *size) {
     char *text = NULL;
     const char *before = "";

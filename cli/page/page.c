@@ -42,7 +42,7 @@ static void write_word(FILE *file, const char *word) {
     fputc('\'', file);
 }
 
-/// The command line, "ovoid check scene.json"; NULL where memory is out.
+/// The command line, "ovoid check scene.json"; NULL if memory runs out.
 static char *make_command(void) {
     char *text = NULL;
     size_t size;

@@ -46,7 +46,7 @@ static int is_name(const char *member, const char *end) {
     return begins_with(member, end, "\"a\":") || begins_with(member, end, "\"b\":");
 }
 
-/// 1 where the member is a proof for which there is no room.
+/// 1 if the member is a proof for which there is no room.
 static int is_left_out(page_pairs *list, const char *member, const char *end) {
     if (!begins_with(member, end, "\"proof\":")) return 0;
     list->proof_bytes += (size_t)(end - member);

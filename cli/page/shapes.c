@@ -19,7 +19,7 @@ static size_t *find_slot(const page_shapes *s, const ovoid_shape *shape) {
     return &s->slots[hash_find(hash_number((uint64_t)(uintptr_t)shape >> 4), s->slot_count, s, shape, is_end)];
 }
 
-/// Room for one more shape; 0 where memory is out.
+/// Room for one more shape; 0 if memory runs out.
 static int grow(page_shapes *s) {
     if (s->count < s->capacity) return 1;
     size_t capacity = s->capacity ? 2 * s->capacity : 64;

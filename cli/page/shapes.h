@@ -27,7 +27,7 @@ typedef struct page_shapes {
     size_t mesh_bytes; ///< of all meshes and solids
 } page_shapes;
 
-/// The number of a shape, which is added where it is new. 0 where memory is out.
+/// The number of a shape, which is added where it is new. 0 if memory runs out.
 int page_shapes_add(page_shapes *shapes, const ovoid_shape *shape, size_t *number);
 
 /// Adds the meshes of a body that was read from a file, NULL for none: of each of its parts that is not known to fill

@@ -7,7 +7,7 @@
 #include <string.h>
 
 /// The length of the character of UTF-8 at c (RFC 3629: no surrogates, no overlong forms, nothing above U+10FFFF), of
-/// which `left` bytes are there; 0 where there is none.
+/// which `left` bytes are there; 0 if there is none.
 static size_t get_length(const unsigned char *c, size_t left) {
     size_t length = c[0] < 0x80 ? 1 : c[0] < 0xc2 ? 0 : c[0] < 0xe0 ? 2 : c[0] < 0xf0 ? 3 : c[0] < 0xf5 ? 4 : 0;
     if (length > left) return 0;

@@ -115,7 +115,7 @@ static ovoid_couple get_couple(const answers_job *job, size_t i) {
     return *(const ovoid_couple *)(const void *)((const char *)job->couples + i * job->stride);
 }
 
-/// Record i of the chunk; 0 where memory is out.
+/// Record i of the chunk; 0 if memory runs out.
 static int make_record(const answers_job *job, chunk *k, size_t i, int wants_proof) {
     ovoid_couple c = get_couple(job, k->first + i);
     ovoid_body_pair pair = {answers_get_body(job->scene, c.a, &job->poses[c.a]),

@@ -27,7 +27,7 @@ typedef struct answers_query {
 } answers_query;
 
 /// Answers one query: the record's answer and parts, and with a proof its cover and exclusions, which live in the room
-/// until the next call; so does the answer of a pair with a solid. 0 where memory is out.
+/// until the next call; so does the answer of a pair with a solid. 0 if memory runs out.
 int answers_find(answer_room *room, const ovoid_body_pair *pair, const answers_query *query, ovoid_record *record);
 void answer_room_clear(answer_room *room);
 

@@ -161,7 +161,7 @@ static void clear(void *slot) {
     free(c->text);
 }
 
-/// The number of pairs, for the progress bar; 0 where it cannot be known or no bar is drawn.
+/// The number of pairs, for the progress bar; 0 if it cannot be known or no bar is drawn.
 static size_t count_pairs(const char *path) {
     char block[1 << 16];
     size_t lines = 0, size;

@@ -202,7 +202,7 @@ static int answer_pair(const settings *s, const cli_body bodies[2], const char *
     return results_close(&results, code);
 }
 
-/// Answers as solids where one of the bodies is one: the exit code, or -1 where none is.
+/// Answers as solids where one of the bodies is one: the exit code, or -1 if none is.
 static int answer_solids(const settings *s, const cli_body bodies[2], const char *const paths[2]) {
     const ovoid_pose poses[2] = {s->pose_a, s->pose_b};
     solids_query query = {s->margin, s->tolerance, inputs_get_unit(&s->read)};

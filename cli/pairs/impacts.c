@@ -133,7 +133,7 @@ static int find_couples(cli_impacts *impacts) {
 
 /* ---- their impacts */
 
-/// Makes room for the steps of a proof and, of compounds, for their groups. 0 where memory is out.
+/// Makes room for the steps of a proof and, of compounds, for their groups. 0 if memory runs out.
 static int reserve(pair_impact *p, ovoid_motion_options *options) {
     options->steps = realloc(p->steps, options->capacity * sizeof *p->steps);
     if (!options->steps) return 0;
@@ -225,7 +225,7 @@ static int is_shape(const cli_impacts *impacts, size_t object) {
     return !o.compound && !o.solid;
 }
 
-/// The answer of compounds or solids at a time between the frames, at which a hit is within the margin. 0 where memory
+/// The answer of compounds or solids at a time between the frames, at which a hit is within the margin. 0 if memory
 /// is out.
 static int answer_compounds(const cli_impacts *impacts, const impact *item, answer_room *room, ovoid_record *record) {
     const ovoid_couple c = item->couple;
@@ -244,7 +244,7 @@ static int answer_compounds(const cli_impacts *impacts, const impact *item, answ
 }
 
 /// Makes the record of an impact. Of compounds the answer is that of the whole bodies at that time, whose proof is
-/// complete. Where the impact is not proven, the record says why, and has the answer where the free time ends. 0 where
+/// complete. Where the impact is not proven, the record says why, and has the answer where the free time ends. 0 if
 /// memory is out.
 static int make_record(const cli_impacts *impacts, const impact *item, answer_room *room, ovoid_record *record) {
     const ovoid_couple c = item->couple;

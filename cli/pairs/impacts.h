@@ -46,7 +46,7 @@ typedef enum impact_proof {
 } impact_proof;
 
 /// Finds the impact of two moving bodies, with its proof. The pair begins as all zero, or as an earlier call left it. 0
-/// where memory is out.
+/// if memory runs out.
 int pair_impact_find(pair_impact *pair, const ovoid_moving_body bodies[2], double margin, impact_proof proof);
 void pair_impact_clear(pair_impact *pair);
 

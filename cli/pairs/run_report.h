@@ -13,7 +13,7 @@ typedef struct run_summary {
     const size_t *counts;       ///< 4: of the records of frames, by ovoid_status
     const cli_impacts *impacts; ///< NULL: frames alone were asked for
     double margin;              ///< negative: none
-    int measures;               ///< 1 where distances were asked for, not a yes or no
+    int measures;               ///< 1 if distances were asked for, not a yes or no
 } run_summary;
 
 /// Writes the counts, the first contacts, the impacts and the smallest distance.

@@ -43,7 +43,7 @@ typedef struct solids_pair {
     const char *const *paths;
     const ovoid_solid *solids[2]; ///< NULL: the body's hull
     ovoid_body_pair pair;
-    ovoid_convexity convexity[2]; ///< of the meshes; volumes NaN where there is none
+    ovoid_convexity convexity[2]; ///< of the meshes; volumes NaN if there is none
 } solids_pair;
 
 /// A pair of bodies that are open. Returns how many are solids or surfaces.

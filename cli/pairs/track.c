@@ -46,7 +46,7 @@ static int grow_slots(cli_track *t) {
     return 1;
 }
 
-/// The pair's entry, made where there is none; NULL where memory is out.
+/// The pair's entry, made where there is none; NULL if memory runs out.
 static track_pair *find_pair(cli_track *t, ovoid_couple couple) {
     if (!grow_slots(t)) return NULL;
     size_t *slot = find_slot(t, couple.a, couple.b);
@@ -57,7 +57,7 @@ static track_pair *find_pair(cli_track *t, ovoid_couple couple) {
     return &t->pairs[t->pair_count - 1];
 }
 
-/// Adds a point of the frame that was begun last, and keeps the lowest; 0 where there is no more room.
+/// Adds a point of the frame that was begun last, and keeps the lowest; 0 if there is no more room.
 static int add_point(cli_track *t, ovoid_couple couple, const ovoid_record *record, int is_impact) {
     const ovoid_answer *answer = &record->answer;
     track_pair *pair = t->point_count < POINTS_MAX ? find_pair(t, couple) : NULL;
@@ -95,7 +95,7 @@ static int compare_starts(const void *a, const void *b) {
     return p->couple.b < q->couple.b ? -1 : p->couple.b > q->couple.b;
 }
 
-/// The pair's states in the first frame; 0 where it was farther then.
+/// The pair's states in the first frame; 0 if it was farther then.
 static unsigned find_states(const cli_track *t, ovoid_couple couple) {
     const track_start key = {couple, 0};
     if (!t->start_count) return 0;
@@ -201,7 +201,7 @@ static void add_value(line_room *l, double x, const track_point *p) {
     l->y[l->count++] = p->is_measured ? low : NAN;
 }
 
-/// 1 where the pair was farther than the margin between two of its points.
+/// 1 if the pair was farther than the margin between two of its points.
 static int is_gap(const track_point *p, const track_point *next) { return next->frame > p->frame + !next->is_impact; }
 
 /// Fills the line of a pair's distances; a gap where frames are missing, `group` neighbours as one.

@@ -34,7 +34,7 @@ static void subtract(vector6 *a, const vector6 *b, dd times) {
     for (int i = 0; i < ENTRIES; i++) a->x[i] = dd_sub(a->x[i], dd_mul(b->x[i], times));
 }
 
-// a . b over the size of b; 0 where that is 0.
+// a . b over the size of b; 0 if that is 0.
 static dd project(const vector6 *a, const lattice *l, int j) {
     return l->size[j].high > 0 ? dd_div(dot(a, &l->star[j]), l->size[j]) : dd_from(0);
 }

@@ -17,7 +17,7 @@ static sym3 round_scaled(const sym3dd *q, double scale) {
     return sym3dd_round(&s);
 }
 
-// Scales until no triangle is met. 0 where Q is not positive definite after rounding, or would lose half its size.
+// Scales until no triangle is met. 0 if Q is not positive definite after rounding, or would lose half its size.
 static int shrink(const ovoid_polytope *polytope, const sym3dd *q, ovoid_ellipsoid *e) {
     double scale = 1;
     factor f;

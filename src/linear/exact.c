@@ -55,7 +55,7 @@ static int sign_exact(vec3 a, vec3 b, vec3 c, vec3 d) {
     return (top > 0) - (top < 0);
 }
 
-// The sign in double-double; 0 where rounding may hide it. The differences are exact; 5 operations follow for each of
+// The sign in double-double; 0 if rounding may hide it. The differences are exact; 5 operations follow for each of
 // the 6 products, each within 2^-102 of their sizes, so 2^-97 of the permanent is a bound; products that underflow are
 // left to the expansions.
 static int sign_double_double(vec3 a, vec3 b, vec3 c, vec3 d, double permanent) {

@@ -55,7 +55,7 @@ static ovoid_quat compute_nearest_rotation(const double *m) {
     return (ovoid_quat){q[0] / norm, q[1] / norm, q[2] / norm, q[3] / norm};
 }
 
-/// The largest entry of |M'M - 1|; NaN or infinity where a product overflows.
+/// The largest entry of |M'M - 1|; NaN or infinity if a product overflows.
 static double compute_deviation(const double *m) {
     double largest = 0;
     for (int i = 0; i < 3; i++) {

@@ -50,7 +50,7 @@ double fine_compute_upper(const fine_frame *f, dd distance, double error);
 dd fine_measure_points(const fine_frame *f, const ovoid_proof *proof);
 
 /// The upper bound of d by 4 to 6 differences that strictly contain the origin (hull.h), by the signs of their
-/// determinants; infinity where that is not proven.
+/// determinants; infinity if that is not proven.
 double fine_measure_hull(const fine_frame *f, const dd3 *w, int count, double error);
 
 #endif

@@ -27,7 +27,7 @@ static cloud make_cloud(const double *xyz, uint32_t count) {
     return (cloud){xyz, count, vec3_add(vec3_scale(b.min, 0.5), vec3_scale(b.max, 0.5)), unit};
 }
 
-// The sphere through k <= 4 points, with its centre in their span; 0 where there is none in doubles.
+// The sphere through k <= 4 points, with its centre in their span; 0 if there is none in doubles.
 static int make_through(const vec3 *p, int k, sphere *s) {
     vec3 e[3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
     for (int i = 1; i < k; i++) e[i - 1] = vec3_sub(p[i], p[0]);

@@ -28,7 +28,7 @@ typedef struct block_counts {
 /// The inner ellipsoid as queries use it: |W (x - c)| (1 + 1e-7) is at least the norm in which it is the unit ball.
 typedef struct shape_inner {
     double w[6];  ///< W, lower triangular, by rows
-    double least; ///< a lower bound of its least radius; 0 where it is too flat for doubles: W must not be used
+    double least; ///< a lower bound of its least radius; 0 if it is too flat for doubles: W must not be used
     double reach; ///< an upper bound of its largest radius
 } shape_inner;
 

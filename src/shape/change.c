@@ -96,7 +96,7 @@ static void find_cuts(division *d) {
     }
 }
 
-// The part on one side: +1 above, -1 below. *part is NULL where no vertex lies there.
+// The part on one side: +1 above, -1 below. *part is NULL if no vertex lies there.
 static ovoid_code create_part(division *d, int side, ovoid_shape **part) {
     size_t count = 0, inside = 0;
     for (uint32_t i = 0; i < d->shape->vertex_count; i++) {

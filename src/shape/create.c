@@ -118,7 +118,7 @@ static ovoid_code fit_ellipsoids(ovoid_shape *shape, const ovoid_shape_options *
     return OVOID_OK;
 }
 
-// A lower bound of the least radius of the ellipsoid, 0 where it is too flat to be safe in doubles: with eigenvalues
+// A lower bound of the least radius of the ellipsoid, 0 if it is too flat to be safe in doubles: with eigenvalues
 // l1 <= l2 <= l3, l1 = det / (l2 l3) >= 4 det / trace^2. Condition below 1e8.
 static double least_radius(sym3 q) {
     double trace = sym3_trace(q);

@@ -1,6 +1,6 @@
 // Cells of directions in the space where the ellipsoid is the unit sphere: octants, and the cells of a cube map.
 //
-// An octant's number has bit 0 where x < 0, bit 1 where y < 0, bit 2 where z < 0. A cube cell is face (0..5: +x, -x,
+// An octant's number has bit 0 if x < 0, bit 1 if y < 0, bit 2 where z < 0. A cube cell is face (0..5: +x, -x,
 // +y, -y, +z, -z), row and column; its cone is spanned by four corners (1, a, b), a and b multiples of 2/k, exact in
 // doubles. A cell with k divides into four with 2k; from k = 2 on it lies in one octant.
 #ifndef OVOID_SHAPE_DIRECTION_CELLS_H

@@ -47,7 +47,7 @@ static int are_boxes_apart(const facet *a, const facet *b) {
 
 // ---- two triangles in one plane, seen from a point beside it
 
-/// A point that is not in the triangle's plane; 0 where the triangle has no area.
+/// A point that is not in the triangle's plane; 0 if the triangle has no area.
 static int find_apex(const vec3 c[3], vec3 *apex) {
     for (int axis = 0; axis < 3; axis++) {
         *apex = (vec3){c[0].x + 4 * (axis == 0), c[0].y + 4 * (axis == 1), c[0].z + 4 * (axis == 2)};

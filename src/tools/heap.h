@@ -6,7 +6,7 @@
 #include <stddef.h>
 #include <string.h>
 
-/// 1 where *a belongs above *b.
+/// 1 if *a belongs above *b.
 typedef int heap_order(const void *a, const void *b);
 
 #define HEAP_INLINE static inline __attribute__((always_inline))

@@ -26,7 +26,7 @@ typedef struct casting {
     ovoid_world_cast *out;
 } casting;
 
-// Cuts the range of times to those at which the centre is inside the enlarged slab; 0 where none is left.
+// Cuts the range of times to those at which the centre is inside the enlarged slab; 0 if none is left.
 static int enter_slab(double low, double high, double from, double way, double range[2]) {
     if (!(fabs(way) > 0)) return from >= low && from <= high;
     double a = (low - from) / way, b = (high - from) / way;

@@ -32,7 +32,7 @@ typedef struct ray_search {
     uint32_t count;
 } ray_search;
 
-// Cuts the range of times to those at which a coordinate is between two bounds; 0 where none is left.
+// Cuts the range of times to those at which a coordinate is between two bounds; 0 if none is left.
 static int enter_slab(double low, double high, double from, double way, double range[2]) {
     if (!(fabs(way) > 0)) return from >= low && from <= high;
     double a = (low - from) / way, b = (high - from) / way;

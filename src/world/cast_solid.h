@@ -6,7 +6,7 @@
 #include "ovoid/body.h"
 #include "ovoid/motion.h"
 
-/// The hit of one part: bracket of its time; upper is infinity where no hit is proven.
+/// The hit of one part: bracket of its time; upper is infinity if no hit is proven.
 typedef struct part_hit {
     uint32_t part, probe; ///< parts of the body and of the probe
     ovoid_impact_status status;

@@ -9,7 +9,7 @@
 /// The type of a field. An enumeration is an int.
 typedef enum alter_type { ALTER_REAL, ALTER_INT, ALTER_U32, ALTER_SIZE } alter_type;
 
-/// A field of a record. tolerance: what the field is measured by, a length or a time; 0 where nothing is.
+/// A field of a record. tolerance: what the field is measured by, a length or a time; 0 if nothing is.
 typedef struct alter_field {
     const char *name;
     size_t offset;
@@ -75,7 +75,7 @@ static inline uint64_t alter_whole(uint64_t x, uint64_t other, int kind) {
     }
 }
 
-/// Alters one field of a record in place; 0 where this kind changes nothing. other: a record of the same type, or NULL.
+/// Alters one field of a record in place; 0 if this kind changes nothing. other: a record of the same type, or NULL.
 static inline int alter_apply(void *record, const void *other, const alter_field *f, int kind) {
     char *at = (char *)record + f->offset;
     const char *from = other ? (const char *)other + f->offset : at;
@@ -112,7 +112,7 @@ typedef struct alter_count {
 /// The lie at hand: what is altered, and how.
 static const char *alter_name = "", *alter_way = "";
 
-/// Counts a lie and checks that it is refused or may be true; 0 where it is not.
+/// Counts a lie and checks that it is refused or may be true; 0 if it is not.
 static inline int alter_take(alter_count *n, int is_false, int is_refused) {
     n->told++;
     n->refused += is_refused;

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static uint64_t check_seed; // the seed of the case at hand, 0 where there is none
+static uint64_t check_seed; // the seed of the case at hand, 0 if there is none
 static long check_passed, check_failed, check_skipped;
 
 /// A number of any type, kept as it is: a whole one with its sign, or a double.

@@ -38,7 +38,7 @@ static inline const char *file_write_text(const char *name, const char *text) {
     return file_write(name, text, strlen(text));
 }
 
-/// The whole file, terminated; the caller frees it. NULL where there is none.
+/// The whole file, terminated; the caller frees it. NULL if there is none.
 static inline char *file_read(const char *path, size_t *size) {
     FILE *file = fopen(path, "rb");
     if (!file) return NULL;
@@ -69,7 +69,7 @@ static inline void check_error(const bad_input *input, const ovoid_error *error)
                error->message);
 }
 
-/// Writes each file of a table and reads it by `accepts`, which returns 1 where a file was read without an error.
+/// Writes each file of a table and reads it by `accepts`, which returns 1 if a file was read without an error.
 static inline void check_bad_inputs(const bad_input *inputs, size_t count,
                                     int (*accepts)(const char *path, ovoid_error *error)) {
     for (size_t i = 0; i < count; i++) {

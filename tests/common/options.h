@@ -17,7 +17,7 @@ typedef struct test_option {
     int *flag;
 } test_option;
 
-/// Reads a value; 0 where it is none.
+/// Reads a value; 0 if it is none.
 static inline int option_take(const test_option *o, const char *value) {
     char *end = NULL;
     if (o->text) return *o->text = value, 1;

@@ -247,7 +247,7 @@ static inline int long_is_crossing(long3 p, long3 q, const long3 t[3]) {
     return 1;
 }
 
-/// The distance of two triangles; 0 where an edge of one goes through the other.
+/// The distance of two triangles; 0 if an edge of one goes through the other.
 static inline long double long_triangles_distance(const long3 a[3], const long3 b[3]) {
     long double best = INFINITY;
     for (int i = 0; i < 3; i++) {

@@ -11,7 +11,7 @@
 #include "base/environment.h"
 #include "ellipsoid/distance/gap.h"
 
-/// part / (t + e^2), 0 where both parts of the sum are zero.
+/// part / (t + e^2), 0 if both parts of the sum are zero.
 static double find_share(double part, double t, double square) { return t + square > 0 ? part / (t + square) : 0; }
 
 /// The root t; *rounds counts Newton's steps.

@@ -20,7 +20,7 @@ static double center(const box *b, int axis) {
     return axis == 0 ? b->min.x + b->max.x : axis == 1 ? b->min.y + b->max.y : b->min.z + b->max.z;
 }
 
-// The longest axis of the centres and their extent along it; 0 where all centres are equal.
+// The longest axis of the centres and their extent along it; 0 if all centres are equal.
 static double find_axis(const tree_item *items, range r, int *axis, double *low) {
     double best = 0;
     *axis = 0;
@@ -46,7 +46,7 @@ static uint32_t find_bin(const box *b, int axis, double low, double scale) {
     return at >= BINS - 1 ? BINS - 1 : at > 0 ? (uint32_t)at : 0;
 }
 
-// The cut after the bin with the least cost, or -1 where all are in one bin.
+// The cut after the bin with the least cost, or -1 if all are in one bin.
 static int find_cut(const bin *bins) {
     double right_cost[BINS];
     box right = box_make_empty();
