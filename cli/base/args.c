@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Most words among which a suggestion is searched.
+/// The largest number of words among which a suggestion is searched.
 #define WORDS_MAX 64
 
 int args_complain(const cli_command *command, const char *format, ...) {
@@ -80,7 +80,7 @@ static const cli_option *find_by_letter(const cli_command *command, char letter)
     return NULL;
 }
 
-/// Reports an unknown option and the known one nearest to it.
+/// Reports an unknown option and suggests the nearest known one.
 static int complain_unknown(const cli_command *command, const char *given, const char *name, size_t length) {
     const char *words[WORDS_MAX];
     size_t count = 0;
@@ -243,7 +243,7 @@ static int set_part(const cli_command *command, const cli_option *o, const char 
     return -1;
 }
 
-/// Stores one option's value. -1 to go on, or an exit code.
+/// Stores one option's value. -1 to continue, or an exit code.
 static int set_value(const cli_command *command, const cli_option *o, const char *text, void *settings) {
     void *place = (char *)settings + o->offset;
     switch (o->kind) {
@@ -326,7 +326,7 @@ static int validate_count(const cli_command *command, const cli_operands *operan
     return -1;
 }
 
-/// Refuses standard input in two places; -1 if it is in one at most.
+/// Refuses standard input in two places; -1 if it is used once at most.
 static int validate_input(const cli_command *command, const void *settings, const cli_operands *operands) {
     int count = 0;
     for (int i = 0; i < operands->count; i++) count += strcmp(operands->items[i], "-") == 0;

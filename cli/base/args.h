@@ -15,7 +15,7 @@ typedef enum exit_code {
     EXIT_USAGE = 2,      ///< the command line is wrong
     EXIT_INPUT = 3,      ///< bad input, or output that could not be written
     EXIT_NOT_PROVEN = 4, ///< no proof, or a proof that does not hold
-    EXIT_PIPE = 141      ///< the reader of our output has gone: the code that a shell reports for SIGPIPE
+    EXIT_PIPE = 141      ///< the reader of standard output has closed it: the code that a shell reports for SIGPIPE
 } exit_code;
 
 /// The value that an option takes, and its type in the command's settings.
@@ -27,17 +27,17 @@ typedef enum option_kind {
     OPTION_COUNT,    ///< a whole number from 1 to 1 000 000 000; unsigned
     OPTION_AMOUNT,   ///< a whole number from 0 to 1 000 000 000; unsigned
     OPTION_CHOICE,   ///< one of `choices`; int, its place in the list
-    OPTION_SET,      ///< some of `choices`, between commas; unsigned, bit i for the i-th
+    OPTION_SET,      ///< some of `choices`, separated by commas; unsigned, bit i for the i-th
     OPTION_TEXT,     ///< a name; const char *
     OPTION_FILE,     ///< a path that is read; const char *
     OPTION_OUTPUT,   ///< a path that is written, in the formats of `choices`; const char *
     OPTION_VECTOR,   ///< three numbers in one argument; ovoid_vec3
     OPTION_POSE,     ///< a position and perhaps a rotation in one argument; ovoid_pose
     OPTION_PART,     ///< "I/N", part I of N; shard_part
-    OPTION_LIST      ///< a text, and the option may be there several times; args_list
+    OPTION_LIST      ///< a text; the option may be repeated; args_list
 } option_kind;
 
-/// The texts of an option that was there several times.
+/// The largest number of repetitions of an option, and their texts.
 enum { ARGS_LIST_MAX = 64 };
 typedef struct args_list {
     const char *items[ARGS_LIST_MAX];
@@ -67,17 +67,17 @@ typedef struct cli_command {
     const char *summary;     ///< for the list of commands
     const char *usage;       ///< synopsis lines after the name, separated by newlines
     const char *description; ///< paragraphs, separated by newlines
-    const char *exits;       ///< what the exit codes mean, lines "CODE text"
+    const char *exits;       ///< the meaning of the exit codes, lines "CODE text"
     const char *examples;    ///< lines
     const cli_option *options;
     int operands_min, operands_max;               ///< -1: no limit
-    const struct cli_command *const *subcommands; ///< a list that ends with NULL, of what the first argument may be;
-                                                  ///< their names begin with this one's. NULL: there are none
+    const struct cli_command *const *subcommands; ///< a list that ends with NULL, of the words that the first argument
+                                                  ///< may be; their names begin with this one's. NULL: none
     int (*run)(const struct cli_command *command, int argc, char **argv);
 } cli_command;
 
-/// Parses argv (without the program's and the command's names) into the settings, which hold the defaults before. argv
-/// is reordered: operands come first. Returns -1 to go on, or the exit code: after --help, or after a message about a
+/// Parses argv (without the program's and the command's names) into the settings, which must hold the defaults. argv is
+/// reordered: operands come first. Returns -1 to continue, or the exit code: after --help, or after a message about a
 /// mistake.
 int args_parse(const cli_command *command, int argc, char **argv, void *settings, cli_operands *operands);
 
@@ -86,14 +86,14 @@ int args_parse(const cli_command *command, int argc, char **argv, void *settings
 #define ARGS_POSE_HELP                                                                                                 \
     ": position, then a quaternion, or \"rpy R P Y\" in radians or \"deg R P Y\" in degrees, roll first"
 
-/// Writes to stderr what is wrong with the command line, and where help is; returns EXIT_USAGE. command may be NULL.
+/// Writes to stderr the mistake in the command line, and where help is; returns EXIT_USAGE. command may be NULL.
 #if defined(__GNUC__)
 __attribute__((format(printf, 2, 3)))
 #endif
 int
 args_complain(const cli_command *command, const char *format, ...);
 
-/// Parses a text that is one number, infinity and NaN among them; 0 if it is not.
+/// Parses a text that is one number, including infinity and NaN; 0 if it is not a number.
 int args_parse_number(const char *text, double *value);
 
 /// The subcommand of that name, without this one's, or NULL.

@@ -1,4 +1,4 @@
-// Ends of output: flushed, full, unread, interrupted.
+// Ends of output: flushing, a full disk, a reader that has gone, interruption.
 #include "base/finish.h"
 
 #include "base/args.h"
@@ -10,12 +10,12 @@
 #include <string.h>
 #include <unistd.h>
 
-/// What may end the program at any moment, and can wait; and its own faults, which cannot.
+/// Signals that may end the program at any moment, and can be held back; then its own faults, which cannot.
 static const int numbers[] = {SIGINT,    SIGTERM, SIGHUP,  SIGQUIT, SIGXCPU, SIGALRM, SIGUSR1, SIGUSR2,
                               SIGVTALRM, SIGPROF, SIGABRT, SIGSEGV, SIGBUS,  SIGFPE,  SIGILL};
 enum { NUMBER_COUNT = sizeof numbers / sizeof *numbers, HELD_COUNT = NUMBER_COUNT - 5 };
 
-/// The path of the unfinished file, as a signal handler may read it.
+/// The path of the unfinished file, in a form that a signal handler may read.
 static char unfinished[4096];
 static volatile sig_atomic_t has_unfinished;
 
@@ -39,7 +39,8 @@ void finish_catch_signals(void) {
     for (size_t i = 0; i < NUMBER_COUNT; i++) {
         struct sigaction now;
         sigaction(numbers[i], NULL, &now);
-        if (now.sa_handler == SIG_DFL) set_handler(numbers[i], end_by_signal); // nohup stays nohup
+        if (now.sa_handler == SIG_DFL)
+            set_handler(numbers[i], end_by_signal); // a signal that nohup ignores stays ignored
     }
 }
 

@@ -4,14 +4,14 @@
 
 #include <ovoid/io.h>
 
-/// From now on, pipes without a reader and files at their limit give errors, not signals; SIGINT, SIGTERM and SIGHUP
-/// end the program as they always do, but the unfinished file is removed first.
+/// From now on, pipes without a reader and files at their size limit give errors, not signals; SIGINT, SIGTERM and
+/// SIGHUP end the program as always, but the unfinished file is removed first.
 void finish_catch_signals(void);
 
 /// Sets the path of the unfinished file, NULL for none. One at a time.
 void finish_set_unfinished(const char *path);
 
-/// Blocks these signals while a short piece of work makes and ends a file of its own, then lets them through.
+/// Blocks these signals while a short piece of work creates and removes a file of its own, then unblocks them.
 void finish_hold_signals(void);
 void finish_release_signals(void);
 

@@ -1,5 +1,5 @@
-// Frames: all lines of one time, read one time ahead. Poses stay until another line; velocities are integrated exactly
-// over each piece between two frames (ovoid_motion_compute_pose), from the pose that the piece before ended with.
+// Frames: all lines of one time, read one time ahead. Poses stay until another line changes them; velocities are
+// integrated exactly over each interval between two frames (ovoid_motion_compute_pose), from the pose at its beginning.
 #include "base/frames.h"
 
 #include "base/args.h"
@@ -109,7 +109,7 @@ static int integrate(cli_frames *f) {
 
 int frames_next(cli_frames *f) {
     if (!f->has_line) return 0;
-    // The present frame becomes the one before.
+    // The present frame becomes the previous one.
     for (size_t i = 0; i < f->moved_count; i++) {
         f->starts[f->moved[i]] = f->poses[f->moved[i]];
         f->is_moved[f->moved[i]] = 0;

@@ -10,7 +10,7 @@
 #define HELP_COLUMN 26
 
 void help_print_wrapped(FILE *file, const char *text, int indent, int column) {
-    int fresh = 1; // the line has only its indent so far
+    int fresh = 1; // the line contains only its indent so far
     for (; column < indent; column++) fputc(' ', file);
     while (*text) {
         if (*text == '\n') {

@@ -19,7 +19,7 @@ ovoid_read_options inputs_make_options(const read_settings *settings) {
         .scale = settings->scale, .unit = unit[0] ? unit : NULL, .hull = settings->hull, .solid = settings->solid};
 }
 
-/// How many parts a mesh file has, where there are several and each is known to fill its hull; else 0.
+/// The number of parts of a mesh file, if there are several and each is known to be its hull; else 0.
 static size_t count_convex_parts(const char *path, const read_settings *settings) {
     ovoid_error error;
     ovoid_read_options read = inputs_make_options(settings);
@@ -35,7 +35,7 @@ static size_t count_convex_parts(const char *path, const read_settings *settings
     return count > 1 && convex == count ? count : 0;
 }
 
-/// Warns of a mesh that is taken as its hull; convex_parts: how many parts it has that fill their hulls, 0: not known.
+/// Warns of a mesh that is queried as its hull; convex_parts: its number of parts if each is its hull, 0: not known.
 static void warn_hull(const char *path, const char *part, const ovoid_convexity *c, size_t convex_parts) {
     char advice[160] = "", share[120] = "";
     if (convex_parts)
@@ -63,7 +63,7 @@ void inputs_warn_surface(const char *path, uint64_t open_edges) {
                     path, (unsigned long long)open_edges);
 }
 
-/// Most warnings about the meshes of one list or scene.
+/// The largest number of warnings about the meshes of one list or scene.
 #define WARNINGS_MAX 10
 
 /// Warns of the meshes of a list or a scene, each name once.

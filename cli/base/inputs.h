@@ -8,10 +8,10 @@
 
 /// Options of every command that reads meshes.
 typedef struct read_settings {
-    int unit;     ///< index in INPUTS_UNITS; INPUTS_NO_UNIT: none is named
+    int unit;     ///< index in INPUTS_UNITS; INPUTS_NO_UNIT: no unit is named
     double scale; ///< 0 means 1
-    int hull;     ///< 1: meshes are taken as their hulls, without an allowance
-    int solid;    ///< 1: also a mesh that is its hull is taken as its triangles
+    int hull;     ///< 1: meshes are queried as their hulls, without an allowance
+    int solid;    ///< 1: a mesh that is its hull is queried as its triangles too
 } read_settings;
 
 #define INPUTS_UNITS "m|cm|mm|um|in|ft"
@@ -32,7 +32,7 @@ typedef struct read_settings {
             "multiply the coordinates of meshes by S (default: 1)"                                                     \
     }
 
-/// The word of the unit; "" where none is named. Nothing is converted by it but files that say their own unit.
+/// The word of the unit; "" if none is named. It converts only files that state their own unit.
 const char *inputs_get_unit(const read_settings *settings);
 
 /// The options of the io library.
@@ -55,10 +55,10 @@ void inputs_close_body(cli_body *body);
 /// Reads a scene; NULL after a message. hulls: meshes are solids only where the scene says so.
 ovoid_scene *inputs_read_scene(const char *path, int hulls);
 
-/// The fields that the records of a scene with solids have.
+/// The optional fields of the records of a scene with solids.
 unsigned inputs_get_fields(const ovoid_scene *scene);
 
-/// The row of that option of a scene's meshes.
+/// The row of that option for a scene's meshes.
 #define INPUTS_HULL_OPTION(settings)                                                                                   \
     {                                                                                                                  \
         "hull", 0, OPTION_FLAG, offsetof(settings, hull), NULL, NULL,                                                  \
@@ -72,15 +72,16 @@ ovoid_pose *inputs_copy_poses(const ovoid_scene *scene);
 /// Reads the shapes of a LIST; NULL after a message.
 ovoid_shapes *inputs_read_list(const char *path, const read_settings *settings);
 
-/// Say which meshes are taken as their hulls and are not: a part of a file; a file without --parts, with that advice
-/// where each of its parts is its hull; the files of one or two bodies, the same file once; the meshes of a list or a
-/// scene, each once, and of a scene those that are surfaces, with how many edges are open.
+/// Warnings about meshes that are queried as their hulls but are not their hulls: a part of a file; a file without
+/// --parts, with the advice to use it if each of its parts is its hull; the files of one or two bodies, the same file
+/// once; the meshes of a list or a scene, each once, and for a scene also its surfaces, with their number of open
+/// edges.
 void inputs_warn_part(const char *path, const char *part, const ovoid_convexity *convexity);
 void inputs_warn_file(const char *path, const read_settings *settings, const ovoid_convexity *convexity);
 void inputs_warn_bodies(const char *const *paths, const cli_body *bodies, size_t count, const read_settings *settings);
 void inputs_warn_list(const ovoid_shapes *shapes);
 void inputs_warn_scene(const ovoid_scene *scene);
-/// Says that an open mesh is taken as its surface.
+/// Warns that an open mesh is queried as its surface.
 void inputs_warn_surface(const char *path, uint64_t open_edges);
 
 /// 1 if the path is that of a scene: it ends in ".json".

@@ -1,4 +1,4 @@
-// Messages on stderr. Red marks an error where the terminal can (https://no-color.org is respected).
+// Messages on stderr. Errors are marked in red if the terminal can show it (https://no-color.org is respected).
 #include "base/message.h"
 
 #include "base/progress.h"
@@ -42,7 +42,7 @@ static void say(const char *mark, const char *format, va_list list) {
     for (const char *c = text; *c; end += strlen(end)) c += show(c, end);
     *end = 0;
     progress_hide();
-    fprintf(stderr, "ovoid: %s%s\n", mark, shown); // at once: lines of several processes stay whole
+    fprintf(stderr, "ovoid: %s%s\n", mark, shown); // one write, so that lines of several processes stay whole
 }
 
 void message_error(const char *format, ...) {

@@ -19,8 +19,8 @@ MESSAGE_FORMAT void message_warning(const char *format, ...);
 /// Writes "ovoid: ..." and a line end: counts, times, hints.
 MESSAGE_FORMAT void message_note(const char *format, ...);
 
-/// Writes a text that came from a file or the command line: what could control a terminal, and what is no UTF-8, is
-/// shown as \x1b. Messages are written so, too.
+/// Writes a text from a file or the command line: characters that could control a terminal, and bytes that are not
+/// UTF-8, are shown as \x1b. Messages are written in the same way.
 void message_write_text(FILE *file, const char *text);
 
 /// 1 if the stream is a terminal that understands colours, and NO_COLOR is not set.

@@ -1,5 +1,5 @@
-// The rules for output paths. Two names are one file if the disk says so (device and inode), so neither a link nor a
-// path through other folders hides an input.
+// The rules for output paths. Two paths are the same file if device and inode are equal, so neither a link nor a path
+// through other folders hides an input.
 #include "base/outputs.h"
 
 #include <string.h>

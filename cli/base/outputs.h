@@ -1,12 +1,12 @@
-// The rules for output paths: a command never writes over its inputs, nor under the extension of a format that it does
-// not write.
+// The rules for output paths: a command never overwrites its inputs, and never writes a file with the extension of a
+// format that it does not write.
 #ifndef OVOID_CLI_BASE_OUTPUTS_H
 #define OVOID_CLI_BASE_OUTPUTS_H
 
 #include "base/args.h"
 
-/// args_parse, and then every OPTION_OUTPUT against its formats, the operands and the other paths. -1 to go on, or an
-/// exit code.
+/// args_parse, then checks every OPTION_OUTPUT against its formats, the operands and the other paths. -1 to continue,
+/// or an exit code.
 int command_parse(const cli_command *command, int argc, char **argv, void *settings, cli_operands *operands);
 
 /// 1 if the path ends in a dot and the word, in any case.

@@ -1,6 +1,6 @@
 // The pipeline: a ring of slots. A worker claims the next slot of the ring once it is drained, fills it while it holds
-// the lock for filling (that is what keeps the order), works on it without a lock, and marks it done; the caller's
-// thread drains. Filling may wait for input while others work and drain.
+// the lock for filling (which keeps the order), works on it without a lock, and marks it done; the caller's thread
+// drains. Filling may wait for input while others work and drain.
 #include "base/pipeline.h"
 
 #include "base/finish.h"
@@ -10,18 +10,18 @@
 #include <stdlib.h>
 #include <unistd.h>
 
-/// Slots for each thread: enough that none waits for a slow one, few enough to stay small.
+/// Slots for each thread: enough that no thread waits for a slow one, few enough to save memory.
 #define SLOTS_PER_THREAD 4
 
 typedef struct ring {
     const cli_pipeline *pipeline;
     char *slots;
-    unsigned char *done; // of each slot: worked on, not yet drained
+    unsigned char *done; // for each slot: 1 after its work, until it is drained
     size_t count;
     uint64_t filled, drained; // slots so far
     int ended, stopped;       // the input has ended; drain has stopped the run
     pthread_t *workers;
-    unsigned started, most;  // threads: how many run, how many may
+    unsigned started, most;  // threads: the number that was started, the largest number
     pthread_mutex_t filling; // held by the worker that fills; taken before `lock`
     pthread_mutex_t lock;    // of all numbers above
     pthread_cond_t changed;
@@ -31,7 +31,7 @@ static void *get_slot(const ring *r, uint64_t number) {
     return r->slots + (size_t)(number % r->count) * r->pipeline->slot_size;
 }
 
-/// Waits until the next slot is free. 0 if no more slots are to be filled.
+/// Waits until the next slot is free. 0 if no more slots are needed.
 static int wait_for_room(ring *r, uint64_t *number) {
     pthread_mutex_lock(&r->lock);
     while (!r->ended && !r->stopped && r->filled - r->drained == r->count) pthread_cond_wait(&r->changed, &r->lock);
@@ -43,8 +43,7 @@ static int wait_for_room(ring *r, uint64_t *number) {
 
 static void start_worker(ring *r);
 
-/// Claims and fills the next slot, and starts another worker, for what comes after it. 0 if there is no slot to
-/// fill.
+/// Claims and fills the next slot, and starts another worker for the slot after it. 0 if there is no slot to fill.
 static int claim(ring *r, uint64_t *number) {
     pthread_mutex_lock(&r->filling);
     int go = wait_for_room(r, number) && r->pipeline->fill(r->pipeline->context, get_slot(r, *number));
@@ -74,10 +73,10 @@ static void *run_worker(void *argument) {
     return NULL;
 }
 
-/// Bytes of a worker's stack, where the system's own choice may be as little as 128 KB.
+/// Bytes of a worker's stack; the system's default may be as little as 128 KB.
 #define WORKER_STACK ((size_t)2 << 20)
 
-/// Starts one more worker where one may be; `lock` is held. Where the system has no more, those that run do the work.
+/// Starts one more worker if allowed; `lock` is held. If the system cannot start one, the running workers do the work.
 static void start_worker(ring *r) {
     pthread_attr_t attributes;
     if (r->started == r->most || pthread_attr_init(&attributes) != 0) return;
@@ -125,7 +124,7 @@ static int run_threads(ring *r) {
     int code = -1;
     r->workers = malloc(r->most * sizeof *r->workers);
     if (!r->workers) return -1;
-    // Signals that the program holds back for a moment must not come by way of a worker, nor of those that it starts.
+    // Signals that the program holds back must not be delivered to a worker, nor to the workers that it starts.
     finish_hold_signals();
     pthread_mutex_lock(&r->lock);
     start_worker(r);
@@ -133,7 +132,7 @@ static int run_threads(ring *r) {
     pthread_mutex_unlock(&r->lock);
     finish_release_signals();
     if (started) code = drain_all(r);
-    // A worker that runs may still start others; one that has ended starts none.
+    // A worker that runs may still start others; a worker that has ended starts none.
     for (unsigned i = 0; i < started; i++) {
         pthread_join(r->workers[i], NULL);
         pthread_mutex_lock(&r->lock);
@@ -153,7 +152,7 @@ int pipeline_run(const cli_pipeline *pipeline, unsigned threads) {
     pthread_mutex_init(&r.lock, NULL);
     pthread_cond_init(&r.changed, NULL);
     if (r.slots && r.done) code = threads > 1 ? run_threads(&r) : run_alone(&r);
-    // Those that were never filled have nothing; memory that nobody looked at was never taken.
+    // Slots that were never filled own nothing; memory that was never touched was never allocated by the system.
     size_t used = threads > 1 && r.filled < r.count ? (size_t)r.filled + 1 : r.count;
     for (size_t i = 0; r.slots && i < r.count && i < used; i++) pipeline->clear(r.slots + i * pipeline->slot_size);
     pthread_cond_destroy(&r.changed);

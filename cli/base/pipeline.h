@@ -1,5 +1,5 @@
-// Ordered work on several threads with bounded memory: slots are filled one after another, worked on side by side, and
-// drained one after another in the order they were filled. So the output is the same bytes for any number of threads.
+// Ordered work on several threads with bounded memory: slots are filled one after another, processed concurrently, and
+// drained in the order in which they were filled. So the output has the same bytes for any number of threads.
 #ifndef OVOID_CLI_BASE_PIPELINE_H
 #define OVOID_CLI_BASE_PIPELINE_H
 
@@ -17,7 +17,7 @@
 /// The steps of a pipeline; context is the caller's.
 typedef struct cli_pipeline {
     void *context;
-    size_t slot_size; ///< bytes of a slot; zeroed once, then reused as it is
+    size_t slot_size; ///< bytes of a slot; zeroed once, then reused without clearing
     /// In order, one at a time. 1: filled; 0: there is no more (the slot is not used).
     int (*fill)(void *context, void *slot);
     /// Concurrent with others; uses its slot and constants of the context.
@@ -28,7 +28,7 @@ typedef struct cli_pipeline {
     void (*clear)(void *slot);
 } cli_pipeline;
 
-/// Runs a pipeline on that many threads (1: none are started), or as many as there are slots to fill where these are
+/// Runs a pipeline on that many threads (1: none are started), or on as many as there are slots to fill if these are
 /// fewer. Returns 0, the code with which drain stopped it, or -1: no memory or no threads.
 int pipeline_run(const cli_pipeline *pipeline, unsigned threads);
 
@@ -36,10 +36,10 @@ int pipeline_run(const cli_pipeline *pipeline, unsigned threads);
 /// are no more.
 size_t pipeline_take(size_t *next, size_t total, size_t most, size_t *first);
 
-/// Most threads of a pipeline.
+/// The largest number of threads of a pipeline.
 #define PIPELINE_THREADS_MAX 1024u
 
-/// The threads to work on: as many as are asked for, 0: one for each processor; at most PIPELINE_THREADS_MAX.
+/// The number of threads to use: as many as asked for, 0: one for each processor; at most PIPELINE_THREADS_MAX.
 unsigned pipeline_get_threads(unsigned asked);
 
 #endif

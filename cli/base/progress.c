@@ -12,7 +12,7 @@
 /// Cells of the bar.
 #define BAR_WIDTH 28
 
-/// Bytes of a file that takes a while to read and to make into a body: a second or more.
+/// The size of a file that takes a second or more to read and to make into a body.
 #define LARGE_FILE (32 << 20)
 
 /// The only bar; only the main thread uses it.

@@ -1,4 +1,4 @@
-// A progress bar on stderr, drawn only where stderr is a terminal, and removed when the work is done.
+// A progress bar on stderr, drawn only if stderr is a terminal, and removed when the work is done.
 #ifndef OVOID_CLI_BASE_PROGRESS_H
 #define OVOID_CLI_BASE_PROGRESS_H
 
@@ -7,13 +7,13 @@
 /// Starts the bar. what: for example "pairs"; total: 0 if it is not known. One bar at a time, from one thread.
 void progress_start(const char *what, size_t total);
 
-/// Says that a file is being read, where it is so large that this takes a while; progress_hide or a bar removes it.
+/// Shows that a file is being read, if it is so large that this takes a while; progress_hide or a bar removes the text.
 void progress_read(const char *path);
 
 /// Sets the number of items done; draws at most ten times a second.
 void progress_set(size_t done);
 
-/// Removes the bar from the screen, so that a message can be written there; it comes back with the next progress_set.
+/// Removes the bar from the screen, so that a message can be written there; the next progress_set draws it again.
 void progress_hide(void);
 
 /// Ends the bar.

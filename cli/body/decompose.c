@@ -1,4 +1,4 @@
-// ovoid decompose: a closed mesh in convex parts, or parts that are there already; how well they stand for it, proven.
+// ovoid decompose: convex parts of a closed mesh, computed or given; the proven error of the parts.
 #include "body/decompose.h"
 
 #include "base/finish.h"
@@ -65,7 +65,7 @@ static ovoid_decomposition_options make_options(const settings *s, const ovoid_s
         .tolerance = tolerance, .work = s->cells, .error = s->error, .parts = s->parts, .progress = show_progress};
 }
 
-/// Both lengths of the parts at hand. 0, or EXIT_INPUT after a message.
+/// Proves both lengths of the parts. 0, or EXIT_INPUT after a message.
 static int prove(decomposed *d, const ovoid_decomposition_options *o) {
     ovoid_error error;
     free(d->excess);
@@ -88,8 +88,8 @@ static void take_parts(decomposed *d, ovoid_parts *parts) {
     d->view.part_count = ovoid_parts_get_count(parts);
 }
 
-/// Cuts; and where an error is asked for that the proof does not show, cuts again with less. The estimate that leads
-/// the cuts is one from below, so one that stands out by a little more than asked is common.
+/// Computes the parts. If the proof shows a larger error than asked, cuts again with a smaller target. This is common,
+/// since the estimate that guides the cuts is a lower bound.
 static int make_parts(decomposed *d, const settings *s) {
     enum { TRIES = 5 };
     ovoid_decomposition_options o = make_options(s, d->view.solid), goal = o;
@@ -122,14 +122,14 @@ int decomposed_read_parts(decomposed *d, const char *path, const read_settings *
     return 0;
 }
 
-/// Parts of a file, and what is proven of them. 0, or EXIT_INPUT after a message.
+/// Reads parts from a file and proves their error. 0, or EXIT_INPUT after a message.
 static int read_parts(decomposed *d, const settings *s) {
     int code = decomposed_read_parts(d, s->check, &s->read);
     ovoid_decomposition_options o = make_options(s, d->view.solid);
     return code ? code : prove(d, &o);
 }
 
-/// Grows the parts by what is proven to suffice. That they cover then follows; how far they stand out is proven anew.
+/// Grows the parts by the proven length. Then they cover the solid; their excess is proven again.
 static int cover(decomposed *d, const settings *s) {
     ovoid_error error;
     double radius = d->proof.uncovered.upper;
@@ -144,7 +144,7 @@ static int cover(decomposed *d, const settings *s) {
     return code;
 }
 
-/// 0: within the error that is asked for, or none is; 1: not, proven; 4: open.
+/// 0: within the error that was asked for, or none was; 1: proven not to be; 4: not proven.
 static int judge(const decomposed *d, double error) {
     const ovoid_decomposition_proof *p = &d->proof;
     if (!(error > 0) || (p->uncovered.upper <= error && p->excess.upper <= error)) return EXIT_APART;

@@ -1,4 +1,4 @@
-// The proof of a decomposition, held against the mesh and the parts.
+// Verifies the proof of a decomposition against the mesh and the parts.
 #include "body/decompose.h"
 
 #include "base/finish.h"

@@ -1,4 +1,4 @@
-// What ovoid decompose writes: the report, JSON, CSV, and the parts as an OBJ file.
+// The output of ovoid decompose: the report, JSON, CSV, and the parts as an OBJ file.
 #include "base/args.h"
 #include "base/finish.h"
 #include "base/message.h"
@@ -130,7 +130,7 @@ static void write_parts(FILE *file, const decomposed *d) {
     }
 }
 
-/// What writes a file of a decomposition.
+/// A function that writes a file of a decomposition.
 typedef void (*writer)(FILE *file, const decomposed *d);
 
 static int write_file(const char *path, const decomposed *d, writer write) {
@@ -157,7 +157,7 @@ int decomposed_write_parts(const char *path, const decomposed *d) {
 // ---- the proof
 
 static void write_proof(FILE *file, const decomposed *d) {
-    (void)ovoid_decomposition_write_json(file, &d->view, &d->found); // the stream keeps what failed
+    (void)ovoid_decomposition_write_json(file, &d->view, &d->found); // the stream keeps its error state
 }
 
 int decomposed_write_proof(const char *path, const decomposed *d) {
@@ -170,7 +170,7 @@ int decomposed_write_proof(const char *path, const decomposed *d) {
     for (int round = 0; round < ROUNDS && code == OVOID_ERROR_LIMIT; round++, step *= 2) {
         code = ovoid_decomposition_verify(&d->view, &checked.found, &options, &error);
         if (code != OVOID_ERROR_LIMIT) break;
-        // A search may end below what it aims at, by luck; the check would need more cells.
+        // A search may happen to end below its target; then the check would need more cells.
         int is_excess = strncmp(error.message, "excess", 6) == 0;
         *(is_excess ? &checked.found.excess.upper : &checked.found.uncovered.upper) += step;
     }

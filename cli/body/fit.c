@@ -222,7 +222,7 @@ static int fit_file(fit *f, const char *path) {
     return code;
 }
 
-/// Gives a hull that its mesh is only nearly the allowance for that; 0 if memory runs out.
+/// Gives the hull of a nearly convex mesh its allowance; 0 if memory runs out.
 static int allow(const fit *f, ovoid_shape **shape, fitted *found, ovoid_error *error) {
     if (f->settings->read.hull || f->settings->parts) found->convexity.allowance = 0;
     if (!(found->convexity.allowance > 0)) return 1;

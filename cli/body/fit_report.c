@@ -10,7 +10,7 @@
 static const char *const step_titles[FIT_STEPS] = {"outer", "phase 1", "phase 2", "phase 3", "inner"};
 static const char *const step_keys[FIT_STEPS] = {"outer", "phase1", "phase2", "phase3", "inner"};
 
-/// 1 if the allowance is one across an axis.
+/// 1 if the allowance is along an axis.
 static int has_axis(const fitted *f) {
     const ovoid_vec3 axis = f->allowance.axis;
     return fabs(axis.x) + fabs(axis.y) + fabs(axis.z) > 0;

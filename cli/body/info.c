@@ -1,5 +1,6 @@
-// ovoid info: what meshes are, before anything is asked of them: closed or not, which way round, in how many pieces,
-// with what doubled, without area or through itself; how much of its hull each fills, and as what it counts.
+// ovoid info: facts about meshes before any query: whether they are closed, their orientation, their components,
+// duplicates, triangles without area, self-intersections; the share of its hull that each fills, and the kind as which
+// it is queried.
 #include "commands.h"
 
 #include "base/finish.h"
@@ -14,7 +15,7 @@
 
 #include <math.h>
 
-/// Pairs of triangles that meet are counted up to so many.
+/// The largest number of pairs of intersecting triangles that is counted.
 #define CROSSINGS_MAX 1000000
 
 typedef struct settings {
@@ -28,18 +29,18 @@ static const cli_option options[] = {
     {0},
 };
 
-/// What is known of one mesh.
+/// The facts about one mesh.
 typedef struct info {
     const char *path, *unit;
     ovoid_solid_report report;
     ovoid_solid_crossings crossings;
     ovoid_convexity convexity;
-    ovoid_mesh_kind kind; ///< as what ovoid distance takes it
+    ovoid_mesh_kind kind; ///< the kind as which ovoid distance queries it
 } info;
 
 static int is_inside_out(const info *report) { return report->report.is_closed && report->report.volume < 0; }
 
-/// 1 if there is nothing to find fault with.
+/// 1 if the mesh has no faults.
 static int is_clean(const info *report) {
     const ovoid_solid_report *r = &report->report;
     return r->is_closed && r->volume > 0 && !r->edges_crowded && !r->degenerate && !r->duplicates &&

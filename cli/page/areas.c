@@ -5,7 +5,7 @@
 // decomposition of the deformation gradient, 1984). For a picture: signs within rounding of 0 may be either.
 #include "page/areas.h"
 
-/// Least ratio of the radii of an ellipsoid that has octants.
+/// The least ratio of the radii of an ellipsoid with octants.
 #define FLAT 1e-6
 
 page_areas page_areas_make(const ovoid_shape *shape) {

@@ -1,4 +1,4 @@
-// Bodies: chosen, then written in the order of the scene; each shape once.
+// The bodies of a page: chosen, then written in the order of the scene; each shape once.
 #include "page/bodies.h"
 
 #include "base/message.h"
@@ -7,7 +7,7 @@
 
 #include <stdlib.h>
 
-/// Most bodies and pairs of a page.
+/// The largest numbers of bodies and pairs of a page.
 enum { BODIES_MOST = 10000, PAIRS_MOST = 20000 };
 
 page_body *page_bodies_list(const ovoid_scene *scene) {
@@ -28,7 +28,7 @@ page_body *page_bodies_list(const ovoid_scene *scene) {
 
 // ---- choosing
 
-/// Takes an object; 0 if there is no room.
+/// Adds an object to the choice; 0 if there is no room.
 static int take(page_choice *c, uint32_t object) {
     if (c->numbers[object] != PAGE_NO_NUMBER) return 1;
     if (c->count == BODIES_MOST) return 0;
@@ -37,7 +37,7 @@ static int take(page_choice *c, uint32_t object) {
     return 1;
 }
 
-/// Takes pairs with their objects, the nearest first.
+/// Adds pairs with their objects, the nearest first.
 static void take_pairs(page_choice *c, const page_couples *couples) {
     for (size_t i = 0; i < couples->count && c->pair_count < PAIRS_MOST; i++) {
         ovoid_couple couple = *(const ovoid_couple *)(const void *)((const char *)couples->items + i * couples->stride);
@@ -125,7 +125,7 @@ static int write_body(FILE *file, page_shapes *shapes, const page_body *b) {
     return done;
 }
 
-/// The text of all bodies, which is written behind the shapes that it adds; NULL if memory runs out.
+/// The text of all bodies, which is written after the shapes that it adds; NULL if memory runs out.
 static char *make_bodies(page_shapes *shapes, const page_body *bodies, const page_choice *c, size_t *size) {
     char *text = NULL;
     const char *before = "";

@@ -1,4 +1,4 @@
-// Which bodies and pairs are on a page, and the bodies as they are written.
+// The bodies and pairs of a page, and how bodies are written.
 #ifndef OVOID_CLI_PAGE_BODIES_H
 #define OVOID_CLI_PAGE_BODIES_H
 
@@ -6,11 +6,11 @@
 
 #include <ovoid/ovoid.h>
 
-/// A body that may come onto a page.
+/// A candidate body for a page.
 typedef struct page_body {
     const char *name;
     ovoid_body body;           ///< of a solid its hull
-    const ovoid_solid *solid;  ///< NULL: the body is no solid
+    const ovoid_solid *solid;  ///< NULL: the body is not a solid
     ovoid_convexity convexity; ///< of its mesh
     const char *mesh;          ///< the path of its mesh; NULL: none
     ovoid_read_options read;
@@ -25,10 +25,10 @@ typedef struct page_pair {
     size_t given;
 } page_pair;
 
-/// Number of an object that is not on the page.
+/// The number of an object that is not on the page.
 #define PAGE_NO_NUMBER UINT32_MAX
 
-/// What is on a page.
+/// The bodies and pairs of a page.
 typedef struct page_choice {
     uint32_t *numbers; ///< of each object: on the page, or PAGE_NO_NUMBER
     uint32_t *near;    ///< `count` objects, those of the nearest pairs first
@@ -43,8 +43,8 @@ typedef struct page_couples {
     size_t stride, count;
 } page_couples;
 
-/// Chooses at most 10 000 objects and 20 000 pairs; those of the nearest pairs come first, then objects in their order.
-/// What is left out is counted. 0, or EXIT_INPUT after a message.
+/// Chooses at most 10 000 objects and 20 000 pairs; the objects of the nearest pairs come first, then others in their
+/// order. Objects and pairs that are left out are counted. 0, or EXIT_INPUT after a message.
 int page_choose(cli_page *page, size_t object_count, const page_couples *couples, page_choice *choice);
 void page_choice_clear(page_choice *choice);
 

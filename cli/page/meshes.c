@@ -1,4 +1,4 @@
-// The meshes of a page: read again, since what is queried is their hull, and cut into triangles.
+// The meshes of a page: read again, since only their hulls are in memory, and cut into triangles.
 #include "base/message.h"
 #include "page/shapes.h"
 
@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Most bytes of the meshes of a page.
+/// The largest number of bytes of the meshes of a page.
 #define BYTES_MOST 30000000u
 
 static size_t count_triangles(const ovoid_faces *faces) {
@@ -58,7 +58,7 @@ static int copy_mesh(const ovoid_faces *faces, page_mesh *mesh) {
     return is_made;
 }
 
-/// Keeps a part of a mesh for its shape, unless it fills that. 0, or EXIT_INPUT after a message.
+/// Keeps a part of a mesh for its shape, unless the part is its hull. 0, or EXIT_INPUT after a message.
 static int keep(page_shapes *shapes, cli_page *page, const ovoid_mesh *mesh, size_t part, const ovoid_shape *shape) {
     size_t number;
     if (!page_shapes_add(shapes, shape, &number)) return message_error("out of memory"), EXIT_INPUT;
@@ -104,7 +104,7 @@ int page_shapes_add_mesh(page_shapes *shapes, cli_page *page, const ovoid_body *
                          const ovoid_read_options *read) {
     ovoid_error error;
     size_t number, count = body->shape ? 1 : ovoid_compound_get_part_count(body->compound);
-    // Standard input is gone, and a shape's file is its shape.
+    // Standard input cannot be read twice, and a shape file has no mesh.
     if (!path || ovoid_path_is_shape(path) || strcmp(path, "-") == 0) return 0;
     // Bodies of one geometry share their shapes.
     if (!page_shapes_add(shapes, get_part(body, 0), &number)) return message_error("out of memory"), EXIT_INPUT;

@@ -1,4 +1,4 @@
-// Frames come one after another, and nobody knows how many: whenever there is no more room every second one is dropped.
+// The number of frames is not known in advance: whenever there is no more room every second frame is dropped.
 #include "page/motion.h"
 
 #include "base/message.h"
@@ -10,14 +10,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Most frames, and most bytes of their poses.
+/// The largest number of frames, and of bytes of their poses.
 #define FRAMES_MOST 2000
 #define BYTES_MOST 32000000u
 
 /// Bytes of a pose.
 #define POSE_BYTES 56
 
-/// Most events.
+/// The largest number of events.
 #define EVENTS_MOST 100000
 
 int page_motion_open(page_motion *m, size_t object_count) {
@@ -27,7 +27,7 @@ int page_motion_open(page_motion *m, size_t object_count) {
                        .most = fits < 2             ? 2
                                : fits > FRAMES_MOST ? FRAMES_MOST
                                                     : fits};
-    // One more than most: the last one.
+    // Room for one more: the last frame.
     m->times = malloc((m->most + 1) * sizeof *m->times);
     m->poses = malloc((m->most + 1) * (object_count + 1) * sizeof *m->poses);
     m->last = malloc((object_count + 1) * sizeof *m->last);

@@ -12,7 +12,7 @@ typedef struct page_event {
     const char *kind;
 } page_event;
 
-/// Every stride-th frame, and the last one; how many there may be depends on the number of objects.
+/// Every stride-th frame, and the last one; the largest number of frames depends on the number of objects.
 typedef struct page_motion {
     size_t object_count, stride, most;
     size_t count, seen; ///< of the frames that are kept, of all
@@ -31,8 +31,8 @@ int page_motion_open(page_motion *motion, size_t object_count);
 /// Adds the next frame: the poses of all objects.
 void page_motion_add_frame(page_motion *motion, double time, const ovoid_pose *poses);
 
-/// Adds an impact from its record, or, with hit_after infinite, that it is not proven. until: the time of the frame
-/// after it.
+/// Adds an impact from its record; with an infinite hit_after, an interval in which nothing is proven. until: the time
+/// of the frame after it.
 void page_motion_add_impact(page_motion *motion, ovoid_couple couple, const ovoid_record *record, double until);
 
 /// Adds the first contact, and the first pair within the margin, of the frames.
@@ -44,7 +44,7 @@ int page_motion_finish(page_motion *motion);
 /// The kept frame that is nearest to a frame.
 size_t page_motion_find_frame(const page_motion *motion, size_t frame);
 
-/// Writes "motion", after page_motion_finish. margin: negative where there is none.
+/// Writes "motion", after page_motion_finish. margin: negative if there is none.
 void page_motion_write(cli_page *page, const page_motion *motion, const page_choice *choice, double margin);
 
 void page_motion_close(page_motion *motion);

@@ -1,4 +1,4 @@
-// The frame of a page: template, head, what was left out, template.
+// The frame of a page: template, head, notes about omissions, rest of the template.
 #include "page/page.h"
 
 #include "base/finish.h"
@@ -25,13 +25,13 @@ void page_keep_words(int argc, char **argv) {
     for (word_count = 0; word_count < argc; word_count++) words[word_count] = argv[word_count];
 }
 
-/// 1 if a shell takes the word as it is.
+/// 1 if a shell needs no quotes for the word.
 static int is_plain(const char *word) {
     static const char plain[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-+=./,:@%";
     return *word && !word[strspn(word, plain)];
 }
 
-/// Writes a word as a shell would read it.
+/// Writes a word with the quotes that a shell needs.
 static void write_word(FILE *file, const char *word) {
     if (is_plain(word)) {
         fputs(word, file);
@@ -77,7 +77,7 @@ static const char *get_base(const char *path) {
     return slash && slash[1] ? slash + 1 : path;
 }
 
-/// Writes the title; two files with a comma between.
+/// Writes the title; two file names are separated by a comma.
 static void write_title(FILE *file, const page_head *head) {
     char title[1024];
     snprintf(title, sizeof title, "%s%s%s", get_base(head->title), head->other ? ", " : "",
@@ -123,7 +123,7 @@ int page_begin(cli_page *page, const page_head *head) {
     return page->output ? 0 : EXIT_INPUT;
 }
 
-/// What was left out, by the keys of the data, with the words for people.
+/// Counts of what was left out, by the keys of the data, with the words for people.
 typedef struct left_item {
     const char *key;
     size_t count;

@@ -1,5 +1,5 @@
-// A page: one self-contained HTML file made of a template and data, which shows what a command found and checks it in
-// the browser. docs/page.md has the format of the data.
+// A page: one self-contained HTML file made of a template and data, which shows the results of a command and checks
+// them in the browser. docs/page.md describes the format of the data.
 #ifndef OVOID_CLI_PAGE_H
 #define OVOID_CLI_PAGE_H
 
@@ -15,14 +15,14 @@
             "also write a page for the browser, one file that shows the bodies and checks the proofs"                  \
     }
 
-/// What a page did not take.
+/// Counts of what was left out of a page.
 typedef struct page_left_out {
-    size_t pairs, bodies, meshes, proofs; ///< the nearest stay
+    size_t pairs, bodies, meshes, proofs; ///< those of the nearest pairs stay
     size_t frames, events;                ///< of a motion
     size_t states, steps;                 ///< of a robot, of a path's proof
 } page_left_out;
 
-/// A page that is being written. All zero is one that nobody asked for.
+/// A page under construction. All zero: no page is wanted.
 typedef struct cli_page {
     const char *path; ///< NULL: no page is wanted
     page_template template;
@@ -31,21 +31,21 @@ typedef struct cli_page {
     page_left_out left_out;
 } cli_page;
 
-/// Keeps the words of the command line, which are reordered later, for the page.
+/// Stores the words of the command line for the page, since they are reordered later.
 void page_keep_words(int argc, char **argv);
 
 /// Refuses standard output, and a page of a shard. -1 to go on, or EXIT_USAGE.
 int page_settle(const cli_command *command, const char *path, shard_part part);
 
-/// Reads the template, before the work that the page is to show; path NULL: nothing. 0, or EXIT_INPUT after a message.
+/// Reads the template, before the work that the page will show; path NULL: nothing. 0, or EXIT_INPUT after a message.
 int page_open(cli_page *page, const char *path);
 
-/// What stands at the head of the data.
+/// The head of the data.
 typedef struct page_head {
     const char *title; ///< a path, of which the file's name is taken
     const char *other; ///< a second one, or NULL
     const char *unit;  ///< "" for none
-    double margin;     ///< negative: none was given
+    double margin;     ///< negative: not given
 } page_head;
 
 /// Begins the file: the template up to the data, and their head. 0, or EXIT_INPUT after a message.
@@ -55,7 +55,7 @@ int page_begin(cli_page *page, const page_head *head);
 /// not 0 the file is dropped. Says on stderr what was left out. Returns the code, or EXIT_INPUT after a message.
 int page_end(cli_page *page, int code);
 
-/// Frees it, and drops a file that has not ended.
+/// Frees the page, and drops an unfinished file.
 void page_close(cli_page *page);
 
 #endif

@@ -1,5 +1,4 @@
-// Answers come as lines of JSON, as in results, whose members "a" and "b" are taken out: the page has numbers of
-// bodies.
+// Answers are lines of JSON, as in results, without their members "a" and "b": the page has numbers of bodies instead.
 #include "page/pairs.h"
 
 #include "base/inputs.h"
@@ -9,10 +8,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Pairs that are answered before they are written.
+/// The number of pairs that are answered before they are written.
 #define BLOCK 1024
 
-/// Most bytes of the proofs of a page.
+/// The largest number of bytes of the proofs of a page.
 #define PROOF_BYTES_MOST 20000000u
 
 /// The settings of lines of JSON.

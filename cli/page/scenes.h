@@ -6,10 +6,10 @@
 #include "pairs/answers.h"
 
 /// Writes the page of a scene at rest: its objects, and the pairs of a job, the nearest first, each answered with its
-/// proof. title: the scene's path. 0, or an exit code after a message. Nothing where no page is wanted.
+/// proof. title: the scene's path. 0, or an exit code after a message. Does nothing if no page is wanted.
 int page_write_scene(cli_page *page, const char *title, const answers_job *job);
 
-/// One body or two that are no scene.
+/// One body or two that are not in a scene.
 typedef struct page_bodies_source {
     const page_body *bodies; ///< mesh: the path of the file
     size_t count;
@@ -17,11 +17,11 @@ typedef struct page_bodies_source {
     double margin;    ///< negative: none was given
 } page_bodies_source;
 
-/// Writes the page of one body, or of two with the answer of their pair. 0, or EXIT_INPUT after a message. Nothing
-/// where no page is wanted.
+/// Writes the page of one body, or of two with the answer of their pair. 0, or EXIT_INPUT after a message. Does nothing
+/// if no page is wanted.
 int page_write_files(cli_page *page, const page_bodies_source *source);
 
-/// What was seen of a motion.
+/// The results of a motion.
 typedef struct page_run {
     page_motion *motion;
     cli_track *track; ///< with pairs

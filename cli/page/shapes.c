@@ -1,4 +1,4 @@
-// Shapes by number: a table of their addresses (open addressing), and each as it is written.
+// Shapes by number: a table of their addresses (open addressing), and the text of each.
 #include "page/shapes.h"
 
 #include "base/message.h"
@@ -122,7 +122,7 @@ static ovoid_vec3 get_middle(const ovoid_polytope *p, const uint32_t *corners) {
     return sum;
 }
 
-/// Writes the area in which the middle of each triangle is.
+/// Writes the area that contains the middle of each triangle.
 static void write_areas(FILE *file, const ovoid_shape *shape) {
     page_areas areas = page_areas_make(shape);
     ovoid_polytope p = ovoid_shape_get_polytope(shape);

@@ -1,4 +1,4 @@
-// Where the template is, and whether it is one.
+// Finding the template, and checking it.
 #include "page/template.h"
 
 #include "base/args.h"
@@ -10,7 +10,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/// Largest template, bytes.
+/// The largest template, bytes.
 #define SIZE_MOST ((size_t)64 << 20)
 
 static int is_file(const char *path) {
@@ -68,7 +68,7 @@ static int read_all(const char *path, page_template *t) {
     return code;
 }
 
-/// The next mark from `at` on, also behind zero bytes; the size where there is none.
+/// The next mark from `at` on, also after zero bytes; the size if there is none.
 static size_t find_mark(const page_template *t, size_t at) {
     const size_t length = sizeof PAGE_MARK - 1;
     for (; at + length <= t->size; at++)

@@ -6,8 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// The length of the character of UTF-8 at c (RFC 3629: no surrogates, no overlong forms, nothing above U+10FFFF), of
-/// which `left` bytes are there; 0 if there is none.
+/// The length of the UTF-8 character at c (RFC 3629: no surrogates, no overlong forms, nothing above U+10FFFF), of
+/// which `left` bytes are available; 0 if it is not UTF-8.
 static size_t get_length(const unsigned char *c, size_t left) {
     size_t length = c[0] < 0x80 ? 1 : c[0] < 0xc2 ? 0 : c[0] < 0xe0 ? 2 : c[0] < 0xf0 ? 3 : c[0] < 0xf5 ? 4 : 0;
     if (length > left) return 0;
@@ -37,7 +37,7 @@ void page_copy_json(FILE *file, const char *json, size_t size) {
 void page_write_text(FILE *file, const char *text) {
     fputc('"', file);
     for (const char *end; *text; text = end) {
-        // What needs no escape goes on at once, so that no character is cut.
+        // Text without escapes is written at once, so that no character is split.
         end = text;
         while ((unsigned char)*end >= 0x20 && *end != '"' && *end != '\\') end++;
         page_copy_json(file, text, (size_t)(end - text));
@@ -70,7 +70,7 @@ void page_write_pose(FILE *file, const ovoid_pose *pose) {
 
 // ---- base64
 
-/// Writes the bytes that wait, filled up with zeros, as that many characters and signs "=".
+/// Writes the waiting bytes, padded with zeros, as that many characters and signs "=".
 static void write_group(page_base64 *to) {
     static const char alphabet[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     unsigned bits = to->bits << 8 * (3 - to->count);

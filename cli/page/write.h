@@ -1,4 +1,4 @@
-// Pieces of the data of a page: JSON that no script element ends with, and arrays of numbers as base64.
+// Pieces of a page's data: JSON that cannot end a script element, and arrays of numbers as base64.
 #ifndef OVOID_CLI_PAGE_WRITE_H
 #define OVOID_CLI_PAGE_WRITE_H
 
@@ -12,7 +12,7 @@
 /// UTF-8 becomes \ufffd, and ends of lines, which no string has, go.
 void page_copy_json(FILE *file, const char *json, size_t size);
 
-/// Writes a text as a JSON string, with the same care.
+/// Writes a text as a JSON string, with the same escapes.
 void page_write_text(FILE *file, const char *text);
 
 /// Writes "KEY":[x,y,z], after `before`.
@@ -21,14 +21,14 @@ void page_write_vector(FILE *file, const char *before, const char *key, ovoid_ve
 /// Writes {"xyz":[...],"quat_wxyz":[...]}.
 void page_write_pose(FILE *file, const ovoid_pose *pose);
 
-/// Base64 (RFC 4648, the standard alphabet, padded), as the bytes come.
+/// A writer of base64 (RFC 4648, the standard alphabet, padded).
 typedef struct page_base64 {
     FILE *file;
-    unsigned bits;  ///< of the bytes that wait
-    unsigned count; ///< of these bytes, below 3
+    unsigned bits;  ///< the bits of the waiting bytes
+    unsigned count; ///< the number of these bytes, below 3
 } page_base64;
 
-/// Writes a string in quotes: begin, any number of add, end. Numbers are little-endian whatever the machine is.
+/// Writes a string in quotes: begin, any number of add, end. Numbers are little-endian on every machine.
 page_base64 page_base64_begin(FILE *file);
 void page_base64_add_bytes(page_base64 *to, const void *bytes, size_t size);
 void page_base64_add_uint32(page_base64 *to, uint32_t value);

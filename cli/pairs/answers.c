@@ -51,13 +51,13 @@ void answers_describe(const ovoid_scene *scene, ovoid_couple couple, ovoid_recor
     record->mesh_b = b.convexity;
 }
 
-/// The width that a shape's allowance gives a bracket.
+/// The width that a shape's allowance adds to a bracket.
 static double get_width(const ovoid_shape *shape) {
     ovoid_allowance allowance = ovoid_shape_get_allowance(shape);
     return allowance.outside + allowance.inside;
 }
 
-/// The largest width that the allowance of the body, or of one of its parts, gives a bracket.
+/// The largest width that the allowance of the body, or of one of its parts, adds to a bracket.
 static double find_width(const ovoid_body *body) {
     double width = body->shape ? get_width(body->shape) : 0;
     for (size_t i = 0; body->compound && i < ovoid_compound_get_part_count(body->compound); i++)
@@ -146,7 +146,7 @@ static void work(void *context, void *slot) {
             k->long_pair[1] = k->records[i].b;
         }
         if (lines && job->results->shard && !k->failed) k->failed = fflush(file) != 0, k->ends[i] = k->size;
-        // The room is used again for the next pair.
+        // The room is reused for the next pair.
         k->records[i].cover = NULL;
         k->records[i].exclusions = NULL;
         k->records[i].exclusion_count = 0;
@@ -199,7 +199,7 @@ static void clear(void *slot) {
 int answers_run(const answers_job *job) {
     work_state w = {job, 0};
     cli_pipeline line = {&w, sizeof(chunk), fill, work, drain, clear};
-    // A few pairs are answered sooner than a thread starts.
+    // A few pairs are answered faster than a thread starts.
     unsigned threads = pipeline_get_threads(job->threads);
     int code = job->count ? pipeline_run(&line, job->count <= CHUNK ? 1 : threads) : 0;
     if (code < 0) message_error("out of memory or threads"), code = EXIT_INPUT;

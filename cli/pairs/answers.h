@@ -35,7 +35,7 @@ void answer_room_clear(answer_room *room);
 /// the bodies' allowances make most of its width, as ovoid_within does. tolerance: an absolute one, that was asked for.
 void answers_settle_limit(ovoid_answer *answer, const ovoid_body_pair *pair, double margin, double tolerance);
 
-/// What two objects of a scene are taken as, for a record.
+/// Sets the kinds of two objects of a scene in a record.
 void answers_describe(const ovoid_scene *scene, ovoid_couple couple, ovoid_record *record);
 
 /// The object of a scene as a body, at a pose.
@@ -46,12 +46,12 @@ typedef struct answers_job {
     const ovoid_scene *scene;
     const ovoid_pose *poses; ///< of its objects
     int query;
-    double margin, tolerance; ///< margin: that of the records; negative where there is none
+    double margin, tolerance; ///< margin: that of the records; negative if there is none
     unsigned threads;
     const void *couples; ///< ovoid_couple, `stride` bytes apart
     size_t stride, count;
     double time;
-    cli_results *results; ///< where the records go; NULL: nowhere
+    cli_results *results; ///< where records are written; NULL: nowhere
     /// The place of a record's line among those of all shards; called for shards only.
     shard_key (*make_key)(void *context, size_t i);
     /// Receives each record in order (without cover and exclusions); i: of the couple. May be NULL.
@@ -59,7 +59,7 @@ typedef struct answers_job {
     void *context;
 } answers_job;
 
-/// Answers all pairs. 0, or an exit code, after a message where one is due.
+/// Answers all pairs. 0, or an exit code, after a message if one is due.
 int answers_run(const answers_job *job);
 
 #endif

@@ -1,4 +1,4 @@
-// ovoid batch: many pairs of a list of shapes, on several threads, results in the order of the pairs.
+// ovoid batch: many pairs of a list of shapes, on several threads; results in the order of the pairs.
 #include "commands.h"
 
 #include "base/inputs.h"
@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Pairs of a chunk. The same for any number of threads, so that the output is too.
+/// The pairs of a chunk: the same number for any number of threads, so that the output is the same too.
 #define CHUNK 128
 
 typedef struct settings {
@@ -53,7 +53,7 @@ typedef struct chunk {
     size_t count;
     ovoid_indexed_pair pairs[CHUNK];
     ovoid_answer answers[CHUNK];
-    ovoid_cover *cover; ///< for one answer after another, of distance queries
+    ovoid_cover *cover; ///< reused for one answer after another, of distance queries
     char *text;         ///< the lines of its records
     size_t size;
     int failed; ///< no memory
@@ -69,7 +69,7 @@ typedef struct batch {
     size_t counts[4];                  ///< by ovoid_status
     size_t sides[EXIT_NOT_PROVEN + 1]; ///< of the margin, by exit_code
     exit_code worst;
-    int refused; ///< a line of the pairs is wrong: *error has the message
+    int refused; ///< a line of the pairs is wrong: `error` has the message
     ovoid_error error;
 } batch;
 
@@ -173,7 +173,7 @@ static size_t count_pairs(const char *path) {
     return lines > 1 ? lines - 1 : 0;
 }
 
-/// Says how many pairs there are of each kind that was asked for: sides of the margin, or signs.
+/// Reports how many pairs there are of each kind that the query distinguishes: sides of the margin, or signs.
 static void report_counts(const batch *b, double seconds) {
     const char *unit = inputs_get_unit(&b->settings->read);
     if (b->settings->margin >= 0)
@@ -186,14 +186,14 @@ static void report_counts(const batch *b, double seconds) {
                      b->counts[OVOID_UNDECIDED]);
 }
 
-/// 1 if a mesh of the list is not its hull, which is what is queried.
+/// 1 if a mesh of the list is not its hull, while its hull is queried.
 static int has_nonconvex(const ovoid_shapes *shapes) {
     size_t i = 0, count = ovoid_shapes_get_count(shapes);
     while (i < count && ovoid_shapes_get(shapes, i).convexity.kind == OVOID_MESH_HULL) i++;
     return i < count;
 }
 
-/// Opens the output; of a shard, with what an earlier run has done left out. 0, or an exit code after a message.
+/// Opens the output; for a shard, removes what an earlier run left unfinished. 0, or an exit code after a message.
 static int open_output(batch *b, shard_job *job) {
     const settings *s = b->settings;
     unsigned fields = (s->margin >= 0 ? OVOID_RECORD_MARGIN : 0) | (has_nonconvex(b->shapes) ? OVOID_RECORD_MESHES : 0);
@@ -224,7 +224,7 @@ static int run_pairs(batch *b, shard_job *job) {
     return code;
 }
 
-/// Checks the options together. -1 to go on, or EXIT_USAGE.
+/// Checks the options together. -1 to continue, or EXIT_USAGE.
 static int settle(const cli_command *command, settings *s) {
     if (!s->list) return args_complain(command, "batch: --shapes LIST is missing");
     if (!s->pairs) return args_complain(command, "batch: --pairs PAIRS.csv is missing");
@@ -235,7 +235,8 @@ static int settle(const cli_command *command, settings *s) {
     return results_settle_part(command, &s->out, s->part);
 }
 
-/// Refuses meshes that are not their hulls, unless those are asked for: -1 to go on, or EXIT_INPUT after a message.
+/// Refuses meshes that are not their hulls, unless the options ask for hulls: -1 to continue, or EXIT_INPUT after a
+/// message.
 static int validate_meshes(const settings *s, const ovoid_shapes *shapes) {
     if (s->read.hull) return inputs_warn_list(shapes), -1;
     for (size_t i = 0; i < ovoid_shapes_get_count(shapes); i++) {

@@ -1,6 +1,6 @@
-// ovoid check: all pairs of a scene, sorted by distance; with a margin, those that a world does not prove farther.
-// Pairs are stored as small rows; their answers are found twice, once to sort and once to be written, so that millions
-// of pairs and their proofs take bounded memory.
+// ovoid check: all pairs of a scene, sorted by distance; with a margin, those that a world does not prove to be
+// farther. Pairs are stored as small rows. Their answers are computed twice, once for sorting and once for output, so
+// that millions of pairs and their proofs take bounded memory.
 #include "commands.h"
 
 #include "base/inputs.h"
@@ -59,7 +59,7 @@ typedef struct check {
     cli_results results;
     cli_page page;
     const char *path; ///< of the scene
-    size_t kept;      ///< rows of a shard that an earlier run has written
+    size_t kept;      ///< rows of a shard that an earlier run wrote
 } check;
 
 /// Makes the rows of all pairs, or of those that are near. 0, or EXIT_INPUT after a message.
@@ -127,7 +127,7 @@ static void report_counts(const check *c, const tally *t, double seconds) {
                      objects, c->row_count, seconds, t->apart, t->touch, t->not_proven);
 }
 
-/// How many of the rows are listed.
+/// The number of rows that are listed.
 static size_t get_listed(const check *c) {
     unsigned top = c->settings->top;
     int is_short = top == TOP_UNSET && c->settings->margin < 0 && !results_are_lines(&c->results);
@@ -179,15 +179,15 @@ static shard_key make_key(void *context, size_t i) {
 static void end_row(void *context, size_t i, const ovoid_record *record) {
     check *c = context;
     (void)i, (void)record;
-    (void)results_end_units(&c->results, 1); // a failure is kept, and found with the next line
+    (void)results_end_units(&c->results, 1); // a failure is stored, and reported with the next line
 }
 
-/// Counts all rows, also those that are not listed.
+/// Counts all rows, including those that are not listed.
 static void count_sides(check *c) {
     for (size_t i = 0; i < c->row_count; i++) results_count(&c->results, c->rows[i].code);
 }
 
-/// Answers the pairs of a shard and writes them in their order, behind those that an earlier run has written.
+/// Answers the pairs of a shard and writes them in their order, after those that an earlier run wrote.
 static int run_shard(check *c, const cli_command *command, const cli_operands *paths) {
     const settings *s = c->settings;
     shard_job shard = {

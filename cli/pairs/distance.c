@@ -36,7 +36,7 @@ static const cli_option options[] = {
     {0},
 };
 
-/// Where the report goes, and the unit of its lengths, with a blank before it; "" for none.
+/// Where the report is written, and the unit of its lengths, with a blank before it; "" for none.
 typedef struct report {
     FILE *file;
     char unit[8];
@@ -118,7 +118,7 @@ static void print_margin(const report *r, const ovoid_answer *answer, double mar
     fprintf(r->file, "%-11s %.9g%s: %s\n", "margin", margin, r->unit, words);
 }
 
-/// Prints the distance or the depth; of a bracket that is wide both ends.
+/// Prints the distance or the depth; for a wide bracket both ends.
 static void print_distance(const report *r, const ovoid_answer *answer) {
     char text[64];
     int is_depth = answer->upper < 0;
@@ -153,7 +153,7 @@ static void print_report(const report *r, const cli_body bodies[2], const ovoid_
     fprintf(file, "%s\n", holds ? "checked" : "DOES NOT HOLD");
 }
 
-/// Checks a record by its proof alone.
+/// Verifies a record by its proof alone.
 static int verify_record(const ovoid_body_pair *pair, const ovoid_record *record, double tolerance) {
     ovoid_error error;
     const ovoid_options asked = {.absolute_tolerance = tolerance};
@@ -170,7 +170,7 @@ static int verify_record(const ovoid_body_pair *pair, const ovoid_record *record
     return 0;
 }
 
-/// Answers the pair, checks the proof, writes the record. Returns the exit code.
+/// Answers the pair, verifies the proof, writes the record. Returns the exit code.
 static int answer_pair(const settings *s, const cli_body bodies[2], const char *const paths[2]) {
     ovoid_body_pair pair = {inputs_get_body(&bodies[0], &s->pose_a), inputs_get_body(&bodies[1], &s->pose_b)};
     const answers_query query = {QUERY_DISTANCE, s->margin, s->tolerance, 1, NULL};
@@ -202,7 +202,7 @@ static int answer_pair(const settings *s, const cli_body bodies[2], const char *
     return results_close(&results, code);
 }
 
-/// Answers as solids where one of the bodies is one: the exit code, or -1 if none is.
+/// Answers as solids if one of the bodies is a solid: the exit code, or -1 if none is.
 static int answer_solids(const settings *s, const cli_body bodies[2], const char *const paths[2]) {
     const ovoid_pose poses[2] = {s->pose_a, s->pose_b};
     solids_query query = {s->margin, s->tolerance, inputs_get_unit(&s->read)};

@@ -1,6 +1,5 @@
-// Impacts between two frames: boxes that hold each object over the whole interval are swept along x; the remaining
-// pairs go to ovoid_body_impact_find, on several threads. A pair is a candidate until it first comes within the
-// margin.
+// Impacts between two frames: boxes that contain each object over the whole interval are swept along x; the remaining
+// pairs go to ovoid_body_impact_find, on several threads. A pair is a candidate until it first comes within the margin.
 #include "pairs/impacts.h"
 
 #include "base/message.h"
@@ -14,10 +13,10 @@
 /// Pairs of a chunk.
 #define CHUNK 16
 
-/// Part of the time between two frames to which impacts are found: the default of ovoid_motion_options.
+/// The tolerance of impacts, relative to the time between two frames: the default of ovoid_motion_options.
 #define TOLERANCE 1e-9
 
-/// Steps of a proof for which there is room at first.
+/// The initial room for steps of a proof.
 #define STEPS 64
 
 /// The result for one pair: an impact, or none.
@@ -101,12 +100,12 @@ static int compare_couples(const void *a, const void *b) {
     return p->b < q->b ? -1 : p->b > q->b;
 }
 
-/// 1 if the pair is among these, which ascend.
+/// 1 if the pair is in the list, which is in ascending order.
 static int has_couple(const ovoid_couple *couples, size_t count, ovoid_couple c) {
     return count && bsearch(&c, couples, count, sizeof c, compare_couples);
 }
 
-/// 1 for a candidate: one of the two moves, the scene does not ignore the pair, and it was not proven within the
+/// 1 for a candidate: one of the two moves, the scene does not ignore the pair, and the pair was not proven within the
 /// margin.
 static int is_candidate(const cli_impacts *impacts, ovoid_couple c) {
     if (!impacts->frames->is_moved[c.a] && !impacts->frames->is_moved[c.b]) return 0;
@@ -133,7 +132,7 @@ static int find_couples(cli_impacts *impacts) {
 
 /* ---- their impacts */
 
-/// Makes room for the steps of a proof and, of compounds, for their groups. 0 if memory runs out.
+/// Makes room for the steps of a proof and, for compounds, for their groups. 0 if memory runs out.
 static int reserve(pair_impact *p, ovoid_motion_options *options) {
     options->steps = realloc(p->steps, options->capacity * sizeof *p->steps);
     if (!options->steps) return 0;
@@ -208,7 +207,7 @@ static const ovoid_impact *get_impact(const impact *item) { return &item->pair.f
 
 static int is_hit(const impact *item) { return get_impact(item)->status == OVOID_IMPACT_HIT; }
 
-/// The time of an impact: when the pair is within the margin; where that is not proven, until when it is free.
+/// The time of an impact: when the pair is within the margin; if that is not proven, until when it is free.
 static double get_time(const impact *item) {
     return is_hit(item) ? get_impact(item)->hit_at : get_impact(item)->free_until;
 }
@@ -237,15 +236,15 @@ static int answer_compounds(const cli_impacts *impacts, const impact *item, answ
     answers_query query = {QUERY_WITHIN, impacts->margin, 0, results_have_proofs(impacts->results), NULL};
     int done = answers_find(room, &pair, &query, record);
     if (!done || !is_hit(item) || record->answer.upper <= impacts->margin) return done;
-    // Of bodies with allowances the few pairs of one proof may show less than those of the hit.
+    // For bodies with allowances the few pairs of one proof may prove less than those of the hit.
     ovoid_body_proof earlier = {item->pair.found.part_a, item->pair.found.part_b, get_impact(item)->hit.proof};
     query.earlier = &earlier;
     return answers_find(room, &pair, &query, record);
 }
 
-/// Makes the record of an impact. Of compounds the answer is that of the whole bodies at that time, whose proof is
-/// complete. Where the impact is not proven, the record says why, and has the answer where the free time ends. 0 if
-/// memory is out.
+/// Makes the record of an impact. For compounds the answer is that of the whole bodies at that time, with a complete
+/// proof. If the impact is not proven, the record says why, and has the answer at the end of the free time. 0 if memory
+/// runs out.
 static int make_record(const cli_impacts *impacts, const impact *item, answer_room *room, ovoid_record *record) {
     const ovoid_couple c = item->couple;
     const ovoid_impact *found = get_impact(item);
@@ -272,9 +271,9 @@ static int make_record(const cli_impacts *impacts, const impact *item, answer_ro
     return done;
 }
 
-/// 1 if a pair that is proven free until the frame, but for the tolerance, is not proven beyond the margin there: it
-/// arrives with the frame, whose own line says how near it is. That it meets no later than that, a bracket of the
-/// distance around the margin cannot prove.
+/// 1 if a pair that is proven free until the frame, to the tolerance, is not proven farther than the margin there: it
+/// arrives with the frame, whose own line has its distance. A bracket of the distance that contains the margin cannot
+/// prove that the pair is within the margin by then.
 static int is_arrival(const cli_impacts *impacts, const impact *item) {
     const cli_frames *f = impacts->frames;
     const ovoid_couple c = item->couple;
@@ -286,7 +285,8 @@ static int is_arrival(const cli_impacts *impacts, const impact *item) {
     return within > 0 || (within < 0 && at_end.limit == OVOID_LIMIT_NONE);
 }
 
-/// Writes the line of an impact. Those of a frame come before its own lines, in the order of compare_impacts.
+/// Writes the line of an impact. Impacts before a frame are written before its own lines, in the order of
+/// compare_impacts.
 static int write_impact(cli_impacts *impacts, const impact *item, const ovoid_record *record) {
     if (!impacts->results->shard) return results_add(impacts->results, record);
     const shard_key key = {{2 * (uint64_t)impacts->frames->count, shard_key_from_number(get_time(item)),
@@ -300,7 +300,7 @@ static int write_impacts(cli_impacts *impacts, const impact *items) {
     for (size_t i = 0; i < impacts->couple_count && !code; i++) {
         ovoid_record record;
         if (get_impact(&items[i])->status == OVOID_IMPACT_FREE) continue;
-        // That an open pair stays open is in the lines of the frames.
+        // The lines of the frames show that an open pair stays open.
         if (!is_hit(&items[i]) && has_couple(impacts->open, impacts->open_count, items[i].couple)) continue;
         int arrives = is_arrival(impacts, &items[i]);
         if (is_hit(&items[i]) || arrives)

@@ -1,4 +1,4 @@
-// Near pairs come from a world (broad phase and cached proofs, see <ovoid/world.h>); their answers are found by new
+// Near pairs come from a world (broad phase and cached proofs, see <ovoid/world.h>); their answers come from new
 // queries, so that they do not depend on earlier ones.
 #include "pairs/near.h"
 
@@ -8,16 +8,16 @@
 
 #include <stdlib.h>
 
-/// Most pairs.
+/// The largest number of pairs.
 #define COUPLES_MAX 50000000
 
-/// Most pairs that a world may keep, with some 400 bytes for each.
+/// The largest number of pairs that a world may keep, with some 400 bytes for each.
 #define CANDIDATES_MAX 10000000
 
 /// Bodies that are moved by one call.
 #define MOVES 1024
 
-/// The object of an id: they were added in order, to an empty world.
+/// The object of an id: objects were added in order, to an empty world.
 static uint32_t get_object(const cli_near *near, ovoid_id id) { return (uint32_t)((id >> 32) - (near->ids[0] >> 32)); }
 
 /// Called for each pair that comes near.
@@ -30,7 +30,7 @@ static int is_wanted(void *context, ovoid_id a, ovoid_id b) {
     return 1;
 }
 
-/// Memory for the world; none once there are too many pairs, so that it does not go on to find and answer all of them.
+/// Allocates for the world; fails once there are too many pairs, so that it does not find and answer all of them.
 static void *allocate(void *context, size_t size) {
     const cli_near *near = context;
     return near->candidates > CANDIDATES_MAX ? NULL : aligned_alloc(64, (size + 63) / 64 * 64);
@@ -128,7 +128,7 @@ static int find_all(cli_near *near) {
     near->count = 0;
     for (size_t a = 0; a < count; a++)
         for (size_t b = a + 1, end; b < count; b = end) {
-            // The row's next pairs that go to one shard.
+            // The next pairs of the row that belong to one shard.
             end = b / SHARD_ROW * SHARD_ROW + SHARD_ROW < count ? b / SHARD_ROW * SHARD_ROW + SHARD_ROW : count;
             if (!shard_part_has_pair(near->part, (uint32_t)a, (uint32_t)b)) continue;
             if (reserve(near, near->count + end - b)) return EXIT_INPUT;

@@ -1,5 +1,4 @@
-// The pairs of a scene's objects that are worth an answer: all, or those that are not proven farther apart than a
-// margin.
+// The pairs of a scene's objects that are answered: all, or those that are not proven farther apart than a margin.
 #ifndef OVOID_CLI_PAIRS_NEAR_H
 #define OVOID_CLI_PAIRS_NEAR_H
 

@@ -1,7 +1,7 @@
-// ovoid run: a scene that moves. Frame by frame a world finds the pairs that are not proven farther apart than the
-// margin; each is answered by a new query, so that its line depends on no earlier frame, and can be checked alone. With
-// --continuous the times of impact between frames are bracketed. Memory does not grow with the number of frames, except
-// for the points of a plot.
+// ovoid run: a scene that moves. In each frame a world finds the pairs that are not proven farther apart than the
+// margin; each is answered by a new query, so that its line does not depend on earlier frames, and can be checked
+// alone. With --continuous the times of impact between frames are bracketed. Memory does not grow with the number of
+// frames, except for the points of a plot.
 #include "commands.h"
 
 #include "base/frames.h"
@@ -67,15 +67,15 @@ typedef struct run_state {
     size_t counts[4];   ///< of the records of frames, by ovoid_status
     exit_code worst;
     int code;      ///< the exit code of a failed callback, or 0
-    uint64_t kept; ///< frames of a shard that an earlier run has written
+    uint64_t kept; ///< frames of a shard that an earlier run wrote
 } run_state;
 
-/// The margin of impacts: 0, touching, where none was given.
+/// The margin of impacts: 0, touching, if none was given.
 static double get_margin(const settings *s) { return s->margin > 0 ? s->margin : 0; }
 
 /* ---- records, as they come */
 
-/// Notes a pair for the impacts until the next frame.
+/// Records a pair for the impacts until the next frame.
 static void take_held(void *context, size_t i, const ovoid_record *record) {
     run_state *r = context;
     const settings *s = r->settings;
@@ -85,7 +85,7 @@ static void take_held(void *context, size_t i, const ovoid_record *record) {
     r->code = is_open ? impacts_leave_open(&r->impacts, couple) : impacts_hold(&r->impacts, couple);
 }
 
-/// Counts an answer by the exit code that it would give.
+/// Counts an answer by its exit code.
 static void take_side(run_state *r, exit_code side) {
     r->worst = results_worse(r->worst, side);
     results_count(&r->results, side);
@@ -101,7 +101,7 @@ static void take_record(void *context, size_t i, const ovoid_record *record) {
     take_held(r, i, record);
 }
 
-/// The lines of a frame are in the order of their pairs, behind the impacts before it.
+/// The lines of a frame are in the order of their pairs, after the impacts before the frame.
 static shard_key make_key(void *context, size_t i) {
     const run_state *r = context;
     const ovoid_couple couple = r->near.couples[i];
@@ -117,7 +117,8 @@ static void take_impact(void *context, ovoid_couple couple, const ovoid_record *
 
 /* ---- the frames */
 
-/// Answers the pairs of a frame. is_kept: their lines are in the shard, and only what the next frame needs is noted.
+/// Answers the pairs of a frame. is_kept: their lines are in the shard already, and only the data for the next frame
+/// are kept.
 static int answer_frame(run_state *r, int is_kept) {
     const settings *s = r->settings;
     answers_job job = {.scene = r->scene,
@@ -142,7 +143,7 @@ static int answer_frame(run_state *r, int is_kept) {
 static int run_frame(run_state *r) {
     int code = 0, is_kept = r->frames.count <= r->kept;
     if (r->settings->continuous && r->frames.count > 1 && !is_kept) code = impacts_find(&r->impacts);
-    // The world goes through all frames: what it remembers of a pair it has from them.
+    // The world goes through all frames, since it keeps the proofs of pairs from one to the next.
     if (!code) code = near_move(&r->near, r->frames.moved, r->frames.moved_count, r->frames.poses);
     if (!code) code = near_find(&r->near);
     track_add_frame(&r->track, r->frames.time);
@@ -191,8 +192,8 @@ static unsigned get_fields(const run_state *r) {
            (s->continuous ? OVOID_RECORD_IMPACT : 0) | (s->margin >= 0 ? OVOID_RECORD_MARGIN : 0);
 }
 
-/// The motion of a shard's pairs: frames cannot be cut, since what a world remembers of a pair goes from one to the
-/// next, but of each pair it remembers nothing from others.
+/// Runs the motion for the pairs of a shard. Frames cannot be divided, since a world keeps the proof of a pair from
+/// frame to frame; pairs can, since it keeps each pair's proof by itself.
 static int run_shard(run_state *r, const cli_command *command, const cli_operands *paths) {
     const settings *s = r->settings;
     shard_job job = {command, s, paths, s->part, .seen = shard_digest_make(), .units = "frames"};
@@ -205,7 +206,7 @@ static int run_shard(run_state *r, const cli_command *command, const cli_operand
     return results_close(&r->results, code);
 }
 
-/// Writes the page. 0, or an exit code after a message; nothing where none is wanted.
+/// Writes the page. 0, or an exit code after a message; does nothing if no page is wanted.
 static int write_page(run_state *r, const char *title) {
     const settings *s = r->settings;
     const answers_job job = {.scene = r->scene,
@@ -243,7 +244,7 @@ static int run_motion(run_state *r, const char *title) {
     return write_page(r, title) ? EXIT_INPUT : code;
 }
 
-/// Checks the options together. -1 to go on, or EXIT_USAGE.
+/// Checks the options together. -1 to continue, or EXIT_USAGE.
 static int settle(const cli_command *command, settings *s) {
     if (!s->motion) return args_complain(command, "run: --motion MOTION.csv is missing");
     if (s->query == QUERY_WITHIN && s->margin < 0) return args_complain(command, "run: --query within needs --margin");

@@ -1,5 +1,5 @@
-// The summary of a motion: what touches from the beginning, what first comes near after it, the impacts, and the
-// smallest distance. Pairs that rest on each other from the beginning come apart from those that meet.
+// The summary of a motion: pairs that touch from the beginning, the first pairs that come near later, the impacts, and
+// the smallest distance. Pairs that rest on each other from the beginning are listed apart from those that meet.
 #include "pairs/run_report.h"
 
 #include "base/message.h"
@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/// Most pairs of the beginning that are named.
+/// The largest number of pairs of the beginning that are named.
 #define NAMED_MAX 3
 
 /// Room for the names of a pair.
@@ -27,7 +27,7 @@ static void write_event_names(char *text, const run_summary *s, const track_even
                 ovoid_scene_get(s->scene, event->couple.b).name, event->part_b);
 }
 
-/// "between 1 and 1.5"; an impact's bracket is narrow: both ends have as many digits as tell them apart.
+/// "between 1 and 1.5"; the bracket of an impact is narrow, so both ends have as many digits as distinguish them.
 static void write_times(char *text, size_t room, double from, double until) {
     char ends[2][40];
     for (int digits = 9; digits <= 17; digits += 4) {
@@ -113,7 +113,7 @@ static void report_smallest(const run_summary *s) {
                  nearest->time, names);
 }
 
-/// One sentence where no pair came within the margin, neither in a frame nor between two. 1: it was said.
+/// Writes one sentence if no pair came within the margin, neither in a frame nor between two. 1: it was written.
 static int report_nothing(const run_summary *s, double seconds) {
     const size_t *n = s->counts,
                  listed = n[OVOID_UNDECIDED] + n[OVOID_SEPARATED] + n[OVOID_TOUCHING] + n[OVOID_OVERLAPPING];

@@ -1,4 +1,4 @@
-// Pairs of which one body at least is a solid: reading it, the answer and its report.
+// Pairs with at least one solid: reading them, the answer and its report.
 #include "pairs/solids.h"
 
 #include "base/message.h"
@@ -86,7 +86,7 @@ void solids_describe_bodies(const cli_body bodies[2], ovoid_record *record) {
 
 // ---- the answer
 
-/// An answer with its proof, and whether that holds.
+/// An answer with its proof, and whether the proof holds.
 typedef struct solids_result {
     ovoid_body_answer answer;
     ovoid_exclusions exclusions;
@@ -143,7 +143,7 @@ static void print_margin(FILE *file, const solids_query *q, const ovoid_body_ans
     fprintf(file, "%-11s %.9g%s: within: %s\n", "margin", q->margin, unit, word);
 }
 
-// Why there is no depth.
+// Explains why there is no depth.
 static void print_surfaces(FILE *file, const solids_pair *p) {
     int a = solids_get_kind(p->solids[0]) == OVOID_MESH_SURFACE,
         b = solids_get_kind(p->solids[1]) == OVOID_MESH_SURFACE;

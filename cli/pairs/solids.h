@@ -1,4 +1,4 @@
-// Mesh files as solids: the triangles themselves, in the place of their hull.
+// Mesh files as solids: the triangles themselves instead of their hull.
 #ifndef OVOID_CLI_PAIRS_SOLIDS_H
 #define OVOID_CLI_PAIRS_SOLIDS_H
 
@@ -7,7 +7,7 @@
 
 #include <ovoid/ovoid.h>
 
-/// What the options make of meshes: each a solid, its hull, or what the mesh itself suggests.
+/// The options' choice for meshes: each a solid, its hull, or the kind that its triangles show.
 typedef struct solids_choice {
     int solid, parts, hull;
 } solids_choice;
@@ -28,17 +28,17 @@ typedef struct solids_choice {
         "hull", 0, OPTION_FLAG, offsetof(settings, choice.hull), NULL, NULL, "each mesh is its convex hull"            \
     }
 
-/// At most one of them: -1 to go on, or EXIT_USAGE.
+/// At most one of them may be set: -1 to continue, or EXIT_USAGE.
 int solids_settle(const cli_command *command, const solids_choice *choice);
 
-/// The same settings, with what the choice says of hulls and solids.
+/// The settings, with the choice of hulls and solids applied.
 read_settings solids_get_read(const read_settings *read, const solids_choice *choice);
-/// The triangles of a body, where it is a solid or a surface, else NULL. Says what is a surface.
+/// The triangles of a body, if it is a solid or a surface, else NULL. Warns of a surface.
 const ovoid_solid *solids_get(const char *path, const cli_body *body);
-/// SOLID or SURFACE; of NULL HULL.
+/// SOLID or SURFACE; HULL for NULL.
 ovoid_mesh_kind solids_get_kind(const ovoid_solid *solid);
 
-/// Two files' bodies, of which each may be a solid.
+/// The bodies of two files; each may be a solid.
 typedef struct solids_pair {
     const char *const *paths;
     const ovoid_solid *solids[2]; ///< NULL: the body's hull
@@ -49,22 +49,21 @@ typedef struct solids_pair {
 /// A pair of bodies that are open. Returns how many are solids or surfaces.
 int solids_make_pair(const char *const *paths, const cli_body bodies[2], const ovoid_pose poses[2], solids_pair *pair);
 
-/// Sets a record's kinds and volumes from two bodies, and the field that says so where one of their meshes is not
-/// its hull.
+/// Sets a record's kinds and volumes from two bodies, and the field for it if one of their meshes is not its hull.
 void solids_describe_bodies(const cli_body bodies[2], ovoid_record *record);
-/// The same where one at least is a solid.
+/// As solids_describe_bodies, for a pair with at least one solid.
 void solids_describe(const solids_pair *pair, ovoid_record *record);
 
-/// What a pair of bodies is asked.
+/// The query of a pair of bodies.
 typedef struct solids_query {
     double margin, tolerance; ///< margin negative: not given
     const char *unit;
 } solids_query;
 
-/// Answers, checks the proof, writes the answer as text, JSON or CSV. Returns the exit code.
+/// Answers, verifies the proof, writes the answer as text, JSON or CSV. Returns the exit code.
 int solids_answer(const solids_pair *pair, const solids_query *query, const output_settings *out);
 
-/// Says of a solid that it encloses nothing, where that is so.
+/// Warns of a solid that encloses nothing.
 void solids_warn_flat(const char *path, const ovoid_solid *solid);
 
 #endif

@@ -1,4 +1,4 @@
-// Which boxes are near each other.
+// Finding the boxes that are near each other.
 #ifndef OVOID_CLI_PAIRS_SWEEP_H
 #define OVOID_CLI_PAIRS_SWEEP_H
 

@@ -1,5 +1,5 @@
-// The summary of a motion, and its plot. Memory: a point for each pair and frame within the margin and each impact,
-// only where a plot is wanted.
+// The summary of a motion, and its plot. Memory: a point for each pair and frame within the margin and for each impact,
+// only if a plot is wanted.
 #include "pairs/track.h"
 
 #include "base/args.h"
@@ -13,13 +13,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Most points of a plot: 40 bytes each.
+/// The largest number of points of a plot: 40 bytes each.
 #define POINTS_MAX 50000000
 
-/// Most pairs that are drawn.
+/// The largest number of pairs in a plot.
 #define DRAWN_MAX 6
 
-/// Most points of a line before neighbours are drawn as one.
+/// The largest number of points of a line before neighbours are drawn as one.
 #define LINE_POINTS 1500
 
 /* ---- keeping */
@@ -46,7 +46,7 @@ static int grow_slots(cli_track *t) {
     return 1;
 }
 
-/// The pair's entry, made where there is none; NULL if memory runs out.
+/// The pair's entry, made if it is new; NULL if memory runs out.
 static track_pair *find_pair(cli_track *t, ovoid_couple couple) {
     if (!grow_slots(t)) return NULL;
     size_t *slot = find_slot(t, couple.a, couple.b);
@@ -57,7 +57,7 @@ static track_pair *find_pair(cli_track *t, ovoid_couple couple) {
     return &t->pairs[t->pair_count - 1];
 }
 
-/// Adds a point of the frame that was begun last, and keeps the lowest; 0 if there is no more room.
+/// Adds a point to the present frame, and updates the lowest one; 0 if there is no more room.
 static int add_point(cli_track *t, ovoid_couple couple, const ovoid_record *record, int is_impact) {
     const ovoid_answer *answer = &record->answer;
     track_pair *pair = t->point_count < POINTS_MAX ? find_pair(t, couple) : NULL;
@@ -77,7 +77,7 @@ static int add_point(cli_track *t, ovoid_couple couple, const ovoid_record *reco
     return 1;
 }
 
-/// Adds a point where a plot or the pairs are wanted, until there are too many.
+/// Adds a point if a plot or the pairs are wanted, until there are too many.
 static void keep_point(cli_track *t, ovoid_couple couple, const ovoid_record *record, int is_impact) {
     if ((t->has_plot || t->has_pairs) && !t->is_full) t->is_full = !add_point(t, couple, record, is_impact);
 }
@@ -134,7 +134,7 @@ static int has_pair(const track_events *events, ovoid_couple couple) {
     return 0;
 }
 
-/// The states of an answer; margin negative: there is none.
+/// The states of an answer; margin negative: none.
 static unsigned find_answer_states(const ovoid_answer *answer, double margin) {
     if (answer->status == OVOID_TOUCHING || answer->status == OVOID_OVERLAPPING) return TRACK_TOUCHES | TRACK_WITHIN;
     unsigned sign = answer->status == OVOID_UNDECIDED ? TRACK_SIGN : 0;
@@ -192,7 +192,7 @@ typedef struct line_room {
     char name[128];
 } line_room;
 
-/// The line is the lower bound. The bracket of a yes or no has a band and no line.
+/// The line is the lower bound. The bracket of a yes or no is drawn as a band without a line.
 static void add_value(line_room *l, double x, const track_point *p) {
     double low = p->lower, high = p->upper;
     l->x[l->count] = x;
@@ -204,7 +204,7 @@ static void add_value(line_room *l, double x, const track_point *p) {
 /// 1 if the pair was farther than the margin between two of its points.
 static int is_gap(const track_point *p, const track_point *next) { return next->frame > p->frame + !next->is_impact; }
 
-/// Fills the line of a pair's distances; a gap where frames are missing, `group` neighbours as one.
+/// Fills the line of a pair's distances, with a gap for missing frames and `group` neighbours as one.
 static int fill_line(const track_pair *pair, line_room *l) {
     static const track_point no_point = {.lower = NAN, .upper = NAN};
     size_t group = pair->count / LINE_POINTS + 1, room = 2 * pair->count + 2;
@@ -229,7 +229,7 @@ static int fill_line(const track_pair *pair, line_room *l) {
     return 1;
 }
 
-/// Fills the places of the impacts of pairs; `high` ends of brackets, which are proven to be within the margin.
+/// Fills the places of the impacts of pairs: the `high` ends of brackets, which are proven to be within the margin.
 static int fill_impacts(const track_pair *pairs, size_t count, line_room *l) {
     size_t room = 1;
     for (size_t i = 0; i < count; i++) room += pairs[i].count;
@@ -289,7 +289,7 @@ int track_write_plot(cli_track *t, const char *path, const ovoid_scene *scene, d
     double ends[2] = {t->frame_count ? t->first : 0, t->frame_count ? t->last : 1};
     double limits[2] = {margin, margin}, nothing[2] = {NAN, NAN};
     size_t drawn = count;
-    // The axis spans the whole motion, wherever there are distances.
+    // The axis spans the whole motion, even without distances.
     series[drawn++] = (ovoid_series){NULL, OVOID_SERIES_LINE, 2, ends, nothing, NULL, NULL};
     if (margin > 0) series[drawn++] = (ovoid_series){"margin", OVOID_SERIES_LINE, 2, ends, limits, NULL, NULL};
     if (impacts.count)

@@ -48,7 +48,7 @@ static const cli_option options[] = {
     {0},
 };
 
-/// Most objects whose nearest pairs are drawn unasked: more would bury the bodies.
+/// The largest number of objects whose nearest pairs are drawn by default: more would hide the bodies.
 #define OBJECTS_FEW 12
 
 /// The objects of a link.
@@ -60,12 +60,12 @@ typedef struct linked_couple {
 /// The contents of the picture.
 typedef struct drawing {
     ovoid_body *bodies; ///< the objects
-    size_t *first;      ///< of each object: the index of its first drawn body; of a compound the other parts follow
+    size_t *first;      ///< for each object: the index of its first drawn body; the other parts of a compound follow
     ovoid_picture_body *drawn; ///< shapes, and the parts of compounds
     ovoid_picture_link *links;
     ovoid_answer *answers;  ///< of the links
     linked_couple *couples; ///< of the links
-    ovoid_mesh **meshes;    ///< of the objects, where they are drawn
+    ovoid_mesh **meshes;    ///< of the objects, if they are drawn
     ovoid_faces *faces;     ///< of the drawn bodies that have a mesh
     size_t body_count, drawn_count, link_count, link_capacity;
     answer_room room;
@@ -121,11 +121,10 @@ static void add_body(drawing *d, const char *name, const ovoid_body *body, const
     }
 }
 
-/// Most bodies and parts that are drawn as polyhedra unasked; more are drawn as their meshes.
+/// The largest number of bodies and parts that are drawn as polyhedra by default; more are drawn as their meshes.
 #define POLYHEDRA_MOST 12
 
-/// Reads the mesh of the object that was added last, where it has one that is to be drawn. 0, or EXIT_INPUT after a
-/// message.
+/// Reads the mesh of the object that was added last, if it has one to draw. 0, or EXIT_INPUT after a message.
 static int add_mesh(drawing *d, unsigned layers, size_t drawn, const ovoid_scene_object *object) {
     int is_wanted = layers ? (layers & OVOID_PICTURE_MESHES) != 0 : drawn > POLYHEDRA_MOST;
     size_t number = d->body_count - 1, first = d->first[number];
@@ -141,7 +140,7 @@ static int add_mesh(drawing *d, unsigned layers, size_t drawn, const ovoid_scene
     return 0;
 }
 
-/// An answer, and of compounds the parts that decide.
+/// An answer, and the deciding parts of compounds.
 typedef struct found_answer {
     ovoid_answer answer;
     uint32_t part_a, part_b;
@@ -176,7 +175,7 @@ static int add_link(drawing *d, size_t a, size_t b, const found_answer *found) {
 
 static const answers_query distance_query = {QUERY_DISTANCE, -1, 0, 0, NULL};
 
-/// Links each object with the nearest one; a pair that is nearest both ways once.
+/// Links each object with the nearest one; a mutually nearest pair once.
 static int link_nearest(drawing *d, const ovoid_scene *scene) {
     int code = 0;
     size_t none = d->body_count, *nearest = malloc((d->body_count + 1) * sizeof *nearest);
@@ -214,7 +213,7 @@ static int link_within(drawing *d, const ovoid_scene *scene, double margin) {
     return code;
 }
 
-/// 1 if there is to be an SVG picture.
+/// 1 if an SVG picture is wanted.
 static int is_drawn(const settings *s) { return s->output || !s->html; }
 
 /// Writes the picture; returns the exit code.
@@ -236,7 +235,7 @@ static int write_picture(drawing *d, const settings *s, const ovoid_scene *scene
     return EXIT_INPUT;
 }
 
-/// Finds the links and writes the picture, where one is wanted; returns the exit code.
+/// Finds the links and writes the picture, if one is wanted; returns the exit code.
 static int draw(drawing *d, const settings *s, const ovoid_scene *scene) {
     int code = 0;
     if (s->margin >= 0)

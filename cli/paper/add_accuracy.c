@@ -1,5 +1,5 @@
-// The abstract's claim: fewer collision error reports. Each collision test against the exact answer, over the frames of
-// the moving box and all pairs of models: false alarms (reported, but apart) and misses (overlapping, but not
+// The abstract's claim: fewer collision error reports. Each collision test is compared with the exact answer, over the
+// frames of the moving box and all pairs of models: false alarms (reported, but apart) and misses (overlapping, but not
 // reported).
 #include "paper/experiment.h"
 
@@ -173,8 +173,8 @@ static void add_chart(const experiment *e, const counts *c) {
                                     .y_max = 100});
 }
 
-/// The share of each bounding body that the polyhedron fills, or of the polyhedron that the inner body fills: means of
-/// the families.
+/// The share of each bounding body that the polyhedron fills, or of the polyhedron that the inner body fills: means
+/// over the families.
 static void add_volumes(const experiment *e) {
     report_table *t =
         report_begin_table(e->report, "volumes", "family,sphere,own box,enclosing ellipsoid,enclosed ellipsoid");

@@ -7,7 +7,7 @@
 
 enum { LINKS = 4, STEPS = 240 };
 
-/// The arm: links along their own z axis from 0 to `length`, turned about y at each joint, the whole about z.
+/// The arm: links along their own z axis from 0 to `length`, rotated about y at each joint, the whole about z.
 typedef struct arm {
     ovoid_shape *links[LINKS], *obstacle;
     ovoid_pose obstacle_pose;
@@ -43,7 +43,7 @@ static void find_poses(double t, ovoid_pose poses[LINKS]) {
     }
 }
 
-/// The nearest link and its answer, each link's query started from its last proof.
+/// The nearest link and its answer; each link's query starts from its last proof.
 static int find_nearest(const arm *a, const ovoid_pose poses[LINKS], ovoid_proof proofs[LINKS], ovoid_answer *answer) {
     int nearest = 0;
     for (int i = 0; i < LINKS; i++) {

@@ -1,5 +1,5 @@
-// How tight each bound of the distance is, over the distance, for each family: the brackets of spheres, ellipsoids,
-// exits and the stages of a query.
+// How tight each bound of the distance is, as a function of the distance, for each family: the brackets of spheres,
+// ellipsoids, exits and the stages of a query.
 #include "paper/experiment.h"
 
 #include <math.h>
@@ -32,7 +32,7 @@ static int set_gap(ovoid_pair *p, double gap) {
     return 0;
 }
 
-/// Distance less lower bound, upper bound less distance, in sums of the radii.
+/// Distance minus lower bound, upper bound minus distance, in sums of the radii.
 static void measure(const paper_model *a, const paper_model *b, const ovoid_pair *p, double open[BOUNDS]) {
     double size = experiment_get_radius(a) + experiment_get_radius(b);
     ovoid_answer exact = ovoid_distance(p, NULL, NULL), bounds = ovoid_pair_compute_bounds(p),

@@ -1,5 +1,5 @@
-// The paper recomputes its offline steps when an object is deformed or divided: the cost of that, started from the last
-// ellipsoids or from scratch, and for the two parts of a divided body.
+// The paper recomputes its offline steps when an object is deformed or divided: the cost of that, starting from the
+// previous ellipsoids or from scratch, and for the two parts of a divided body.
 #include "paper/experiment.h"
 
 #include <math.h>

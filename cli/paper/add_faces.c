@@ -1,6 +1,6 @@
-// Chart 3: how many facets step (g) of Su, Liu, Chen tests, and how long it takes: by full checking, by eight areas
-// under the paper's rule and under the sound one, by the one area that holds the ray, and by 6 k k smaller areas. Then
-// the question with which the paper ends: the effect of more and smaller areas.
+// Chart 3: how many facets step (g) of Su, Liu, Chen tests, and how long it takes: with full checking, with eight areas
+// under the paper's rule and under the sound one, with the one area that contains the ray, and with 6 k k smaller
+// areas. Then the paper's closing question: the effect of more and smaller areas.
 #include "paper/experiment.h"
 
 #include <math.h>
@@ -86,7 +86,7 @@ static void exits_add(exits *list, ovoid_vec3 direction, ovoid_vec3 toward) {
     list->toward[list->count++] = toward;
 }
 
-/// The cost of a way, summed over rays.
+/// The cost of one way to find exits, summed over rays.
 typedef struct cost {
     double touched, wrong, ns, rays;
     double pieces; ///< of the faces as the three planes split them, in the octants that the rule keeps
@@ -198,7 +198,7 @@ static void add_table(const experiment *e, cost sums[GROUPS][WAYS]) {
     report_end_table(times, 0);
 }
 
-/// The time of the step for each model: chart 3 as the paper has it, and its table.
+/// The time of the step for each model: chart 3 as in the paper, and its table.
 static void add_models(const experiment *e, cost models[MODEL_COUNT][WAYS]) {
     static const int shown[] = {0, 1, 2, 3, 8};
     enum { SHOWN = sizeof shown / sizeof *shown };

@@ -32,7 +32,7 @@ void experiment_add_propositions(const experiment *e) {
         if (!find_pair(&state, &b, &y)) continue;
         checked++;
         least = fmin(least, vec3_dot(b, y) / sqrt(vec3_dot(b, b) * vec3_dot(y, y)));
-        // The octant of the nearest point against those that each rule drops for the direction of b.
+        // The octant of the nearest point, compared with those that each rule drops for the direction of b.
         double x = y.x < 0 ? -b.x : b.x, k = y.y < 0 ? -b.y : b.y, z = y.z < 0 ? -b.z : b.z;
         by_signs += x < 0 && k < 0 && z < 0;
         by_paper += (x + k + z) / sqrt(3 * vec3_dot(b, b)) < -sqrt(0.5);

@@ -1,5 +1,5 @@
-// Which rule may drop an area, and how often a rule drops one that it needs: over directions alone, over the frames of
-// the experiment, over random rays, and in a case constructed so that the paper's rule fails.
+// Which rule may drop an area, and how often a rule drops a needed area: over directions alone, over the frames of the
+// experiment, over random rays, and in a case constructed so that the paper's rule fails.
 #include "paper/experiment.h"
 
 #include <math.h>
@@ -9,7 +9,7 @@ enum { SIGNS = 0, PAPER, DOT, TESTS };
 static const char *const names[TESTS] = {"signs: d in the opposite octant", "paper: v.d < -sqrt(1/2)",
                                          "v.d < -sqrt(2/3)"};
 
-/// Octants dropped for a direction; *unsound: those of them that reach into the front half.
+/// Octants dropped for a direction; *unsound: the number of those that reach into the front half.
 static int count_drops(ovoid_vec3 d, int test, int *unsound) {
     int dropped = 0;
     for (int octant = 0; octant < 8; octant++) {
@@ -55,7 +55,7 @@ static void add_directions(const experiment *e, char *measured, size_t size) {
                          "drops by three signs: one octant, always soundly"});
 }
 
-/// Exits under a rule that are not the true ones.
+/// Counts of wrong exits under each rule.
 typedef struct wrong_counts {
     double rays, signs, paper;
 } wrong_counts;
@@ -67,8 +67,8 @@ static void count_wrong(const ovoid_areas *areas, ovoid_vec3 u, ovoid_vec3 towar
     w->paper += ovoid_areas_find_exit(areas, u, toward, OVOID_RULE_PAPER).t != truth;
 }
 
-/// Random directions to the other body, and random rays into the front half as seen in the ellipsoid's sphere space, as
-/// the rule promises nothing for others.
+/// Random directions to the other body, and random rays into the front half in the ellipsoid's sphere space, as the
+/// rule promises nothing for others.
 static void count_random(const ovoid_areas *areas, ovoid_sym3 q, uint32_t count, uint64_t *state, wrong_counts *w) {
     for (uint32_t k = 0; k < count; k++) {
         // n' Q^-1 u >= 0 with toward = Q n: the front half without an inverse.
@@ -127,8 +127,8 @@ static void add_exits(const experiment *e, char *measured, size_t size) {
              frames.signs + random.signs + ball.signs);
 }
 
-/// An octahedron with bevelled edges: one face in each octant. The other body toward (1, 1, 0.23); the ray (-0.1, -0.1,
-/// 1), which is in front, yet in an octant that the paper's rule drops.
+/// An octahedron with bevelled edges: one face in each octant. The other body is toward (1, 1, 0.23); the ray (-0.1,
+/// -0.1, 1) is in front, but in an octant that the paper's rule drops.
 static ovoid_shape *create_bevelled(void) {
     double xyz[24 * 3];
     for (int i = 0; i < 24; i++) {

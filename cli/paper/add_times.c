@@ -104,7 +104,7 @@ static void add_charts(const experiment *e, double ns[MODEL_COUNT][STEPS]) {
                                     .series = series,
                                     .series_count = 4,
                                     .y_log = 1});
-    // (e) and (f) take the same time within a few percent: as lines one hides the other, so they are stacked.
+    // (e) and (f) take the same time within a few percent: as lines one would hide the other, so they are stacked.
     static const char *const every_fifth[MODEL_COUNT] = {"0", "", "", "",   "",   "5", "", "", "",  "",   "10",
                                                          "",  "", "", "",   "15", "",  "", "", "",  "20", "",
                                                          "",  "", "", "25", "",   "",  "", "", "30"};

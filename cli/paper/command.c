@@ -1,4 +1,4 @@
-// ovoid paper: the paper's experiment, repeated; a folder of numbers and figures, and a page of all results.
+// ovoid paper: the paper's experiment, repeated; writes a folder of numbers and figures, and a page of all results.
 #include "base/message.h"
 #include "base/outputs.h"
 #include "base/progress.h"

@@ -1,4 +1,4 @@
-// The parts of the experiment, in the order of the report, and what they share.
+// The parts of the experiment, in the order of the report, and their common functions.
 #ifndef OVOID_CLI_PAPER_EXPERIMENT_H
 #define OVOID_CLI_PAPER_EXPERIMENT_H
 
@@ -19,13 +19,13 @@ void experiment_add_models(const experiment *e);
 void experiment_add_times(const experiment *e);
 /// Chart 3: faces tested, by rule and by number of areas.
 void experiment_add_faces(const experiment *e);
-/// How often a rule drops an area that it needs; the case that fails.
+/// How often a rule drops a needed area; a case in which it fails.
 void experiment_add_soundness(const experiment *e);
 /// Propositions 1 and 2 in three dimensions, checked.
 void experiment_add_propositions(const experiment *e);
 /// False alarms and misses of bounding volumes, of the criterion and of the bracket.
 void experiment_add_accuracy(const experiment *e);
-/// How tight the bounds are over the distance.
+/// How tight the bounds are, as a function of the distance.
 void experiment_add_bracket(const experiment *e);
 /// Phases 1 to 3 against the largest enclosed ellipsoid.
 void experiment_add_phases(const experiment *e);
@@ -36,10 +36,10 @@ void experiment_add_arm(const experiment *e);
 
 // ---- frames
 
-/// The moving box and model `object` at a frame: one round past it, from touching to a size away, turning all the time.
+/// The moving box and model `object` at a frame: one round past it, from touching to a size away, always rotating.
 ovoid_pair experiment_get_frame(const experiment *e, int object, uint32_t frame);
 
-/// Two models at random poses, from deep overlap to two sizes apart; the same for the same seed and number.
+/// Two models at random poses, from deep overlap to two sizes apart; equal for equal seed and number.
 ovoid_pair experiment_get_mutual(const experiment *e, int a, int b, uint32_t number);
 
 /// Radius of the sphere around a model.
@@ -57,10 +57,10 @@ exit_rays experiment_find_rays(const ovoid_pair *pair);
 ovoid_vec3 random_direction(uint64_t *state);
 ovoid_quat random_rotation(uint64_t *state);
 
-/// Nanoseconds of processor time, or where its clock is too coarse of time.
+/// Nanoseconds of processor time; of wall time if the clock of processor time is too coarse.
 double clock_get_ns(void);
 
-/// The q-quantile (0 to 1) of the values, which are sorted in place; NaN of none.
+/// The q-quantile (0 to 1) of the values, which are sorted in place; NaN if there are none.
 double find_quantile(double *values, size_t count, double q);
 
 static inline ovoid_vec3 vec3_sub(ovoid_vec3 a, ovoid_vec3 b) { return (ovoid_vec3){a.x - b.x, a.y - b.y, a.z - b.z}; }

@@ -30,8 +30,8 @@ static double read_clock(clockid_t clock) {
     return 1e9 * (double)now.tv_sec + (double)now.tv_nsec;
 }
 
-/// The clock of the process; the monotonic one where that stands still for 50 us, as it may under a limit of processor
-/// time, so that no time is zero.
+/// The clock of the process; the monotonic clock if the former stands still for 50 us, as it may under a limit of
+/// processor time, so that no time is zero.
 static clockid_t choose_clock(void) {
     double start = read_clock(CLOCK_MONOTONIC), used = read_clock(CLOCK_PROCESS_CPUTIME_ID);
     while (read_clock(CLOCK_MONOTONIC) - start < 5e4) continue;
@@ -68,7 +68,7 @@ ovoid_pair experiment_get_frame(const experiment *e, int object, uint32_t frame)
     double t = 2 * PI * frame / e->frames, reach = experiment_get_radius(box) + experiment_get_radius(other);
     double distance = reach * (0.95 - 0.5 * cos(3 * t));
     ovoid_vec3 u = {cos(t + phase), sin(t + phase) * cos(tilt), sin(t + phase) * sin(tilt)};
-    // The box spins about its own x axis: its start rotation times that.
+    // The box spins about its own x axis: its start rotation times this one.
     double c = cos(2 * t), s = sin(2 * t);
     ovoid_quat q = {start.w * c - start.x * s, start.w * s + start.x * c, start.y * c + start.z * s,
                     start.z * c - start.y * s};

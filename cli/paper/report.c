@@ -1,4 +1,4 @@
-// The parts of the page are built in memory and put together at the end; each file appears whole or not at all.
+// The parts of the page are built in memory and joined at the end; each file appears completely or not at all.
 #include "paper/report.h"
 
 #include "base/finish.h"
@@ -72,7 +72,7 @@ static void open_buffer(report *r, buffer *b) {
     if (!b->file) fail_memory(r);
 }
 
-/// Ends the writing of a buffer; its text is the report's until report_finish frees it.
+/// Closes a buffer; the report owns its text until report_finish frees it.
 static void close_buffer(report *r, buffer *b) {
     if (b->file && fclose(b->file)) fail_memory(r);
     b->file = NULL;
@@ -207,7 +207,7 @@ void report_add_chart(report *r, const char *name, const ovoid_chart *chart) {
     free(text);
 }
 
-// Appends an SVG element to the page, without the declaration before it, which is for files.
+// Appends an SVG element to the page, without the declaration of SVG files.
 static void embed(report *r, FILE *file) {
     char block[4096];
     int is_open = 0;
@@ -302,7 +302,7 @@ void report_end_table(report_table *t, size_t in_page) {
     free(t);
 }
 
-// The page: its title and what stands below it, the verdicts, the contents, the other sections.
+// Writes the page: its title with the text below it, the verdicts, the contents, the other sections.
 static void write_page(report *r) {
     size_t front = r->sections > 1 ? r->front : r->page.size;
     buffer all = {0};

@@ -5,7 +5,7 @@
 
 #include <ovoid/io.h>
 
-/// Errors are recorded: after the first one nothing is done, and report_finish returns it.
+/// Errors are stored: after the first one nothing is done, and report_finish returns it.
 typedef struct report report;
 
 /// Makes the folder if it is not there. NULL without memory.
@@ -14,7 +14,7 @@ report *report_create(const char *folder);
 /// 1 until something fails.
 int report_is_good(const report *r);
 
-/// Adds a section's heading. The first one is the page's title; verdicts and contents stand before the second.
+/// Adds a section's heading. The first one is the page's title; verdicts and contents come before the second.
 void report_add_section(report *r, const char *title);
 
 /// Adds a paragraph; escaped. Blank lines in it begin new ones.
@@ -24,14 +24,14 @@ __attribute__((format(printf, 2, 3)))
 void
 report_add_text(report *r, const char *format, ...);
 
-/// The paper's result, the measured one, and why they differ: one line each under a figure.
+/// The paper's result, the measured one, and why they differ: one line each, below a figure.
 typedef struct report_finding {
     const char *paper, *measured, *why;
 } report_finding;
 void report_add_finding(report *r, report_finding finding);
 
-/// A line of the table at the top: what the paper claims, whether that holds here, what was measured, and what ovoid
-/// does instead or beside it. It leads to the section in which it is added.
+/// A row of the table at the top: what the paper claims, whether that holds here, what was measured, and what ovoid
+/// does instead. It links to the section in which it is added.
 typedef enum report_holds { REPORT_HOLDS, REPORT_HOLDS_IN_PART, REPORT_DOES_NOT_HOLD } report_holds;
 typedef struct report_verdict {
     const char *claim;
@@ -56,7 +56,7 @@ __attribute__((format(printf, 2, 3)))
 #endif
 void
 report_add_row(report_table *t, const char *format, ...);
-/// Writes the table. in_page: how many rows of it the page shows, from the first; the file has all.
+/// Writes the table. in_page: the number of rows, from the first, that the page shows; the file has all.
 void report_end_table(report_table *t, size_t in_page);
 
 /// Writes FOLDER/report.html and frees everything. *error is filled on failure (may be NULL).
