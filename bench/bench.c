@@ -1,4 +1,5 @@
-// bench: nanoseconds per query of ovoid and its peers, side by side, every answer judged. bench --help says how.
+// bench: nanoseconds per query of ovoid and its peers, side by side, with every answer judged. bench --help explains
+// the options.
 #include "common/build.h"
 #include "many/many.h"
 #include "pairs/cells.h"
@@ -61,7 +62,7 @@ typedef struct table {
 } table;
 
 static void print_cell(table *t, const cell *c) {
-    // A new head where the family of workloads changes.
+    // A new head if the family of workloads changes.
     const cell *last = t->results.count > 1 ? &t->results.items[t->results.count - 2] : NULL;
     if (!last || strncmp(last->workload, c->workload, 4) != 0) cells_print_head(c);
     cells_print_row(c, t->results.own);
@@ -69,7 +70,7 @@ static void print_cell(table *t, const cell *c) {
 
 static int measure_question(table *t, const workload *work, question what, const truth *truths, found *answers,
                             cell *c) {
-    // Who does not answer the question, or is not warm here, sits out.
+    // Contestants that do not answer the question, or are not warm here, do not take part.
     void *selves[ENTRANTS_MOST] = {NULL};
     for (uint32_t i = 0; i < c->count; i++) {
         entrant *e = &c->entrants[i];
@@ -138,14 +139,14 @@ static int read_count(const char *text, uint32_t *count) {
     return *text && !*end && n >= 2 && n <= 100000000;
 }
 
-/// A module is loaded once it is known what it is asked.
+/// A module is loaded once its queries are known.
 static int add_module(settings *how, const char *path) {
     if (how->module_count == ROBOT_PEERS_MOST) return 0;
     how->modules[how->module_count++] = path;
     return 1;
 }
 
-/// An option with its value; 0 if it is none.
+/// An option with its value; 0 if it is not valid.
 static int read_valued(settings *how, const char *name, const char *value) {
     if (!value) return 0;
     if (!strcmp(name, "--workload"))
@@ -175,7 +176,7 @@ static int read_valued(settings *how, const char *name, const char *value) {
     return 1;
 }
 
-/// An option alone; 0 if it is none.
+/// An option alone; 0 if it is not valid.
 static int read_switch(settings *how, const char *name) {
     if (!strcmp(name, "--alone"))
         how->alone = 1;

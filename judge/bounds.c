@@ -9,7 +9,7 @@ nvec proof_direction(pool *p, const ovoid_proof *proof) {
     return nvec_add(p, nvec_from(p, proof->normal), nvec_from(p, proof->normal_low));
 }
 
-// sqrt(a / b) in a double, for messages: the parts alone may be beyond doubles.
+// sqrt(a / b) as a double, for messages: a and b alone may exceed doubles.
 static double compute_ratio(pool *p, num a, num b) {
     return num_to_double(num_root_below(p, num_quotient_below(p, a, b, 120), 60));
 }
@@ -22,7 +22,7 @@ ovoid_code judge_verify_lower(const claim *c) {
     nvec normal = proof_direction(p, c->proof);
     if (nvec_is_zero(normal)) return judge_reject(c->error, OVOID_ERROR_PROOF, "a lower bound without a normal");
 
-    // k gap |n|, against the claim: core |n| k <= n_a min_B - n_b max_A.
+    // k gap |n|, compared with the claim: core |n| k <= n_a min_B - n_b max_A.
     num gap = num_sub(p, num_mul(p, body_support(p, &s->b, normal, -1), s->a.n),
                       num_mul(p, body_support(p, &s->a, normal, 1), s->b.n));
     num one = number_from_integer(p, 1);
@@ -111,7 +111,8 @@ static ovoid_code read_cover(const claim *c, const ovoid_cover *cover, shell *ou
     return OVOID_OK;
 }
 
-// The surface winds around the origin, and none of it is nearer than the depth claimed.
+// Checks that the surface winds around the origin, and that all of it is at least the claimed depth away from the
+// origin.
 static ovoid_code verify_shell(const claim *c, const shell *s) {
     pool *p = c->s->p;
     if (!shell_is_closed(s)) return judge_reject(c->error, OVOID_ERROR_PROOF, "the surface is not closed");

@@ -1,6 +1,6 @@
-// Whether triangles are closed. Edges with the same two ends cancel first. Of the others, for each point and each line
-// through it, it is counted how often edges on the line leave the point, less how often they arrive: how often pieces
-// of the line are run through changes by these counts along it, so nothing is left of the chain if and only if all are
+// Whether triangles are closed. Edges with the same two ends cancel first. For the other edges, for each point and each
+// line through it, count how many edges on the line leave the point, minus how many arrive. The number of times that
+// the line is covered changes by these counts along it, so nothing is left of the chain if and only if all counts are
 // 0. Triangles without area add nothing, and a corner on a neighbor's edge takes nothing away. Exact numbers
 // throughout.
 #include "parts.h"
@@ -23,7 +23,7 @@ static int compare_ends(const void *a, const void *b) {
     return x->point < y->point ? -1 : x->point > y->point;
 }
 
-/// The ends of edges that do not cancel with equal ones; how many. Freed by the caller.
+/// The ends of edges that do not cancel with equal ones; returns their number. Freed by the caller.
 static size_t list_ends(const uint32_t *corners, size_t triangles, chain_end **ends) {
     uint64_t(*edges)[2] = judge_allocate(3 * triangles + 1, sizeof *edges);
     size_t count = 0, left = 0;

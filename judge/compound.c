@@ -1,5 +1,5 @@
 // Answers about bodies of several parts. Theorem. Each exclusion is a rectangle in the table of all pairs of parts,
-// rows and columns in the orders of both trees: along its normal n every part of the one ends before every part of the
+// rows and columns in the orders of both trees: along its normal n every part of one body ends before every part of the
 // other begins, by `lower` at least, radii and allowances included. If the rectangles and the deciding pair's own
 // square cover the table (cover.c), no pair of parts is nearer than the least of their bounds. The library's trees are
 // not used.
@@ -48,7 +48,7 @@ static ovoid_code read_side(const ovoid_body *of, uint32_t part, side *s, uint32
     return OVOID_OK;
 }
 
-/// Part i of a body, where it is in the world by definition.
+/// Part i of a body, with its pose in the world by definition.
 static ovoid_posed_shape get_part(const ovoid_body *of, uint32_t i) {
     if (!of->compound) return (ovoid_posed_shape){of->shape, of->pose};
     ovoid_posed_shape part = ovoid_compound_get_part(of->compound, i);
@@ -60,8 +60,8 @@ static uint32_t get_index(const side *s, uint32_t place) { return s->order ? s->
 
 // --- the bound of one exclusion
 
-/// How far the true parts reach along the normal or against it: support / n + radius |normal|, the radius with what
-/// the allowance adds.
+/// The reach of the true parts along the normal or against it: support / n + radius |normal|, where the radius includes
+/// what the allowance adds.
 typedef struct reach {
     slot support, n, radius;
     int has_part;
@@ -73,7 +73,7 @@ static int is_farther(pool *p, const reach *r, num support, num n, num radius, n
     return num_compare_roots(p, ahead, one, num_mul(p, num_sub(p, r->radius, radius), k), square) > 0;
 }
 
-// The farthest of the parts at [first, end) to one side (1, or -1: against the normal) of the direction.
+// The farthest point of the parts at [first, end) along the direction (1) or against it (-1).
 static ovoid_code find_reach(pool *p, const side *s, const uint32_t range[2], nvec n, int way, reach *r) {
     *r = (reach){slot_make(p), slot_make(p), slot_make(p), 0};
     num square = nvec_norm_squared(p, n);
@@ -143,8 +143,8 @@ static ovoid_code verify_exclusions(const table *t) {
 
 // --- the deciding pair
 
-/// About how large a body is, in doubles: the largest |part position| + vertex norm + radius, and the same with all
-/// that rounding enters by, the positions of the body and of the parts' frames.
+/// The size of a body, about, in doubles: the largest |part position| + vertex norm + radius; and the sum of all
+/// lengths that enter by rounding, with the positions of the body and of the parts' frames.
 typedef struct measure {
     double size, reach;
 } measure;
@@ -167,7 +167,7 @@ static measure measure_body(const ovoid_body *of) {
     return m;
 }
 
-// The bracket of "touching" is narrow beside the bodies, of which the deciding parts may be small ones.
+// Checks that the bracket of "touching" is narrow relative to the bodies, whose deciding parts may be small.
 static ovoid_code verify_touching(const judge *context, const ovoid_body_pair *pair, const ovoid_answer *x,
                                   ovoid_error *error) {
     ovoid_vec3 a = pair->a.pose.position, b = pair->b.pose.position;

@@ -1,4 +1,4 @@
-// Do rectangles in a table of all pairs of parts cover it? A sweep along the rows: a tree over the columns holds how
+// Do rectangles in a table of all pairs of parts cover it? A sweep along the rows: a tree over the columns counts how
 // many rectangles cover each of them (J. L. Bentley, Algorithms for Klee's rectangle problems, 1977).
 #include "parts.h"
 
@@ -15,7 +15,7 @@ static int compare_events(const void *a, const void *b) {
     return x->row != y->row ? (x->row < y->row ? -1 : 1) : 0;
 }
 
-/// How often the columns are covered: of a node the least of its columns, without what `own` of the nodes above adds.
+/// Coverage of the columns: a node has the least of its columns, without what `own` of the nodes above adds.
 typedef struct columns {
     int *least, *own;
     size_t leaves; ///< a power of two
@@ -55,7 +55,7 @@ static void fill_events(const pair_table *t, event *events) {
 // 1 if no row has a column that is not covered.
 static int sweep(const pair_table *t, const event *events, columns *c, uint32_t *row, uint32_t *column) {
     size_t count = 2 * t->count + 2, next = 0;
-    // Columns that are none are covered.
+    // Leaves beyond the columns count as covered.
     if (t->columns < c->leaves) columns_add(c, t->columns, c->leaves, 1);
     for (*row = 0; *row < t->rows; *row = events[next].row) {
         for (; next < count && events[next].row == *row; next++)

@@ -1,5 +1,5 @@
-// What rests on the inner ellipsoids. Theorem. Let a closed surface S of triangles over vertices of C wind around c,
-// and let E be an ellipsoid with centre c whose interior does not meet S. Then E lies in C: the winding number is
+// Claims that rest on the inner ellipsoids. Theorem. Let a closed surface S of triangles over vertices of C wind around
+// c, and let E be an ellipsoid with centre c whose interior does not meet S. Then E lies in C: the winding number is
 // nonzero on the connected interior of E, and it is zero outside of C. A triangle does not meet the interior of E if
 // its plane does not, or if the quadratic form of E is at least 1 at its least point of the triangle. All of this is
 // exact, and done once a shape.
@@ -13,7 +13,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-// Bits of the roots that stand in for irrational numbers, on the safe side.
+// Bits of the roots that approximate irrational numbers from the safe side.
 #define ROOT_BITS 96
 
 // A symmetric matrix, exactly: rows (a, b, c), (b, d, e), (c, e, f).
@@ -51,7 +51,7 @@ static int is_positive_definite(pool *p, symmetric q) {
     return yes;
 }
 
-// --- the ellipsoid in its polyhedron
+// --- the ellipsoid inside its polyhedron
 
 typedef struct inner {
     symmetric q, adjugate;
@@ -93,7 +93,7 @@ static int triangle_is_outside(pool *p, const inner *e, nvec a, nvec b, nvec c) 
     size_t mark = pool_get_mark(p);
     nvec n = nvec_cross(p, nvec_sub(p, b, a), nvec_sub(p, c, a));
     num offset = nvec_dot(p, n, a), spread = nvec_dot(p, n, symmetric_apply(p, e->q, n));
-    // The plane keeps out of the interior: offset^2 >= n' Q n.
+    // The plane does not meet the interior: offset^2 >= n' Q n.
     int outside = !nvec_is_zero(n) && num_compare(p, num_mul(p, offset, offset), spread) >= 0;
     if (!outside)
         outside = (nvec_is_zero(n) || !is_least_point_inside(p, e, n, a, b, c)) && segment_is_outside(p, e, a, b) &&
@@ -206,7 +206,7 @@ typedef struct depth_in {
     num form, whole, radius;
 } depth_in;
 
-// Of the point that `local` is `factor` times, in the body frame. The radius is left NULL.
+// For the point `local` / `factor` in the body frame. The radius is left NULL.
 static depth_in compute_depth_in(pool *p, const body *b, nvec local, num factor) {
     inner e = inner_make(p, b->shape);
     nvec center = nvec_from(p, ovoid_shape_get_inner(b->shape).ellipsoid.center);
@@ -221,8 +221,8 @@ static nvec local_in_b(const posed *s, nvec xa) {
     return nvec_sub(p, body_rotate_back(p, &s->b, from_b), nvec_scale(p, s->b.origin, s->k));
 }
 
-// The depth claimed by a common point: core >= -((1 - sqrt ma) ra + (1 - sqrt mb) rb), with the roots taken from above
-// and the radii from below. whole > 0.
+// The depth claimed by a common point: core >= -((1 - sqrt ma) ra + (1 - sqrt mb) rb), with the roots rounded up and
+// the radii rounded down. whole > 0.
 static int is_depth_proven(const claim *c, depth_in a, depth_in b) {
     pool *p = c->s->p;
     // (1 - sqrt(form / whole)) whole = whole - sqrt(form whole)
@@ -264,8 +264,7 @@ ovoid_code judge_verify_inner(const claim *c) {
     int common = c->proof->kind == OVOID_PROOF_INNER;
     if (!is_finite(c->proof->inner_a) || (!common && !is_finite(c->proof->inner_b)))
         return judge_reject(c->error, OVOID_ERROR_NOT_FINITE, "a point of the proof is not finite");
-    // Copies, since the second call may move the table.
-    // A triangle of a solid has none.
+    // Copies, since the second call may move the table. A triangle of a solid has no inner ellipsoid.
     if (!c->s->a.shape || !c->s->b.shape)
         return judge_reject(c->error, OVOID_ERROR_PROOF, "a triangle has no inner ellipsoid");
     const facts a = *judge_get_facts(c->context, &c->s->a), b = *judge_get_facts(c->context, &c->s->b);

@@ -1,10 +1,10 @@
-// The order of the judgement: the answer's own data, the pair, the bounds, the status, the direction, the points.
+// The order of the verification: the answer's own data, the pair, the bounds, the status, the direction, the points.
 #include "parts.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-// The library's default, and what the sizes may differ by in rounding.
+// The library's default, and the share by which sizes may differ by rounding.
 #define TOLERANCE 1e-9
 #define ROUNDING 1e-12
 
@@ -55,7 +55,7 @@ static int is_refusal(const ovoid_answer *answer) {
     return answer->limit >= OVOID_LIMIT_POSE_A && answer->limit <= OVOID_LIMIT_SHAPE_B;
 }
 
-// --- what can be judged without the bodies
+// --- checks that need no bodies
 
 static ovoid_code verify_data(const ovoid_answer *answer, ovoid_error *error) {
     if (isnan(answer->lower) || isnan(answer->upper) || answer->lower == INFINITY || answer->upper == -INFINITY)
@@ -111,7 +111,7 @@ static ovoid_code verify_indices(const posed *s, const ovoid_proof *proof, ovoid
     return OVOID_OK;
 }
 
-// --- all of it
+// --- the whole answer
 
 static ovoid_code verify_bounds(judge *context, const posed *s, const ovoid_answer *answer, const ovoid_cover *cover,
                                 ovoid_error *error) {

@@ -1,15 +1,15 @@
-// The judge: decides in exact arithmetic (GMP) whether an answer's proof shows what the answer claims. It includes only
-// <ovoid/*.h> and gmp.h, shares no code with the library and never searches: an answer whose proof does not suffice is
-// rejected, even where the answer is true. A body is taken as the hull of the polytope's vertices plus the radius, its
-// pose as the rational map position + R(q) x / |q|^2. docs/proofs.md has the theorems. When memory is out the program
-// ends, as GMP knows no other way (judge_set_out_of_memory).
+// The judge: decides in exact arithmetic (GMP) whether an answer's proof proves what the answer claims. It includes
+// only <ovoid/*.h> and gmp.h, shares no code with the library and never searches: an answer whose proof does not
+// suffice is rejected, even if the answer is true. A body is the hull of the polytope's vertices plus the radius, its
+// pose the rational map position + R(q) x / |q|^2. docs/proofs.md has the theorems. When memory runs out the program
+// ends, since GMP has no other way (judge_set_out_of_memory).
 #ifndef OVOID_JUDGE_H
 #define OVOID_JUDGE_H
 
 #include "ovoid/body.h"
 
-/// Working numbers, and what was proven of each shape's inner ellipsoid (by address: a shape that was seen must live as
-/// long as the judge, or judge_forget must be called before it is destroyed). One thread at a time.
+/// Working numbers, and the facts proven about each shape's inner ellipsoid (by address: a shape that was seen must
+/// live as long as the judge, or judge_forget must be called before it is destroyed). One thread at a time.
 typedef struct judge judge;
 
 /// NULL if memory runs out. The caller destroys it.
@@ -23,34 +23,35 @@ void judge_set_out_of_memory(void (*handler)(void));
 /// Forgets all shapes.
 void judge_forget(judge *context);
 
-/// The options that the answers were asked with: a bracket of status "touching" is at most as wide as their tolerance.
-/// NULL, and until this is called: the default ones.
+/// Sets the options of the queries: a bracket of status "touching" is at most as wide as their tolerance. NULL, and
+/// until this is called: the default ones.
 void judge_set_options(judge *context, const ovoid_options *options);
 
-/// OVOID_OK if everything the answer claims is proven: lower by proof.normal, upper by proof.kind, the status, the unit
+/// OVOID_OK if all claims of the answer are proven: lower by proof.normal, upper by proof.kind, the status, the unit
 /// normal, and that the witness points lie on their bodies to rounding. Else OVOID_ERROR_PROOF (or INDEX, NOT_FINITE)
 /// with a sentence in *error (may be NULL). cover: that of ovoid_depth, or NULL.
 ovoid_code judge_verify_answer(judge *context, const ovoid_pair *pair, const ovoid_answer *answer,
                                const ovoid_cover *cover, ovoid_error *error);
 
-/// OVOID_OK if everything is proven that the answer of a query of bodies (ovoid_body_distance and its sisters)
-/// claims: the deciding pair's answer with the bodies' lower bound, as judge_verify_answer judges it; that each
-/// exclusion's pairs of parts are no nearer than it says, and none of them is nearer than the lower bound; and that the
-/// exclusions and the deciding pair leave out no pair of parts. The relative tolerance of "touching" is of the bodies'
-/// size. Codes as above; place: the exclusion, or -1. exclusions: those of the query; NULL is enough for two shapes.
+/// OVOID_OK if all claims of the answer of a query of bodies (ovoid_body_distance and its sisters) are proven: the
+/// deciding pair's answer with the bodies' lower bound, as in judge_verify_answer; that each exclusion's pairs of parts
+/// are at least as far apart as it states, and no exclusion is nearer than the lower bound; and that the exclusions and
+/// the deciding pair leave out no pair of parts. The relative tolerance of "touching" is of the bodies' size. Codes as
+/// in judge_verify_answer; place: the exclusion, or -1. exclusions: those of the query; NULL is enough for two shapes.
 /// Cost: the parts of all exclusions, some 15 us each. That the tree's order names each part once is checked too.
 ovoid_code judge_verify_compound(judge *context, const ovoid_body_pair *pair, const ovoid_body_answer *answer,
                                  const ovoid_exclusions *exclusions, ovoid_error *error);
 
-/// The same for two bodies of which one at least is a solid: the deciding pair of triangles, each exclusion by all
-/// points of its triangles, that they leave out no pair of triangles, what is inside by exact winding numbers of all
-/// components, and a depth by all points along its direction. points: the deciding pair's as judge_verify_points does.
-/// Cost: the triangles of all exclusions, some microseconds each, and for each component all triangles of the other.
+/// As judge_verify_compound, for two bodies of which at least one is a solid: the deciding pair of triangles, each
+/// exclusion by all points of its triangles, that they leave out no pair of triangles, containment by exact winding
+/// numbers of all components, and a depth by all points along its direction. points: the deciding pair's, as in
+/// judge_verify_points. Cost: the triangles of all exclusions, some microseconds each, and for each component all
+/// triangles of the other body.
 ovoid_code judge_verify_solid(judge *context, const ovoid_body_pair *pair, const ovoid_body_answer *answer,
                               const ovoid_exclusions *exclusions, int points, ovoid_error *error);
 
-/// For answers of ovoid_distance that are apart and of ovoid_depth, to the default tolerance: that point_b - point_a =
-/// d normal, to what the bracket and the tolerance allow. OVOID_OK or OVOID_ERROR_PROOF.
+/// For answers of ovoid_distance that are apart and of ovoid_depth, to the default tolerance: point_b - point_a = d
+/// normal, to what the bracket and the tolerance allow. OVOID_OK or OVOID_ERROR_PROOF.
 ovoid_code judge_verify_points(judge *context, const ovoid_pair *pair, const ovoid_answer *answer, ovoid_error *error);
 
 /// The truth about a pair of few vertices, by brute force over all features, independent of any proof.

@@ -1,5 +1,5 @@
-// Memory that is out. GMP has no way to report it but to end the program, so the judge's own memory does the same,
-// through one function that the program may set.
+// Running out of memory. GMP can only end the program then, so the judge does the same, through one function that the
+// program may set.
 #include "judge.h"
 #include "number.h"
 

@@ -1,5 +1,5 @@
 // Numbers m 2^e and their pool. GMP: T. Granlund and others, The GNU Multiple Precision Arithmetic Library. A released
-// number keeps its limbs, so that a warm judge allocates next to nothing.
+// number keeps its limbs, so that a judge in use allocates next to nothing.
 #include "number.h"
 
 #include <math.h>
@@ -28,7 +28,7 @@ size_t pool_get_mark(const pool *p) { return p->count; }
 
 void pool_release(pool *p, size_t mark) { p->count = mark; }
 
-// One chunk more; as GMP does, without memory there is no going on.
+// Adds a chunk; as in GMP, the program ends if memory runs out.
 static void pool_grow(pool *p) {
     number **chunks = judge_allocate(p->chunk_count + 1, sizeof *chunks), *chunk = judge_allocate(CHUNK, sizeof *chunk);
     for (size_t i = 0; i < p->chunk_count; i++) chunks[i] = p->chunks[i];
@@ -154,7 +154,7 @@ int num_compare_roots(pool *p, num a, num p_radicand, num b, num q_radicand) {
 
 num num_root_below(pool *p, num a, long bits) {
     number *r = pool_next(p);
-    // Shift to about 2 bits bits and an even exponent.
+    // Shift to about 2 * bits bits and an even exponent.
     long shift = 2 * bits - (long)mpz_sizeinbase(a->m, 2);
     if (shift < 0) shift = 0;
     if ((a->e - shift) % 2 != 0) shift++;

@@ -1,6 +1,6 @@
 // Exact numbers m 2^e with an integer m of any size (GMP): every double is one, and so is every sum, difference and
-// product of them. No division: where a bound needs one, both sides are multiplied instead. Numbers live in a pool that
-// is released as a stack, so that formulas read as formulas.
+// product of them. There is no division: if a bound needs one, both sides are multiplied instead. Numbers live in a
+// pool that is released as a stack, so that code reads like formulas.
 #ifndef OVOID_JUDGE_NUMBER_H
 #define OVOID_JUDGE_NUMBER_H
 
@@ -15,7 +15,7 @@ typedef struct number {
 } number;
 typedef const number *num;
 
-/// Zeroed memory for count items; where there is none the program ends (judge_set_out_of_memory).
+/// Zeroed memory for count items; if there is none the program ends (judge_set_out_of_memory).
 void *judge_allocate(size_t count, size_t size);
 
 /// The memory of numbers. pool_release frees all numbers made since pool_get_mark returned the mark.

@@ -1,4 +1,4 @@
-// What the judge's files share: its state, and the functions they call in one another.
+// Shared by the judge's files: its state, and the functions that they call in one another.
 #ifndef OVOID_JUDGE_PARTS_H
 #define OVOID_JUDGE_PARTS_H
 
@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-/// The facts proven of a shape's inner ellipsoid, computed once.
+/// The facts proven about a shape's inner ellipsoid, computed once.
 typedef struct facts {
     const ovoid_shape *shape; ///< NULL: an empty slot
     int is_inside;            ///< positive definite and inside the polyhedron
@@ -18,9 +18,9 @@ struct judge {
     pool *p;
     facts *table; ///< open addressing
     size_t capacity, count;
-    double absolute, relative;                      ///< the tolerances that "touching" is within
-    nvec points[OVOID_COVER_POINTS];                ///< of the cover at hand
-    uint32_t triangles[3 * 2 * OVOID_COVER_POINTS]; ///< of the cover at hand
+    double absolute, relative;                      ///< the tolerances of "touching"
+    nvec points[OVOID_COVER_POINTS];                ///< of the present cover
+    uint32_t triangles[3 * 2 * OVOID_COVER_POINTS]; ///< of the present cover
 };
 
 /// Writes code and sentence (place -1) to *error, which may be NULL, and returns the code.
@@ -32,7 +32,7 @@ judge_reject(ovoid_error *error, ovoid_code code, const char *format, ...);
 
 static inline int is_finite(ovoid_vec3 v) { return isfinite(v.x) && isfinite(v.y) && isfinite(v.z); }
 
-/// A claim on the hulls without their radii, d <= core or d >= core, and what is to prove it.
+/// A claim about the hulls without their radii, d <= core or d >= core, and its evidence.
 typedef struct claim {
     judge *context;
     const posed *s;
@@ -54,12 +54,12 @@ ovoid_code judge_verify_inner(const claim *c);
 /// The witness points lie on their bodies.
 ovoid_code judge_verify_witness(const claim *c, const ovoid_answer *answer);
 
-/// OVOID_OK if the bracket of "touching" holds zero and is no wider than the tolerance, for bodies of that size; reach:
-/// the sum of all positions and lengths, of which double-doubles resolve 2^-88.
+/// OVOID_OK if the bracket of "touching" contains zero and is no wider than the tolerance, for bodies of that size;
+/// reach: the sum of all positions and lengths, of which double-doubles resolve 2^-88.
 ovoid_code judge_verify_touching(const judge *context, const ovoid_answer *answer, double size, double reach,
                                  ovoid_error *error);
 
-/// judge_verify_answer of a pair that is made already, and no refusal; judge_verify_points.
+/// judge_verify_answer of a posed pair whose answer is not a refusal; judge_verify_points.
 ovoid_code judge_verify_posed(judge *context, const posed *s, const ovoid_answer *answer, const ovoid_cover *cover,
                               ovoid_error *error);
 ovoid_code judge_verify_points_posed(const posed *s, const ovoid_answer *answer, ovoid_error *error);
@@ -73,10 +73,10 @@ typedef struct pair_table {
 } pair_table;
 
 /// 1 if the rectangles of the exclusions, whose ranges must be in the table, and the deciding pair's own square cover
-/// the table; 0 with a pair that they do not.
+/// the table; else 0, with a pair that they do not cover.
 int judge_is_covered(const pair_table *table, uint32_t *row, uint32_t *column);
 
-/// 1 if the order names each of count things once, with the place of one of them.
+/// 1 if the order names each of `count` items once; *place: the place of item `of`.
 int judge_is_order(const uint32_t *order, uint32_t count, uint32_t of, uint32_t *place);
 
 /// 1 if the edges of the triangles cancel, as pieces of lines. points: xyz of point i at 3 i; corners: of triangle t at

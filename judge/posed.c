@@ -106,8 +106,8 @@ static nvec vertex_at(pool *p, const ovoid_polytope *polytope, uint32_t i) {
 
 nvec body_vertex(pool *p, const body *b, uint32_t i) { return body_point(p, b, vertex_at(p, &b->polytope, i)); }
 
-// A direction in doubles, its largest part about 1, and the factor that brings vertices to at most 1: so that dots of
-// both are off by less than 2^-48 (each part by a rounding of 2^-52, of three products and two sums).
+// A direction in doubles, its largest part about 1, and the factor that scales vertices to at most 1, so that dot
+// products of both are off by less than 2^-48 (each part by a rounding of 2^-52, three products and two sums).
 #define COARSE_ERROR 0x1p-48
 typedef struct coarse {
     double x, y, z, unit;
@@ -122,7 +122,7 @@ static coarse coarse_make(pool *p, const body *b, nvec direction, int side) {
     for (int i = 0; i < 3; i++) out[i] = num_sign(parts[i]) ? side * num_to_double(num_scaled(p, parts[i], -top)) : 0;
     int e = 0;
     (void)frexp(b->extent, &e);
-    // Of a speck all vertices count as about as far.
+    // All vertices of a tiny body count as about equally far.
     return (coarse){out[0], out[1], out[2], ldexp(1, e > -1000 ? -e : 1000)};
 }
 
@@ -142,8 +142,8 @@ num body_find_across(pool *p, const body *b, nvec direction) {
 
 static num find_top(pool *p, const body *b, nvec direction, int side) {
     slot best = slot_make(p);
-    // In the body frame the direction is M' direction; vertices are compared there: first in doubles, and exactly where
-    // these do not show that another one is farther.
+    // In the body frame the direction is M' direction. Vertices are compared there: first in doubles, and exactly only
+    // if these do not show that another vertex is farther.
     nvec local = body_rotate_back(p, b, direction);
     const double *vertices = b->polytope.vertices;
     coarse c = coarse_make(p, b, local, side);

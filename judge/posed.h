@@ -16,8 +16,9 @@ typedef struct body {
     num n;        ///< |q|^2 > 0
     nvec position, origin;
     num radius, outside, inside;
-    num across;    ///< what stands out across the axis alone, `outside` being zero then; zero: there is no axis
-    nvec axis;     ///< of any length, in the shape's axes
+    num across; ///< the length by which the true body exceeds the shape across the axis; `outside` is zero then; zero:
+                ///< there is no axis
+    nvec axis;  ///< of any length, in the shape's axes
     double extent; ///< the largest |vertex|, in doubles
     double reach;  ///< about the largest |position| + |origin| + |vertex|, in doubles: the scale of rounding
 } body;
@@ -28,14 +29,14 @@ typedef struct posed {
     num k;               ///< n_a n_b
     num radii;           ///< sum of the rounding radii
     num outside, inside; ///< sums of the allowances in all directions
-    double allowed;      ///< the sum of all of `outside`, across axes too, and twice `inside`, in doubles
+    double allowed;      ///< the sum of `outside`, also across axes, and twice `inside`, in doubles
     double size;         ///< about the sum of both bodies' extents and the distance of their frames, in doubles
 } posed;
 
 /// One posed shape. The pose must have passed judge_is_pose_valid.
 body body_make(pool *p, const ovoid_shape *shape, const ovoid_pose *pose);
 
-/// The same of a polytope alone, without a radius.
+/// The posed body of a polytope without a radius.
 body body_make_hull(pool *p, const ovoid_polytope *polytope, const ovoid_pose *pose);
 
 /// Two bodies as a pair.
@@ -58,12 +59,12 @@ nvec body_rotate_back(pool *p, const body *b, nvec v);
 nvec body_point(pool *p, const body *b, nvec local);
 nvec body_vertex(pool *p, const body *b, uint32_t i);
 
-/// The least number at hand that is no less than n `across` |direction x axis|: what the true body stands out along the
-/// direction where its allowance is along an axis, times n |direction|.
+/// An upper bound of n `across` |direction x axis|: the length by which the true body exceeds the shape along the
+/// direction if its allowance is along an axis, times n |direction|.
 num body_find_across(pool *p, const body *b, nvec direction);
 
-/// The largest (side 1) or smallest (side -1) n (direction . x) over all vertices, and what the true body stands out
-/// there across its axis.
+/// The largest (side 1) or smallest (side -1) n (direction . x) over all vertices, and the excess of the true body
+/// across its axis.
 num body_support(pool *p, const body *b, nvec direction, int side);
 
 /// k (x_b - x_a) for two points that carry n_a and n_b; for two vertices.

@@ -1,4 +1,4 @@
-// A refusal in words: what the judge says of a claim that does not hold.
+// Writing a refusal: the judge's sentence about a claim that does not hold.
 #include "parts.h"
 
 #include <stdarg.h>

@@ -41,8 +41,8 @@ int shell_is_closed(const shell *s) {
     return closed;
 }
 
-// +1 or -1 if the ray along g crosses the triangle, 0 if it misses; *ok = 0 if it meets an edge's line or the
-// origin lies in the triangle's plane, so that the ray decides nothing.
+// +1 or -1 if the ray along g crosses the triangle, 0 if it misses; *ok = 0 if it meets an edge's line or the origin
+// lies in the triangle's plane, so that the ray is not usable.
 static int count_crossing(pool *p, nvec g, nvec a, nvec b, nvec c, int *ok) {
     int ab = num_sign(nvec_det(p, g, a, b)), bc = num_sign(nvec_det(p, g, b, c));
     if (ab * bc < 0) return 0;
@@ -103,7 +103,7 @@ int triangle_is_farther(pool *p, nvec a, nvec b, nvec c, num square) {
     size_t mark = pool_get_mark(p);
     nvec n = nvec_cross(p, nvec_sub(p, b, a), nvec_sub(p, c, a));
     num offset = nvec_dot(p, n, a);
-    // The plane is far enough, or the foot on it is outside and the edges are far enough.
+    // The plane is far enough; or the foot on it is outside of the triangle and the edges are far enough.
     int is_flat = nvec_is_zero(n);
     int farther =
         !is_flat && num_compare(p, num_mul(p, offset, offset), num_mul(p, square, nvec_norm_squared(p, n))) >= 0;

@@ -1,18 +1,19 @@
 // Answers about solids. Theorem. The surfaces: each exclusion is a rectangle in the table of all pairs of triangles;
-// along its normal the ones end before the others begin, by `lower` at least; with the deciding pair the rectangles
-// cover the table, so no two triangles are nearer than the least bound. The bodies: where the surfaces are apart, each
-// component of either lies in the other body or outside of it, whole, so a point of each decides, by how often the
-// other surface winds around it. What is d or above moves none of this: an overlap is as deep as its two triangles
-// cross, or as far as the component is from the other surface, and no deeper than what parts all points of both along
-// one direction.
+// along its normal all of its triangles of one body end before those of the other begin, by `lower` at least; with the
+// deciding pair the rectangles cover the table, so no two triangles are nearer than the least bound. The bodies: if the
+// surfaces are apart, each component of one lies completely inside or completely outside of the other body, so one of
+// its points decides, by how often the other surface winds around it. Upper bounds of an overlap: it is at least as
+// deep as its two triangles cross, or as the component's distance from the other surface; lower bounds: a translation
+// along one direction separates all points of both.
 //
-// A ray from the point toward +x, in the frame of the body around it; where it meets an edge, one of no symmetry.
+// The winding number is counted along a ray from the point toward +x, in the frame of the body around it; if that meets
+// an edge, along a ray of no symmetry.
 #include "parts.h"
 #include "shell.h"
 
 #include <stdlib.h>
 
-/// One body: triangles, or a shape as triangle 0.
+/// One body: triangles, or a shape as its triangle 0.
 typedef struct side {
     const ovoid_body *of;
     const uint32_t *order; ///< NULL: a shape
@@ -92,7 +93,8 @@ static ovoid_code verify_leaves(judge *context, const trial *t, int points) {
     posed s =
         posed_join(t->p, make_leaf(t->p, &t->a, t->x->part_a, room[0]), make_leaf(t->p, &t->b, t->x->part_b, room[1]));
     ovoid_answer own = t->x->deciding;
-    // How narrow the bracket of touching must be is a question to the bodies, whose triangles may be small.
+    // The tolerance of "touching" is relative to the bodies, whose triangles may be small, so it is not checked for the
+    // pair of triangles.
     if (own.status == OVOID_TOUCHING) own.status = OVOID_UNDECIDED, own.limit = OVOID_LIMIT_PRECISION;
     ovoid_code code = judge_verify_posed(context, &s, &own, NULL, t->error);
     if (code != OVOID_OK || !points || t->x->deciding.status == OVOID_UNDECIDED) return code;
@@ -112,7 +114,8 @@ static ovoid_code verify_touching(const judge *context, const trial *t) {
 
 // --- directions
 
-/// The farthest of the triangles at [first, end) along the direction (way 1) or against it (-1), times the body's n.
+/// The farthest point of the triangles at [first, end) along the direction (way 1) or against it (-1), times the body's
+/// n.
 static num find_reach(pool *p, const side *s, uint32_t first, uint32_t end, nvec n, int way) {
     if (!s->corners) return body_support(p, &s->posed, n, way);
     double *points = judge_allocate(9 * (size_t)(end - first), sizeof *points);
@@ -130,7 +133,7 @@ static num find_reach(pool *p, const side *s, uint32_t first, uint32_t end, nvec
     return support;
 }
 
-/// 1 if the ranges of the exclusion are `lower` apart along its normal: k gap >= (lower + radii) k |n|.
+/// 1 if the ranges of the exclusion are proven to be `lower` apart along its normal: k gap >= (lower + radii) k |n|.
 static int is_shown(const trial *t, const ovoid_exclusion *e) {
     pool *p = t->p;
     if (!is_finite(e->normal) || !is_finite(e->normal_low) || !isfinite(e->lower)) return 0;
@@ -166,7 +169,7 @@ static ovoid_code verify_exclusions(const trial *t) {
     return OVOID_OK;
 }
 
-// --- what is inside
+// --- containment
 
 /// The point x of a frame, `factor` times.
 typedef struct scaled {
@@ -189,7 +192,7 @@ static int count_crossing(pool *p, nvec g, const nvec c[3], int *ok) {
     if (s[0] * s[1] < 0 || s[1] * s[2] < 0 || s[2] * s[0] < 0) return 0;
     int facing = num_sign(nvec_det(p, c[0], c[1], c[2]));
     if (!(s[0] && s[1] && s[2] && facing)) {
-        // Without area it bounds nothing, whatever the ray.
+        // A triangle without area bounds nothing, whatever the ray.
         *ok &= nvec_is_zero(nvec_cross(p, nvec_sub(p, c[1], c[0]), nvec_sub(p, c[2], c[0])));
         return 0;
     }
@@ -202,7 +205,7 @@ static int are_beyond(num a, num b, num c) {
     return sign != 0 && num_sign(b) == sign && num_sign(c) == sign;
 }
 
-/// How often the solid winds around the point, by one ray; is_axis: that ray is +x, and the most part misses it.
+/// How often the solid winds around the point, by one ray; is_axis: that ray is +x, and most triangles miss it.
 static long count_winding(pool *p, const side *s, const scaled *at, ovoid_vec3 ray, int is_axis, int *ok) {
     nvec g = nvec_from(p, ray);
     long winding = 0;
@@ -221,7 +224,7 @@ static long count_winding(pool *p, const side *s, const scaled *at, ovoid_vec3 r
     return winding;
 }
 
-/// 1 if the other body winds around the point, 0 if not, -1 if that is open: on its surface.
+/// 1 if the other body winds around the point, 0 if not, -1 if undecided: the point is on its surface.
 static int is_inside(const trial *t, const side *own, const side *other, ovoid_vec3 local) {
     static const ovoid_vec3 rays[] = {{1, 0, 0},         {1009, 2003, -3001}, {-4001, 907, 1301},
                                       {577, -2741, 991}, {-1511, -3307, 271}, {89, 233, 4657}};
@@ -242,7 +245,7 @@ static uint32_t find_root(uint32_t *parent, uint32_t i) {
     return i;
 }
 
-/// A point of each component, in the order of the least point of each; how many there are. Freed by the caller.
+/// A point of each component, in the order of the least point of each; returns their number. Freed by the caller.
 static uint32_t find_components(const side *s, uint32_t **points) {
     uint32_t *parent = judge_allocate((size_t)s->point_count + 1, sizeof *parent), count = 0;
     for (uint32_t i = 0; i < s->point_count; i++) parent[i] = i;
@@ -256,8 +259,8 @@ static uint32_t find_components(const side *s, uint32_t **points) {
     return count;
 }
 
-/// 1 if component `only` (or of all, where it is UINT32_MAX, any) of own is inside the other, 0 if none, -1 open; -2:
-/// there is no such component.
+/// 1 if component `only` of own (any component if it is UINT32_MAX) is inside the other, 0 if none is, -1 if undecided;
+/// -2: there is no such component.
 static int has_inside(const trial *t, const side *own, const side *other, uint32_t only) {
     if (!other->is_closed) return 0;
     if (!own->corners) {
@@ -273,9 +276,9 @@ static int has_inside(const trial *t, const side *own, const side *other, uint32
     return is;
 }
 
-// --- a point of both
+// --- a common point
 
-/// The triangles of a side, a shape's in its body frame; how many. corner: three points of one, `at` the origin.
+/// The number of triangles of a side; a shape's are in its body frame. corner: three points of one, relative to `at`.
 static uint32_t count_triangles(const side *s) { return s->corners ? s->count : s->posed.polytope.triangle_count; }
 
 static void get_triangle(pool *p, const side *s, const scaled *at, uint32_t t, nvec corner[3]) {
@@ -306,7 +309,7 @@ static int are_beyond_ball(pool *p, const side *s, const scaled *at, num r) {
     return ok;
 }
 
-/// 1 if the side winds around the point: of a shape, which is convex, one ray after another as of a solid.
+/// 1 if the side winds around the point; for a shape, which is convex, by one ray after another as for a solid.
 static int covers(const trial *t, const side *s, const scaled *at) {
     static const ovoid_vec3 rays[] = {{1009, 2003, -3001}, {-4001, 907, 1301}, {577, -2741, 991}};
     if (s->corners ? !s->is_closed : s->posed.polytope.rank < 3) return 0;
@@ -325,7 +328,8 @@ static int covers(const trial *t, const side *s, const scaled *at) {
     return 0;
 }
 
-/// 1 if the side has the clearance r at the point: the ball of that radius lies in it; or, below 0, it has a point no
+/// 1 if the side has the clearance r at the point: the ball of that radius lies in it; or, if r is below 0, it has a
+/// point no farther than -r.
 /// farther than -r.
 static int has_clearance(const trial *t, const side *s, const scaled *at, num r) {
     pool *p = t->p;
@@ -352,7 +356,7 @@ static double measure_segment(const double a[3], const double b[3]) {
     return sqrt(square);
 }
 
-/// The distance of the origin to a triangle in doubles: of its plane where its edges have the foot between them.
+/// The distance of the origin to a triangle in doubles: to its plane if the foot is between its edges.
 static double measure_triangle(double c[3][3]) {
     double n[3], foot[3], best = INFINITY, offset = 0, length = 0;
     int inner = 1;
@@ -376,7 +380,8 @@ static double measure_triangle(double c[3][3]) {
     return inner && length > 0 ? fabs(offset) / sqrt(length) : best;
 }
 
-/// How far the point is from the side's triangles, or its first vertex, in doubles: how a depth is shared out.
+/// The distance of the point from the side's triangles, or its first vertex, in doubles: to divide a depth between the
+/// sides.
 static double measure_distance(const trial *t, const side *s, const scaled *at) {
     double factor = num_to_double(at->factor), best = INFINITY;
     for (uint32_t k = 0; k < count_triangles(s); k++) {
@@ -395,7 +400,7 @@ static double measure_distance(const trial *t, const side *s, const scaled *at) 
     return best < INFINITY ? best : 0;
 }
 
-/// The common point of a's frame in the frame of a side, where a shape's vertices are about its origin.
+/// The common point, given in a's frame, in the frame of a side; a shape's vertices are relative to its origin.
 static scaled find_common(const trial *t, const side *s) {
     pool *p = t->p;
     nvec local = nvec_from(p, t->x->common);
@@ -419,7 +424,7 @@ static ovoid_code verify_common_point(const trial *t) {
     if (!is_finite(x->common)) return reject(t, why);
     scaled in_a = find_common(t, &t->a), in_b = find_common(t, &t->b);
     double a = measure_clearance(t, &t->a, &in_a), b = measure_clearance(t, &t->b, &in_b);
-    // What both have beyond the claim is left to each in halves.
+    // The clearance beyond the claim is divided between both sides in halves.
     num share = number_from(t->p, a - 0.5 * ((a + b) + x->upper));
     num rest = num_sub(t->p, number_from(t->p, -x->upper), share);
     return has_clearance(t, &t->a, &in_a, share) && has_clearance(t, &t->b, &in_b, rest) ? OVOID_OK : reject(t, why);

@@ -1,10 +1,10 @@
-// The signed distance of two small bodies by brute force. Theorem. d = max over all unit n of the gap along n,
-// min_B n.x - max_A n.x - radii, whether they are apart or overlap, and the maximum is met at a direction of features:
-// apart, the nearest points lie in the relative interior of two faces, so n is a difference of vertices, or that made
-// orthogonal to an edge, or a cross product of two edges of either body; overlapping, n is a face's normal of the
-// Minkowski difference, and its faces are spanned by two edges. All vertex pairs count as edges: more directions do no
-// harm, since no gap exceeds d. If all edges are parallel and nothing separates, d = 0. Cost: (vertices)^5 in all, for
-// small bodies only.
+// The signed distance of two small bodies by brute force. Theorem. d = max over all unit n of the gap along n, min_B
+// n.x - max_A n.x - radii, whether they are apart or overlap, and the maximum is reached at a direction of features. If
+// they are apart, the nearest points lie in the relative interior of two faces, so n is a difference of vertices, or
+// one made orthogonal to an edge, or a cross product of two edges of either body. If they overlap, n is a face's normal
+// of the Minkowski difference, and its faces are spanned by two edges. All vertex pairs count as edges: more directions
+// do no harm, since no gap exceeds d. If all edges are parallel and nothing separates, d = 0. Cost: (vertices)^5 in
+// all, for small bodies only.
 #include "parts.h"
 
 #include <stdlib.h>
@@ -95,7 +95,7 @@ static int are_edges_parallel(const brute *t) {
     return parallel;
 }
 
-// gap / (k sqrt(square)) - radii, between two doubles, and its signs.
+// Reads gap / (k sqrt(square)) - radii as two neighbouring doubles, and its signs.
 static judge_truth read_truth(const brute *t, const posed *s) {
     pool *p = t->p;
     num one = number_from_integer(p, 1), whole = num_mul(p, t->square, num_mul(p, s->k, s->k));

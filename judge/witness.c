@@ -1,15 +1,15 @@
 // Whether the witness points lie on their bodies, to rounding. A body here is its hull in its pose, enlarged by its
-// radius. A witness is first compared with the point that the proof names, which is in the hull by construction; else
-// with every triangle: it is near one, or the surface winds around it. (Of a flat body, a segment or a point it must be
-// near.)
+// radius. A witness is first compared with the point that the proof names, which is in the hull by construction.
+// Otherwise it is compared with every triangle: it must be near one, or the surface must wind around it. (For a flat
+// body, a segment or a point it must be near.)
 #include "parts.h"
 #include "shell.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-// Rounding of a witness point: 256 half ulps of all lengths that enter it, coordinates, positions and radii of both
-// bodies, since points of B may have been computed in A's frame.
+// Rounding of a witness point: 256 half ulps of all lengths that enter its computation, coordinates, positions and
+// radii of both bodies, since points of B may have been computed in A's frame.
 #define WITNESS_ROUNDING (256 * 0x1p-53)
 
 static double compute_tolerance(const posed *s) {
@@ -108,9 +108,9 @@ ovoid_code judge_verify_witness(const claim *c, const ovoid_answer *answer) {
 // The default tolerance of the queries, in parts of the pair's size.
 #define QUERY_TOLERANCE 1e-9
 
-// |point_b - point_a - d n| for d in the bracket of the two hulls, which is the answer's without what the allowances
-// added to both ends: with w its width the points may differ from the nearest ones by what it leaves open, sqrt(w (w +
-// 2 |d|)) across and w along the normal, and by the query's tolerance.
+// Bounds |point_b - point_a - d n| for d in the bracket of the two hulls, which is the answer's bracket without the
+// widening by allowances. If the bracket has width w, the points may differ from the nearest ones by sqrt(w (w + 2
+// |d|)) across and w along the normal, and by the query's tolerance.
 ovoid_code judge_verify_points_posed(const posed *s, const ovoid_answer *answer, ovoid_error *error) {
     if (!(isfinite(answer->lower) && isfinite(answer->upper)))
         return judge_reject(error, OVOID_ERROR_PROOF, "the bracket is not finite");
@@ -121,7 +121,7 @@ ovoid_code judge_verify_points_posed(const posed *s, const ovoid_answer *answer,
     nvec normal = nvec_from(p, answer->normal);
     num lower = num_add(p, number_from(p, answer->lower), s->outside),
         upper = num_sub(p, number_from(p, answer->upper), s->inside);
-    // The normal is 1 to rounding, and each find_across carries its body's n.
+    // The normal has length 1 to rounding, and each find_across carries its body's n.
     num across = num_add(p, num_mul(p, body_find_across(p, &s->a, normal), s->b.n),
                          num_mul(p, body_find_across(p, &s->b, normal), s->a.n));
     if (num_sign(across) > 0) lower = num_add(p, lower, num_quotient_below(p, across, s->k, 120));

@@ -1,4 +1,4 @@
-// Sets of bodies, each with its shape and the plain arrays that peers are made from.
+// Sets of bodies, each with its shape and the plain arrays from which peers are made.
 #include "common/bodies.h"
 
 #include "common/random.h"
@@ -10,7 +10,7 @@ static const double turn = 6.283185307179586;
 
 double body_get_reach(const body *b) { return ovoid_shape_get_measures(b->shape).sphere_radius; }
 
-/// Views into the shape, the vertices in the user's frame; takes the shape. 0 if memory runs out.
+/// Views into the shape, the vertices in the user's frame; takes over the shape. 0 if memory runs out.
 static int fill_body(body *b, ovoid_shape *shape) {
     ovoid_polytope p = ovoid_shape_get_polytope(shape);
     double *vertices = malloc(sizeof(double) * 3 * p.vertex_count);
@@ -104,10 +104,10 @@ bodies bodies_create_paper(void) {
     bodies all = make_room(31);
     if (!all.items) return all;
     int good = bodies_add_shape(&all, ovoid_shape_create_box((ovoid_vec3){0.5, 0.4, 0.3}, NULL, NULL));
-    // 14 to 62 vertices, of which those in the middle of the caps are no corners.
+    // 14 to 62 vertices; those in the middle of the caps are not corners.
     for (uint32_t i = 0; i < 10 && good; i++)
         good = bodies_add_shape(&all, ovoid_shape_create_prism(&(ovoid_prism){0.5, 1, 6 + i * 24 / 9}, NULL, NULL));
-    // 30 to 142, here with pointed caps so that all of them count; then spheres of 22 to 102.
+    // 30 to 142, here with pointed caps so that all of them are corners; then spheres of 22 to 102.
     for (uint32_t i = 0; i < 10 && good; i++) good = bodies_add_shape(&all, create_ringed(2, 14 + i * 56 / 9, 0));
     for (uint32_t i = 0; i < 10 && good; i++) good = bodies_add_shape(&all, create_ringed(4 + i / 2, 5 + i * 6 / 9, 1));
     return expect(all, 31);
@@ -132,7 +132,7 @@ bodies bodies_create_from_clouds(const char *path, uint32_t count) {
     bodies all = make_room(count);
     uint32_t n;
     double *xyz;
-    // Every eighth, so that neighbours in the file, often parts of one thing, are not all there is.
+    // Every eighth cloud, since neighbours in the file are often parts of one thing.
     for (uint32_t i = 0; all.items && all.count < count && (xyz = read_cloud(file, &n)); i++) {
         ovoid_shape *shape = i % 8 == 0 ? ovoid_shape_create_from_points(xyz, n, NULL, NULL) : NULL;
         free(xyz);

@@ -1,4 +1,4 @@
-// What the numbers were measured with.
+// The build and the processor of the measurements.
 #ifndef OVOID_BENCH_COMMON_BUILD_H
 #define OVOID_BENCH_COMMON_BUILD_H
 

@@ -1,5 +1,4 @@
-// Judging by proven brackets. Where a bracket itself is not proven, it is taken as unbounded, so nobody is blamed by
-// it.
+// Judging by proven brackets. A bracket that is not proven counts as unbounded, so that it makes no answer wrong.
 #include "common/judge.h"
 
 #include <math.h>
@@ -23,7 +22,7 @@ truth *truths_create(const workload *work, uint32_t *open) {
 static double dot(ovoid_vec3 a, ovoid_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 static ovoid_vec3 sub(ovoid_vec3 a, ovoid_vec3 b) { return (ovoid_vec3){a.x - b.x, a.y - b.y, a.z - b.z}; }
 
-/// How far outside the body's planes; the largest plane distance, negative inside.
+/// The distance outside the body's planes: the largest plane distance, negative inside.
 static double get_outside(const ovoid_shape *shape, const ovoid_pose *pose, ovoid_vec3 point) {
     ovoid_polytope p = ovoid_shape_get_polytope(shape);
     ovoid_vec3 local = sub(ovoid_pose_compute_local_point(pose, point), p.origin);
@@ -47,13 +46,13 @@ static double get_support(const body *b, const ovoid_pose *pose, ovoid_vec3 n) {
 static int are_points_wrong(const workload *work, const placed *p, const found *answer) {
     ovoid_vec3 between = sub(answer->point_b, answer->point_a);
     double most = 1e-4 * p->size, apart = sqrt(dot(between, between));
-    // The comparisons are written so that NaN is wrong.
+    // The comparisons are written so that NaN counts as wrong.
     return !(fabs(apart - answer->distance) <= most &&
              get_outside(work->bodies[p->a].shape, &p->pose_a, answer->point_a) <= most &&
              get_outside(work->bodies[p->b].shape, &p->pose_b, answer->point_b) <= most);
 }
 
-/// Peers differ in whether the normal goes from A to B or back; either will do.
+/// Peers differ in whether the normal points from A to B or back; both are accepted.
 static int is_normal_wrong(const workload *work, const placed *p, const found *answer, double depth) {
     ovoid_vec3 n = answer->normal, back = {-n.x, -n.y, -n.z};
     const body *a = &work->bodies[p->a], *b = &work->bodies[p->b];

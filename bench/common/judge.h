@@ -1,4 +1,4 @@
-// What is true of each pair, and what a contestant got wrong.
+// The truth about each pair, and the faults of a contestant.
 #ifndef OVOID_BENCH_COMMON_JUDGE_H
 #define OVOID_BENCH_COMMON_JUDGE_H
 
@@ -9,14 +9,14 @@ typedef struct truth {
     double lower, upper;
 } truth;
 
-/// Proven by ovoid_depth, each proof checked. *open: how many brackets are wider than 1e-7 of the size, because a limit
-/// ended the search; by those only signs are judged. NULL if memory runs out.
+/// Proven by ovoid_depth, each proof checked. *open: how many brackets are wider than 1e-7 of the size because a limit
+/// ended the search; with those only signs are judged. NULL if memory runs out.
 truth *truths_create(const workload *work, uint32_t *open);
 
 /// Wrong answers. Touching pairs (0 or the margin inside the bracket) are not judged.
 typedef struct faults {
     uint32_t asked;
-    uint32_t none;     ///< it gave up
+    uint32_t none;     ///< no answer
     uint32_t sign;     ///< yes for no, or no for yes
     uint32_t off;      ///< distance off by more than 1e-4 of itself, depth by more than 1e-3 of itself
     uint32_t off_fine; ///< off by more than 1e-6 of itself
@@ -26,7 +26,7 @@ typedef struct faults {
 
 faults faults_count(const workload *work, const truth *truths, question what, const found *answers);
 
-/// Wrong where it counts: none, sign, off.
+/// The number of wrong answers: none, sign, off.
 uint32_t faults_get_wrong(const faults *f);
 
 #endif

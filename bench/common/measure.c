@@ -1,4 +1,4 @@
-// One pass of an entrant goes over all pairs. The first pass of each warms caches and is judged, not timed.
+// One pass of an entrant covers all pairs. The first pass of each warms caches and is judged, not timed.
 #define _POSIX_C_SOURCE 200809L
 #include "common/measure.h"
 
@@ -34,7 +34,7 @@ static double time_pass(const entrant *e, const workload *work, question what, f
     return (get_own_seconds() - start) / work->pair_count * 1e9;
 }
 
-/// Near a third of the count and without a common divisor with it: steps of that length visit all.
+/// A number near a third of the count and without a common divisor with it: steps of that length visit all.
 static uint32_t find_step(uint32_t count) {
     for (uint32_t step = count / 3 + 1;; step++) {
         uint32_t a = count, b = step;
@@ -60,8 +60,8 @@ void measure(entrant *entrants, uint32_t count, const workload *work, question w
         entrants[k].wrong = faults_count(work, truths, what, answers);
         present++;
     }
-    // A slow one stops earlier, so that it does not take the time of all. Entrants of one library stand side by side in
-    // the list but not in time: each finds the caches as a stranger left them.
+    // A slow entrant stops earlier, so that it does not take the time of all. Entrants of one library are neighbours in
+    // the list but not in time, so each finds the caches as another library left them.
     uint32_t step = find_step(count);
     for (uint32_t round = 0; round < REPETITIONS_MOST; round++)
         for (uint32_t j = 0; j < count; j++) {

@@ -1,10 +1,10 @@
-// Timing: all contestants in turn, again and again, so that a disturbance of the machine meets them alike.
+// Timing: all contestants in turn, repeatedly, so that a disturbance of the machine affects them alike.
 #ifndef OVOID_BENCH_COMMON_MEASURE_H
 #define OVOID_BENCH_COMMON_MEASURE_H
 
 #include "common/judge.h"
 
-/// Of the repetitions, nanoseconds per query. median 0: not measured.
+/// Statistics of the repetitions, nanoseconds per query. median 0: not measured.
 typedef struct timing {
     double median, low, high, least, mean; ///< low, high: the quartiles
 } timing;
@@ -20,14 +20,14 @@ typedef struct entrant {
 
 enum { ENTRANTS_MOST = 32, REPETITIONS_MOST = 101 };
 
-/// Wall time, and the time that this thread had the processor: on a shared machine only the latter can be compared.
+/// Wall time, and the processor time of this thread: on a shared machine only the latter can be compared.
 double get_seconds(void);
 double get_own_seconds(void);
 
 /// The median and quartiles of the samples, which are sorted.
 timing timing_make(double *samples, uint32_t count);
 
-/// How long to repeat: each entrant at least `least` times, then while its share of the seconds lasts, at most
+/// How long to repeat: each entrant at least `least` times, then as long as its share of the seconds lasts, at most
 /// REPETITIONS_MOST times.
 typedef struct effort {
     double seconds;

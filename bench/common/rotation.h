@@ -1,11 +1,11 @@
-// Unit quaternions, and their matrices by rows for peers that take those.
+// Unit quaternions, and their matrices by rows for peers that use those.
 #ifndef OVOID_BENCH_COMMON_ROTATION_H
 #define OVOID_BENCH_COMMON_ROTATION_H
 
 #include <math.h>
 #include <ovoid/linear.h>
 
-/// First q, then p; a unit quaternion again.
+/// The rotation q followed by p; a unit quaternion again.
 static inline ovoid_quat rotation_multiply(ovoid_quat p, ovoid_quat q) {
     ovoid_quat r = {p.w * q.w - p.x * q.x - p.y * q.y - p.z * q.z, p.w * q.x + p.x * q.w + p.y * q.z - p.z * q.y,
                     p.w * q.y - p.x * q.z + p.y * q.w + p.z * q.x, p.w * q.z + p.x * q.y - p.y * q.x + p.z * q.w};

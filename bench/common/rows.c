@@ -52,7 +52,7 @@ typedef struct page {
     uint32_t count;
 } page;
 
-/// The number of the chart of that name, made where there is none.
+/// The number of the chart of that name, made if it is new.
 static uint32_t get_chart(page *p, const row *r) {
     for (uint32_t i = 0; i < p->count; i++)
         if (!strcmp(p->charts[i].title, r->chart)) return i;
@@ -87,14 +87,14 @@ static void add_to_page(page *p, const row *r) {
     v->low[k] = r->y.low;
     v->high[k] = r->y.high;
     p->series[chart][line].count = ++v->count;
-    // Whole decades, so that what is flat looks flat.
+    // Whole decades, so that flat curves look flat.
     ovoid_chart *c = &p->charts[chart];
     double low = pow(10, floor(log10(r->y.low))), high = pow(10, ceil(log10(r->y.high)));
     c->y_min = c->y_min > 0 ? fmin(c->y_min, low) : low;
     c->y_max = fmax(c->y_max, high);
 }
 
-/// Of a chart whose lines are points at one place, bars side by side.
+/// Draws a chart whose lines are points at one place as bars side by side.
 static void make_bars(page *p, uint32_t chart) {
     ovoid_chart *c = &p->charts[chart];
     double first = p->curves[chart][0].x[0];

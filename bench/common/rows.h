@@ -8,7 +8,7 @@ typedef struct row {
     const char *chart, *x_name, *y_name, *line; ///< not copied
     double x;
     timing y;             ///< in the unit of y_name
-    double judged, wrong; ///< answers, where they are judged
+    double judged, wrong; ///< the number of answers, if they are judged
 } row;
 
 enum { ROWS_MOST = 400 };

@@ -1,5 +1,5 @@
-// Where the bodies stand. The signed distance along a line through A is a convex function of the place on it, so beyond
-// its minimum bisection finds where it has a given value; ovoid measures it, and what it says is proven.
+// Placing the bodies. The signed distance along a line through A is a convex function of the place on it, so beyond its
+// minimum bisection finds where it has a given value; ovoid measures it, with a proof.
 #include "common/work.h"
 
 #include "common/random.h"
@@ -61,7 +61,7 @@ static void put_at(const workload *work, placed *p, ovoid_vec3 u, double t) {
     p->pose_b.position = add_scaled(add_scaled(add_scaled(p->pose_a.position, centers[0], 1), centers[1], -1), u, t);
 }
 
-/// Moves B so far along u that the signed distance is the gap; returns t.
+/// Moves B along u until the signed distance is the gap; returns t.
 static double put_with_gap(const workload *work, placed *p, ovoid_vec3 u, double gap) {
     double low = 0, high = p->size + (gap > 0 ? gap : 0);
     for (int i = 0; i < 40 && high - low > 1e-9 * p->size; i++) {
@@ -96,7 +96,7 @@ static placed make_placed(const workload *work, uint32_t a, uint32_t b, uint64_t
     return p;
 }
 
-/// Puts B along u as the placement says; returns how far the centres are apart.
+/// Puts B along u as the placement says; returns the distance of the centres.
 static double put_as(const workload *work, placed *p, ovoid_vec3 u, placement place) {
     if (place != PLACE_OVER) return put_with_gap(work, p, u, get_gap(place) * p->size);
     put_at(work, p, u, 0.3 * p->size);
@@ -116,7 +116,7 @@ workload workload_create_still(const char *name, const bodies *all, placement pl
     return work;
 }
 
-/// p turned by the angle about the axis: the quaternion is multiplied from the left.
+/// p rotated by the angle about the axis: the quaternion is multiplied from the left.
 static ovoid_quat rotate(ovoid_quat p, ovoid_vec3 axis, double angle) {
     double w = cos(angle / 2), s = sin(angle / 2), x = s * axis.x, y = s * axis.y, z = s * axis.z;
     ovoid_quat q = {w * p.w - x * p.x - y * p.y - z * p.z, w * p.x + x * p.w + y * p.z - z * p.y,
@@ -171,7 +171,7 @@ workload workload_create_passing(const char *name, const bodies *all, uint32_t f
     for (uint32_t i = 0; pairs && i < tracks; i++) {
         placed nearest = make_placed(&work, first + i, 0, &state);
         ovoid_vec3 u = random_unit(&state), across = step_across(u, random_unit(&state), 1);
-        // The line of motion: at right angles to u through the nearest place.
+        // The line of motion: at right angles to u through the nearest point.
         double along = u.x * across.x + u.y * across.y + u.z * across.z;
         ovoid_vec3 way = add_scaled(across, u, -along);
         double n = sqrt(way.x * way.x + way.y * way.y + way.z * way.z);

@@ -1,16 +1,16 @@
-// Workloads: pairs of bodies at a distance of a kind, still or moving.
+// Workloads: pairs of bodies at given kinds of distance, at rest or moving.
 #ifndef OVOID_BENCH_COMMON_WORK_H
 #define OVOID_BENCH_COMMON_WORK_H
 
 #include "common/bodies.h"
 
-/// How far apart, in parts of the pair's size (the sum of the radii of the enclosing spheres).
+/// The distance, relative to the pair's size (the sum of the radii of the enclosing spheres).
 typedef enum placement {
     PLACE_FAR,    ///< a gap of five sizes
-    PLACE_MID,    ///< of one half
-    PLACE_TENTH,  ///< of a tenth
-    PLACE_NEAR,   ///< of a hundredth
-    PLACE_SLIGHT, ///< a hundredth deep
+    PLACE_MID,    ///< a gap of one half
+    PLACE_TENTH,  ///< a gap of a tenth
+    PLACE_NEAR,   ///< a gap of a hundredth
+    PLACE_SLIGHT, ///< an overlap of a hundredth
     PLACE_OVER,   ///< the centres of the spheres 0.3 apart
     PLACE_COUNT
 } placement;
@@ -21,8 +21,8 @@ const char *placement_get_name(placement place);
 /// Neighbours in the list, uncorrelated poses. pairs NULL if memory runs out. Free with workload_destroy.
 workload workload_create_still(const char *name, const bodies *all, placement place);
 
-/// As workload_create_still, each pair over so many frames: both turn, and B goes around A by 1 % of the size a frame,
-/// at that distance.
+/// As workload_create_still, with each pair over so many frames: both turn, and B goes around A by 1 % of the size a
+/// frame, at that distance.
 workload workload_create_moving(const char *name, const bodies *all, placement place, uint32_t frames);
 
 /// Body 0 goes past each of the others from `first` to `last` on a straight line, 1 % of the size a frame, coming as
@@ -31,7 +31,7 @@ workload workload_create_passing(const char *name, const bodies *all, uint32_t f
 
 void workload_destroy(workload *work);
 
-/// The pair as ovoid takes it.
+/// The pair in ovoid's form.
 ovoid_pair workload_get_pair(const workload *work, uint32_t index);
 
 #endif

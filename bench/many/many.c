@@ -1,4 +1,4 @@
-// The whole of `bench --many`.
+// `bench --many`.
 #include "many/many.h"
 
 #include "common/build.h"

@@ -7,7 +7,7 @@
 
 enum { CONTESTANTS_MOST = 12, COUNTS_MOST = 8 };
 
-/// What to run. The swarm's numbers of bodies; frames of each; states and cycles of each robot.
+/// What to run: the numbers of bodies of swarms, their frames, the states and cycles of each robot.
 typedef struct many_plan {
     uint32_t counts[COUNTS_MOST], count_of_counts;
     double seconds; ///< for the frames of each number of bodies, truth included
@@ -33,7 +33,7 @@ int many_run_swarms(rows *all, const many_field *field, const many_plan *plan);
 /// Planner and monitor. 0: it failed.
 int many_run_cells(rows *all, const many_field *field, const many_plan *plan);
 
-/// Everything; tables on stdout, CSV and SVG where paths are given. alone: without peers. 0: it failed.
+/// Runs everything; tables on stdout, CSV and SVG if paths are given. alone: without peers. 0: it failed.
 int many_run(const many_plan *plan, const char *csv, const char *svg, int alone);
 
 #endif

@@ -1,6 +1,7 @@
-// A robot among its surroundings, as two programs ask. The planner draws joint angles at random and asks whether
-// anything touches; the monitor follows a smooth path and asks, each cycle, for every distance below the margin. The
-// links' poses are made before the clock runs; contestants take turns block by block, or cycle by cycle.
+// A robot among its surroundings, with the queries of two programs. The planner draws joint angles at random and asks
+// whether anything touches; the monitor follows a smooth path and asks, each cycle, for every distance below the
+// margin. The links' poses are computed before the clock runs; contestants take turns block by block, or cycle by
+// cycle.
 #include "many/many.h"
 
 #include "common/random.h"
@@ -12,7 +13,7 @@
 
 enum { BLOCK = 100, SAMPLES_MOST = 20000 };
 
-/// A monitored distance may be off by so much of the margin.
+/// The share of the margin by which a monitored distance may be off.
 static const double distance_error = 1e-4;
 
 typedef struct contestant {
@@ -65,7 +66,7 @@ static void report(rows *all, cell_run *run, const char *chart) {
 
 // --- the planner
 
-/// A block's states, and everyone's answers.
+/// A block's states, and the answers of every contestant.
 typedef struct block {
     ovoid_pose links[BLOCK][ROBOT_LINKS_MOST];
     int hits[CONTESTANTS_MOST][BLOCK];
@@ -128,7 +129,7 @@ static int run_planner(rows *all, const robot *machine, const many_field *field,
 
 // --- the monitor
 
-/// Angles on the way from one random state to the next, the joint that has farthest to go by 0.01 radians a cycle.
+/// Angles on the way from one random state to the next; the joint with the longest way moves by 0.01 radians a cycle.
 typedef struct path {
     double from[ROBOT_LINKS_MOST], to[ROBOT_LINKS_MOST];
     uint32_t at, steps;
@@ -225,7 +226,7 @@ static int run_question(rows *all, const robot *machine, const many_field *field
 static int run_made(rows *all, const many_field *field, const many_plan *plan, int monitor) {
     robot machine;
     if (!robot_create_made(&machine)) return 0;
-    // The same cell with a part of its parts, for how it grows.
+    // The same cell with some of its parts, to see how the cost grows.
     uint32_t parts = machine.cell.part_count;
     int good = 1;
     for (uint32_t share = 16; good && share >= 1; share /= 4) {

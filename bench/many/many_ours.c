@@ -1,10 +1,10 @@
-// ovoid as a contestant: a world for frames and for the monitor; for the planner one of the parts alone, which the
-// links are put to without being in it.
+// ovoid as a contestant: a world for frames and for the monitor; for the planner a world of the parts alone, against
+// which the links are queried as probes.
 #include "many/many_ours.h"
 
 #include <ovoid/ovoid.h>
 
-// --- a swarm, and what a monitor asks: a world
+// --- a swarm, and the monitor: a world
 
 typedef struct self {
     const workcell *cell; ///< NULL: a swarm
@@ -60,7 +60,7 @@ static void *create_swarm(const swarm *what, const ovoid_pose *poses) {
 
 static uint32_t get_index(ovoid_id id) { return (uint32_t)(id >> 32); }
 
-/// Everything moves, one frame is asked for; `all` receives the contacts whose status says that they count.
+/// Moves all bodies and queries one frame; `all` receives the contacts whose status counts.
 static void run_frame(self *s, const ovoid_pose *poses, meetings *all) {
     ovoid_contacts frame;
     if (ovoid_world_move_many(s->world, &(ovoid_world_moves){s->ids, poses, s->moving}, NULL) != OVOID_OK ||
@@ -83,7 +83,7 @@ static const swarm_peer our_swarm = {"ovoid", create_swarm, run_swarm, destroy};
 
 enum { GROUP_LINK = 1, GROUP_PART = 2, LINKS_MOST = 16 };
 
-/// Links and parts of which only pairs with a link count.
+/// Links and parts; only pairs with a link are queried.
 static int add_cell(self *s, const workcell *what, const ovoid_pose *links) {
     uint32_t count = what->link_count + what->part_count;
     ovoid_world_body *list = calloc(count, sizeof *list);
@@ -116,7 +116,7 @@ static int add_parts(self *s, const workcell *what) {
     return good;
 }
 
-/// The pairs of links that count.
+/// The pairs of links that are queried.
 static int add_couples(self *s, const workcell *what) {
     uint32_t count = what->link_count;
     s->couples = malloc(sizeof *s->couples * count * count);
@@ -138,7 +138,7 @@ static void *create_cell(const workcell *what, const ovoid_pose *links) {
     return NULL;
 }
 
-/// Links as probes that are not in the world: with the parts, then with one another.
+/// Queries the links as probes that are not in the world: with the parts, then with one another.
 static int is_hit(void *state, const ovoid_pose *links) {
     self *s = state;
     ovoid_world_body probes[LINKS_MOST];

@@ -1,5 +1,5 @@
-// Frames of swarms. All contestants get the same poses, one after the other, frame by frame, the order turning by one
-// each frame; so each finds the caches as a stranger left them, and a disturbance meets all alike.
+// Frames of swarms. All contestants get the same poses in turn, frame by frame, in an order that rotates by one each
+// frame; so each finds the caches as another left them, and a disturbance affects all alike.
 #define _POSIX_C_SOURCE 200809L
 #include "many/many.h"
 
@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 /// The first frames fill caches of pairs and are judged, not timed. Those after them are at least twice as many as
-/// ovoid's boxes last, whose renewal comes in waves while the bodies still move in step: the mean counts them.
+/// ovoid's boxes last: at first boxes are renewed in waves, and the mean includes these.
 enum { FRAMES_UNTIMED = 2, FRAMES_MOST = 1000 };
 
 /// Above this many bodies only each fourth frame is judged.
@@ -42,7 +42,7 @@ static int judge_frame(swarm_run *run, meetings *lists, const meeting_truth *rig
     return !lists[k].failed;
 }
 
-/// Everyone's turn; the truth where the frame is judged.
+/// The turn of every contestant; the truth if the frame is judged.
 static int run_frame(swarm_run *run, meetings *lists, uint32_t frame) {
     const swarm_motion *m = &run->motion;
     for (uint32_t j = 0; j < run->count; j++) {

@@ -1,5 +1,5 @@
-// The truth about many bodies rests on two things: a search for candidates that is plain enough to be believed, and
-// proofs that ovoid_answer_verify has passed.
+// The truth about many bodies rests on a search for candidates that is simple enough to be trusted, and on proofs that
+// ovoid_answer_verify has accepted.
 #include "many/meetings.h"
 
 #include "common/rotation.h"
@@ -25,7 +25,7 @@ void meeting_truth_destroy(meeting_truth *truth) {
 
 // --- a swarm
 
-/// A box with the body that it holds; the axis x is swept.
+/// A box and its body; the sweep is along x.
 typedef struct boxed {
     double low[3], high[3];
     uint32_t body;
@@ -121,7 +121,7 @@ static int may_meet(const balled *a, const balled *b, double margin) {
     return x * x + y * y + z * z <= most * most;
 }
 
-/// 1 if the two are sure to meet.
+/// 1 if the two are certain to meet.
 static int decide_near(const balled balls[2], const uint32_t names[2], double margin, meeting_truth *truth) {
     ovoid_pair pair = {balls[0].body->shape, balls[1].body->shape, balls[0].pose, balls[1].pose};
     ovoid_answer answer = margin > 0 ? ovoid_distance(&pair, NULL, NULL) : ovoid_collide(&pair, NULL, NULL);
@@ -168,7 +168,7 @@ meeting_faults meetings_judge(meetings *list, const meeting_truth *truth, double
     meetings_sort(list);
     const meetings *sure = &truth->sure;
     size_t i = 0, k = 0;
-    // Both lists in step; a pair that is named twice is one too many.
+    // Walks both lists in step; a pair that is listed twice is one too many.
     while (i < list->count || k < sure->count) {
         int order = i == list->count ? 1 : k == sure->count ? -1 : compare_meetings(&list->items[i], &sure->items[k]);
         if (order < 0) {
@@ -178,7 +178,7 @@ meeting_faults meetings_judge(meetings *list, const meeting_truth *truth, double
             faults.missing++;
             k++;
         } else {
-            // Overlaps may come with a depth. Written so that NaN is wrong.
+            // Overlaps may come with a depth. Written so that NaN counts as wrong.
             double apart = list->items[i].distance < 0 ? 0 : list->items[i].distance;
             faults.off += distance_error >= 0 && !(fabs(apart - sure->items[k].distance) <= distance_error);
             i++;

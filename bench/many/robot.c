@@ -1,4 +1,4 @@
-// A robot is a chain of turning joints; its cell stands still around it.
+// A robot is a chain of revolute joints; its cell stands still around it.
 #include "many/robot.h"
 
 #include "common/random.h"
@@ -72,7 +72,7 @@ static int add_hull(robot *all, uint64_t *state, uint32_t vertices, ovoid_vec3 h
     return bodies_add_shape(&all->set, ovoid_shape_create_from_points(xyz, vertices, NULL, NULL));
 }
 
-/// A cluster: ten hulls around a place that is not where the base stands.
+/// A cluster: ten hulls around a place away from the base.
 static int add_cluster(robot *all, uint64_t *state) {
     double away = random_uniform(state, 0.55, 1.75), angle = random_uniform(state, -half_turn, half_turn);
     ovoid_vec3 middle = {away * cos(angle), away * sin(angle), random_uniform(state, 0, 1.6)};
@@ -142,8 +142,8 @@ static int add_panda_links(robot *all, const char *data) {
     return 1;
 }
 
-/// The parts of one decomposed object, a few units large in its file, as 5 % of that, somewhere around the robot. 0
-/// if memory runs out; a file that is not there adds nothing.
+/// The parts of one decomposed object, which is a few units large in its file, scaled to 5 %, somewhere around the
+/// robot. 0 if memory runs out; an absent file adds nothing.
 static int add_object(robot *all, uint64_t *state, const char *path) {
     ovoid_mesh *mesh = ovoid_mesh_read(path, &(ovoid_read_options){.scale = 0.05, .parts = 1}, NULL);
     if (!mesh) return 1;
@@ -154,7 +154,7 @@ static int add_object(robot *all, uint64_t *state, const char *path) {
     for (size_t i = 0; good && i < ovoid_mesh_get_part_count(mesh) && all->cell.part_count < PARTS; i++) {
         ovoid_faces faces = ovoid_mesh_get_part(mesh, i).faces;
         ovoid_shape *shape = ovoid_shape_create_from_points(faces.vertices, faces.vertex_count, NULL, NULL);
-        // Only solids: peers are not asked about flat parts.
+        // Only solids: peers are not queried about flat parts.
         if (shape && ovoid_shape_get_polytope(shape).rank < 3) {
             ovoid_shape_destroy(shape);
             continue;
@@ -166,7 +166,7 @@ static int add_object(robot *all, uint64_t *state, const char *path) {
     return good;
 }
 
-/// Links that touch in nearly all states are ignored, as a set-up assistant for planners does it.
+/// Links that touch in nearly all states are ignored, as a set-up assistant for planners does.
 static int ignore_usual_touches(robot *all) {
     uint32_t count = all->cell.link_count, hits[ROBOT_LINKS_MOST * ROBOT_LINKS_MOST] = {0};
     unsigned char *ignored = (unsigned char *)all->cell.ignored;

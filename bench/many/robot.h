@@ -1,4 +1,4 @@
-// Robots in their cells: a made one, and a real one where its files are there.
+// Robots in their cells: a made one, and a real one if its files are there.
 #ifndef OVOID_BENCH_MANY_ROBOT_H
 #define OVOID_BENCH_MANY_ROBOT_H
 
@@ -7,14 +7,14 @@
 
 enum { ROBOT_LINKS_MOST = 16 };
 
-/// A turning joint: where it is in the frame of the link before it, its axis there, and its range.
+/// A revolute joint: its place in the frame of the link before it, its axis there, and its range.
 typedef struct joint {
     ovoid_pose origin;
     ovoid_vec3 axis;
     double low, high; ///< radians; equal: the joint is fixed
 } joint;
 
-/// A chain: link k hangs on joint k, whose frame is that of link k - 1, the base for the first.
+/// A chain: link k is moved by joint k, whose frame is that of link k - 1, the base for the first.
 typedef struct robot {
     char name[64];
     workcell cell;
@@ -27,8 +27,8 @@ typedef struct robot {
 /// hulls of 8 to 32 vertices, 2 to 15 cm, within 1.9 m of the base. Neighbours in the chain are ignored. 0: memory is
 /// out.
 int robot_create_made(robot *all);
-/// The panda (hulls of its meshes; its hand is one with the last link, fingers open) among the parts of decomposed
-/// objects around it, up to 400, from the folder of test data. 0: it is not there.
+/// The Panda (hulls of its meshes; its hand is one with the last link, fingers open) among up to 400 parts of
+/// decomposed objects around it, from the folder of test data. 0: it is not available.
 int robot_create_panda(robot *all, const char *data);
 void robot_destroy(robot *all);
 

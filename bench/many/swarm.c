@@ -1,6 +1,6 @@
-// Places are uniform in a cube whose volume grows with the number of bodies, so that each finds about as many
-// neighbours in a swarm of any size. Nothing pushes back: bodies pass through each other, as in a broad phase's worst
-// day.
+// Places are uniform in a cube whose volume grows with the number of bodies, so that each body has about as many
+// neighbours in a swarm of any size. There is no reaction to contact: bodies pass through each other, a hard case for a
+// broad phase.
 #include "many/swarm.h"
 
 #include "common/random.h"

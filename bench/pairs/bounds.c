@@ -1,4 +1,4 @@
-// Bounding volumes as first stages. These are straightforward scalar codes, of like care; what counts is the relation.
+// Bounding volumes as first stages, in straightforward scalar code of equal care; only their relative cost matters.
 #include "pairs/bounds.h"
 
 #include <math.h>
@@ -108,7 +108,7 @@ double bound_by_box(const bounded *pair) {
     for (int j = 0; j < 3; j++)
         best = fmax(best, fabs(dot(d, v[j])) - hb[j] - ha[0] * absolute[0][j] - ha[1] * absolute[1][j] -
                               ha[2] * absolute[2][j]);
-    // The edges, their cross products scaled to unit length; nearly parallel ones say nothing new.
+    // The edges, their cross products scaled to unit length; nearly parallel edges add no information.
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) {
             double squared = 1 - r[i][j] * r[i][j];

@@ -1,4 +1,4 @@
-// Bounding volumes as first stages, each alone, to be compared: sphere, oriented box, outer ellipsoid.
+// Bounding volumes as first stages, each alone, for comparison: sphere, oriented box, outer ellipsoid.
 #ifndef OVOID_BENCH_PAIRS_BOUNDS_H
 #define OVOID_BENCH_PAIRS_BOUNDS_H
 
@@ -23,7 +23,7 @@ typedef struct bounded {
     ovoid_vec3 at_a, at_b;
 } bounded;
 
-/// Lower bounds of the distance; above 0 only where they are apart. Plain doubles, nothing is proven.
+/// Lower bounds of the distance; above 0 only if the bodies are apart. Plain doubles, without proof.
 typedef double (*bound)(const bounded *pair);
 
 double bound_by_sphere(const bounded *pair);

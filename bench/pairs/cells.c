@@ -29,7 +29,7 @@ const char *question_get_name(question what) {
     return names[what];
 }
 
-/// Wrong in more than 1 % of its answers.
+/// 1 if wrong in more than 1 % of its answers.
 static int is_wrong(const entrant *e) { return 100 * faults_get_wrong(&e->wrong) > e->wrong.asked; }
 
 const entrant *cell_find_fastest_peer(const cell *c, uint32_t own, int right) {
@@ -63,7 +63,7 @@ void cells_print_head(const cell *c) {
     printf("  %-23s  %s\n", "fastest peer / us, batch", "fastest right peer");
 }
 
-/// The peer, and its time over that of ovoid's calls and of its batches.
+/// The peer's time relative to ovoid's calls and to its batches.
 static void print_ratio(const cell *c, uint32_t own, const entrant *other) {
     const entrant *single = cell_find_fastest_own(c, own, "ovoid"), *batch = cell_find_fastest_own(c, own, "batch");
     if (!other || !single || !batch)
@@ -98,7 +98,7 @@ static void add_faults(faults *sum, const faults *f) {
     sum->points += f->points;
 }
 
-/// The sums of one contestant, cold and warm together; one line for each question that it was asked.
+/// The sums of one contestant, cold and warm together; one line for each of its queries.
 static void print_faults_of(const cells *all, const peer *who) {
     for (int what = 0; what < QUESTION_COUNT; what++) {
         faults sum = {0};

@@ -17,7 +17,7 @@ typedef struct cell {
 typedef struct cells {
     cell *items;
     uint32_t count, room;
-    uint32_t own; ///< how many entrants are ovoid's
+    uint32_t own; ///< the number of ovoid's entrants
 } cells;
 
 /// A copy of the cell at the end; 0 if memory runs out.
@@ -28,15 +28,15 @@ const char *question_get_name(question what);
 
 /// The fastest entrant that is not ovoid's; right: of those with at most 1 % wrong answers. NULL: none.
 const entrant *cell_find_fastest_peer(const cell *c, uint32_t own, int right);
-/// ovoid's fastest of the first `own` entrants that bears the name.
+/// ovoid's fastest of the first `own` entrants with that name.
 const entrant *cell_find_fastest_own(const cell *c, uint32_t own, const char *name);
 
-/// The terminal's table: a head for the entrants, a row for a cell, and the sums of faults.
+/// The terminal's table: a head for the entrants, a row for each cell, and the sums of faults.
 void cells_print_head(const cell *c);
 void cells_print_row(const cell *c, uint32_t own);
 void cells_print_faults(const cells *all);
 
-/// CSV, a row for each entrant of each cell; its first line says what was measured with. 0: not written.
+/// CSV, a row for each entrant of each cell; its first line describes the build. 0: not written.
 int cells_write_csv(const cells *all, const char *path);
 /// A plot: a panel for each question and placement of the random hulls.
 int cells_write_svg(const cells *all, const char *path);

@@ -1,5 +1,5 @@
-// The results over random hulls as a picture: a chart for each question and placement, ovoid beside the fastest peer of
-// each cell, and beside the fastest whose answers there are right. Bands: quartiles.
+// The results over random hulls as a picture: a chart for each question and placement, with ovoid, the fastest peer of
+// each cell, and the fastest peer whose answers there are right. Bands: quartiles.
 #include "common/build.h"
 #include "common/sheet.h"
 #include "pairs/cells.h"
@@ -27,7 +27,7 @@ static void add_point(panel *p, int line, uint32_t vertices, const entrant *e) {
     p->high[line][k] = e->time.high;
 }
 
-/// The panel of that title; a new one where there is none; NULL if there is no room.
+/// The panel of that title; a new one if it is new; NULL if there is no room.
 static panel *get_panel(panel *panels, uint32_t *count, const char *title) {
     for (uint32_t i = 0; i < *count; i++)
         if (!strcmp(panels[i].title, title)) return &panels[i];

@@ -120,7 +120,7 @@ static ovoid_verdict ask_prepared(const prepared_self *s, uint32_t i, question w
     }
 }
 
-/// Yes or no: verdicts alone are asked for, else points and normal too.
+/// For yes or no only verdicts are requested, else points and normal too.
 static void run_prepared(void *state, question what, int warm, found *answers) {
     prepared_self *s = state;
     int yes_or_no = what == QUESTION_COLLIDE || what == QUESTION_WITHIN;
@@ -149,7 +149,7 @@ const peer ours_prepared = {
 typedef struct batch_self {
     ovoid_batch batch; ///< of all couples
     double margin;
-    uint32_t frame; ///< couples that are asked about at once
+    uint32_t frame; ///< couples of one query
 } batch_self;
 
 static void destroy_batch(void *state) {
@@ -218,8 +218,8 @@ static void read_witnesses(const batch_self *s, question what, found *answers) {
     }
 }
 
-/// Yes or no: verdicts alone are asked for, else points and normal too. A frame is a batch, and its proofs go into the
-/// next one's.
+/// For yes or no only verdicts are requested, else points and normal too. A frame is a batch, and its proofs are the
+/// earlier ones of the next frame.
 static void run_batch(void *state, question what, int warm, found *answers) {
     batch_self *s = state;
     int yes_or_no = what == QUESTION_COLLIDE || what == QUESTION_WITHIN;

@@ -12,7 +12,7 @@ typedef struct visit {
 
 static int is_wanted(const plan *what, const char *name) { return !what->only || strstr(name, what->only) != NULL; }
 
-/// Hands the workload on, if there is memory for it, and destroys it.
+/// Passes the workload to the visitor, if there is memory for it, and destroys it.
 static int hand_on(const visit *v, workload work) {
     int good = work.pairs != NULL && v->call(v->context, &work);
     workload_destroy(&work);

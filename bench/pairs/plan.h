@@ -1,4 +1,4 @@
-// Which workloads there are, and going through them.
+// The list of workloads, and visiting them.
 #ifndef OVOID_BENCH_PAIRS_PLAN_H
 #define OVOID_BENCH_PAIRS_PLAN_H
 
@@ -12,10 +12,10 @@ typedef struct plan {
     uint32_t count;   ///< bodies, and so pairs, of each still workload
     const char *only; ///< workloads whose name holds this; NULL: all
     const char *data; ///< the folder with pieces/game_hulls.bin; NULL: none
-    int smoke;        ///< few of all
+    int smoke;        ///< a small number of everything
 } plan;
 
-/// What is done with each workload. 0: stop, it failed.
+/// A function called with each workload. 0: stop, it failed.
 typedef int (*visitor)(void *context, const workload *work);
 
 /// 0 if a visitor failed or memory is out.

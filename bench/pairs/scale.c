@@ -1,5 +1,6 @@
 // Cost as the work grows: a query over the vertices of its bodies; many pairs, in one batch and each by its own call; a
-// batch on several threads; a shape's memory, and its set-up beside its file's and Qhull's time for the hull alone.
+// batch on several threads; a shape's memory and set-up time, compared with reading its file and with Qhull's time for
+// the hull alone.
 #define _POSIX_C_SOURCE 200809L
 #include "pairs/scale.h"
 
@@ -98,7 +99,7 @@ static int write_and_read(const ovoid_shape *shape) {
     return read != NULL;
 }
 
-/// 0: it failed, or is not there.
+/// 0: it failed, or is not available.
 static int run_setup(const body *b, setup step) {
     ovoid_polytope p = ovoid_shape_get_polytope(b->shape);
     ovoid_fit fit = ovoid_shape_get_inner(b->shape);
@@ -209,7 +210,7 @@ static int crowd_create(crowd *c, const bodies *set, uint32_t count) {
     return 1;
 }
 
-/// The couples from one to another, exclusive.
+/// The couples of one thread: from first to end, exclusive.
 typedef struct share {
     ovoid_batch batch;
     int failed;
@@ -274,11 +275,11 @@ static row make_pairs_row(row named, uint32_t count, double *seconds, uint32_t p
     return named;
 }
 
-/// More and more pairs.
+/// Times growing numbers of pairs.
 static void add_pairs(rows *all, const crowd *c, uint32_t most, const char *line, void *(*run)(void *)) {
     double seconds[PASSES];
     for (uint64_t count = 1; count <= most; count *= 10) {
-        // Few pairs again and again, so that the clock's own cost does not count.
+        // Small numbers of pairs are repeated, so that the clock's own cost does not matter.
         uint32_t passes = count > 100000 ? 3 : 5, again = count < 1000 ? (uint32_t)(1000 / count) : 1;
         share s = share_make(c, most, 0, (uint32_t)count);
         for (uint32_t pass = 0; pass < passes; pass++) {

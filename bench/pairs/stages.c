@@ -1,6 +1,6 @@
-// Which stage decides how many pairs, and what such a pair costs in all: pairs are grouped by the stage that decided,
-// and each group is timed. A stage that decides few and makes the later ones dearer does not pay for itself. Then, on
-// the same pairs, a sphere, an oriented box and an ellipsoid as the first stage, each timed alone.
+// Which stage decides how many pairs, and what these pairs cost in all: pairs are grouped by the stage that decided,
+// and each group is timed. A stage that decides few pairs and makes the later stages costlier does not pay for itself.
+// Then, on the same pairs, a sphere, an oriented box and an ellipsoid as the first stage, each timed alone.
 #include "pairs/stages.h"
 
 #include "common/build.h"
@@ -26,7 +26,7 @@ static double time_stage(const asked *pairs, uint32_t count, question what, ovoi
     for (int pass = 0; pass < PASSES; pass++) {
         uint32_t done = 0;
         double start = get_own_seconds(), sum = 0;
-        // The group again and again, so that the clock's own cost does not count.
+        // The group is repeated, so that the clock's own cost does not matter.
         while (done < 200)
             for (uint32_t i = 0; i < count; i++)
                 if (pairs[i].stage == stage) {
@@ -82,8 +82,8 @@ static double time_bound(bound compute, const bounded *pairs, uint32_t count) {
     return timing_make(samples, PASSES).median;
 }
 
-/// Of the pairs whose bounding spheres do not part them by more than the limit, the share that each volume parts; and
-/// of those that neither sphere nor box parts, the ellipsoids' share.
+/// For the pairs whose bounding spheres do not separate them by more than the limit, the share that each volume
+/// separates; and for those that neither sphere nor box separates, the ellipsoids' share.
 static void print_bounds_for(const workload *work, const bounded *pairs, int within) {
     uint32_t by[3] = {0}, beyond = 0, left = 0;
     for (uint32_t i = 0; i < work->pair_count; i++) {
@@ -140,7 +140,7 @@ static int visit_stages(void *context, const workload *work) {
 
 static int visit_bounds(void *context, const workload *work) {
     (void)context;
-    // Only where most pairs are apart is there anything to part.
+    // Only workloads in which most pairs are apart can be separated.
     return !(work->questions >> QUESTION_WITHIN & 1) || print_bounds(work);
 }
 

@@ -1,4 +1,4 @@
-// Of how many cells ovoid is the fastest, and where it is not.
+// The number of cells in which ovoid is the fastest, and the others.
 #include "pairs/standing.h"
 
 #include <stdio.h>
@@ -6,12 +6,12 @@
 static const char *const ways[] = {"ovoid", "prepared", "batch"};
 enum { WAYS = sizeof ways / sizeof ways[0] };
 
-/// The peer's time over ours; 0 if one of them was not measured.
+/// The peer's time relative to ovoid's; 0 if one of them was not measured.
 static double get_lead(const entrant *other, const entrant *own) {
     return other && own ? other->time.median / own->time.median : 0;
 }
 
-/// How many times the fastest peer one way of asking is to be.
+/// The goal: how many times as fast as the fastest peer this kind of query should be.
 static double get_goal(const cell *c, const char *way) {
     int is_distance = c->what == QUESTION_DISTANCE;
     if (way == ways[2]) return is_distance ? 5 : 10;
@@ -30,7 +30,7 @@ static void print_way(const cells *all, const char *way, int right) {
     printf("%-10s %-6s %6u %6u %6u\n", way, right ? "right" : "all", count, ahead, goal);
 }
 
-/// The better of a pair's query and that of prepared shapes.
+/// The faster of a pair's query and that of prepared shapes.
 static const entrant *find_single(const cells *all, const cell *c) {
     const entrant *pair = cell_find_fastest_own(c, all->own, ways[0]),
                   *ready = cell_find_fastest_own(c, all->own, ways[1]);

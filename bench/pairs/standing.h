@@ -1,11 +1,11 @@
-// Of how many cells ovoid is the fastest, and where it is not.
+// The number of cells in which ovoid is the fastest, and the others.
 #ifndef OVOID_BENCH_PAIRS_STANDING_H
 #define OVOID_BENCH_PAIRS_STANDING_H
 
 #include "pairs/cells.h"
 
-/// Prints, for each way of asking, in how many cells it is ahead of all peers and of the right ones, and how many times
-/// it is as fast as the goal wants; then the cells in which a peer is ahead.
+/// Prints, for each kind of query, in how many cells it is faster than all peers and than those that are right, and in
+/// how many it reaches the goal; then the cells in which a peer is faster.
 void standing_print(const cells *all);
 
 #endif

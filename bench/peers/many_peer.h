@@ -1,5 +1,5 @@
-// What the benchmark asks of a contestant about many bodies: a frame of a swarm, a state of a robot in its cell. A
-// peer is a shared module that exports bench_get_many_peers; it sees bodies as plain arrays, as in peer.h.
+// The interface of a contestant with many bodies: a frame of a swarm, a state of a robot in its cell. A peer is a
+// shared module that exports bench_get_many_peers; it receives bodies as plain arrays, as in peer.h.
 #ifndef OVOID_BENCH_PEERS_MANY_PEER_H
 #define OVOID_BENCH_PEERS_MANY_PEER_H
 
@@ -17,8 +17,8 @@ typedef struct swarm {
     const body *shapes;
     const uint32_t *shape_of; ///< of each body
     uint32_t shape_count, body_count;
-    double step;      ///< about how far the outermost points of a body go in a frame
-    uint32_t threads; ///< for those who can use them
+    double step;      ///< about the motion of the outermost points of a body in a frame
+    uint32_t threads; ///< for contestants that can use them
 } swarm;
 
 /// A robot among parts that stand still. Body k < link_count is a link, link_count + i the part i.
@@ -27,11 +27,11 @@ typedef struct workcell {
     const uint32_t *shape_of; ///< of links, then parts
     const ovoid_pose *parts;
     uint32_t shape_count, link_count, part_count;
-    const unsigned char *ignored; ///< link_count x link_count: 1 if two links are not asked about; symmetric
+    const unsigned char *ignored; ///< link_count x link_count: 1 if two links are not queried; symmetric
     double margin;                ///< of the monitor
 } workcell;
 
-/// Two bodies a < b, and how far apart they are where that was asked.
+/// Two bodies a < b, and their distance if it was queried.
 typedef struct meeting {
     uint32_t a, b;
     double distance;
@@ -60,7 +60,7 @@ static inline void meetings_add(meetings *all, uint32_t a, uint32_t b, double di
     one->distance = distance;
 }
 
-/// A frame: the bodies are there now; which touch? In any order. create is not timed; all of run is.
+/// A frame: the bodies have new poses; which pairs touch? In any order. create is not timed; all of run is.
 typedef struct swarm_peer {
     const char *name;
     void *(*create)(const swarm *what, const ovoid_pose *poses); ///< NULL: it cannot
@@ -68,7 +68,7 @@ typedef struct swarm_peer {
     void (*destroy)(void *self);
 } swarm_peer;
 
-/// A state: the links are there now.
+/// A state: the links have new poses.
 typedef struct cell_peer {
     const char *name;
     void *(*create)(const workcell *what, const ovoid_pose *links);

@@ -1,5 +1,5 @@
-// What the benchmark asks of a contestant, be it ovoid or a peer. A peer is a shared module (MODULE.so) that exports
-// bench_get_peers; it sees bodies as plain arrays and needs nothing of libovoid. bench --peer FILE loads one more.
+// The interface of a contestant, ovoid or a peer. A peer is a shared module (MODULE.so) that exports bench_get_peers;
+// it receives bodies as plain arrays and needs nothing of libovoid. bench --peer FILE loads one more.
 #ifndef OVOID_BENCH_PEERS_PEER_H
 #define OVOID_BENCH_PEERS_PEER_H
 
@@ -34,18 +34,17 @@ typedef enum question {
     QUESTION_COUNT
 } question;
 
-/// Pairs to be asked about. With tracks > 0, pair i is one frame after pair i - tracks: the same bodies, moved a
-/// little.
+/// Pairs to query. With tracks > 0, pair i is one frame after pair i - tracks: the same bodies, moved a little.
 typedef struct workload {
     char name[40];
     uint32_t vertices; ///< of each body; 0 if they differ
     const body *bodies;
     const placed *pairs;
     uint32_t body_count, pair_count, tracks;
-    unsigned questions; ///< bit 1 << question: is asked here
+    unsigned questions; ///< bit 1 << question: the question is asked here
 } workload;
 
-/// What a contestant says of one pair.
+/// A contestant's answer about one pair.
 typedef enum verdict { VERDICT_NO, VERDICT_YES, VERDICT_NONE } verdict;
 typedef struct found {
     verdict yes;     ///< they touch, or are within the margin; NONE: it gave up
@@ -55,11 +54,12 @@ typedef struct found {
 
 typedef struct peer {
     const char *name;
-    unsigned questions;                    ///< bit 1 << question: it answers this
-    unsigned warm;                         ///< bit 1 << question: it can start from the last frame
+    unsigned questions;                    ///< bit 1 << question: the contestant answers the question
+    unsigned warm;                         ///< bit 1 << question: the contestant can start from the last frame
     int is_float;                          ///< single precision
     void *(*create)(const workload *work); ///< bodies and poses in its own form; not timed. NULL: it cannot
-    /// All pairs in order, one answer each. warm: with what it keeps from frame to frame, none for the first frame.
+    /// All pairs in order, one answer each. warm: with the state that it keeps from frame to frame, none for the first
+    /// frame.
     void (*run)(void *self, question what, int warm, found *answers);
     void (*destroy)(void *self);
 } peer;

@@ -1,7 +1,7 @@
 // Bullet, hull shapes with all margins 0; built once in double and once in single precision, as Debian ships both. Two
-// contestants each: epa2, the calls of btGjkEpaSolver2, and pair, its collision pipeline's btGjkPairDetector with
+// contestants each: epa2, the calls of btGjkEpaSolver2, and pair, the btGjkPairDetector of its collision pipeline with
 // btGjkEpaPenetrationDepthSolver. Warm start: the pair detector's cached separating axis. Yes or no by the pair
-// detector: a point pair at a distance below 0 (or the margin), with its own cut-off of what is farther.
+// detector: a pair of points at a distance below 0 (or the margin), with its own cut-off of farther pairs.
 #include "peers/peer.h"
 
 #include <BulletCollision/CollisionShapes/btConvexHullShape.h>
@@ -72,7 +72,7 @@ found ask_epa2(const posed &p, question what) {
     }
     f.point_a = from_bullet(r.witnesses[0]);
     f.point_b = from_bullet(r.witnesses[1]);
-    f.normal = from_bullet(p.at_a.getBasis() * r.normal); // it gives it in the frame of A
+    f.normal = from_bullet(p.at_a.getBasis() * r.normal); // returned in the frame of A
     return f;
 }
 

@@ -1,6 +1,6 @@
-// libccd (D. Fiser): booleans by GJK and by MPR (XenoCollide), depth by GJK and EPA and by MPR. Its user writes the
-// supports: here a loop over a contiguous array in the body's frame, rotated by a matrix. Tolerances are its own.
-// Within a margin: both supports are enlarged by half of it. It measures no distance and has no warm start.
+// libccd (D. Fiser): yes or no by GJK and by MPR (XenoCollide), depth by GJK and EPA and by MPR. Its user writes the
+// support functions: here a loop over a contiguous array in the body's frame, rotated by a matrix. Tolerances are its
+// own. Within a margin: both supports are enlarged by half of it. It measures no distance and has no warm start.
 #include "common/rotation.h"
 #include "peers/peer.h"
 

@@ -1,7 +1,7 @@
-// FCL in double: Convex shapes, which climb from vertex to vertex above 32 of them, through fcl::collide and
-// fcl::distance. Two contestants, one for each of its solvers, its own (fcl) and that over libccd (fcl-ccd, its
-// default). Its own solver gives the depth a minus sign, which is forgiven, and the normal in the frame of A, which is
-// not. Warm start: the cached guess, which its own solver has for collide. Within a margin: its distance, compared.
+// FCL in double: Convex shapes, which climb from vertex to vertex above 32 vertices, through fcl::collide and
+// fcl::distance. Two contestants, one for each of its solvers: its own (fcl) and libccd (fcl-ccd, its default). Its own
+// solver returns the depth with a minus sign, which the benchmark corrects, and the normal in the frame of A, which it
+// does not. Warm start: the cached guess of its own solver, for collide. Within a margin: its distance, compared.
 #include "peers/peer_fcl.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// What all of FCL's contestants use.
+// Shared by all of FCL's contestants.
 #ifndef OVOID_BENCH_PEERS_PEER_FCL_H
 #define OVOID_BENCH_PEERS_PEER_FCL_H
 

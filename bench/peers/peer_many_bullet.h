@@ -1,4 +1,4 @@
-// What both of Bullet's many-body contestants use; built once in double and once in single precision.
+// Shared by Bullet's two many-body contestants; built once in double and once in single precision.
 #ifndef OVOID_BENCH_PEERS_PEER_MANY_BULLET_H
 #define OVOID_BENCH_PEERS_PEER_MANY_BULLET_H
 
@@ -39,7 +39,7 @@ inline btTransform make_transform(const ovoid_pose &pose) {
                        btVector3(btScalar(p.x), btScalar(p.y), btScalar(p.z)));
 }
 
-/// A posed shape as the pair detector takes it.
+/// A posed shape for the pair detector.
 struct hull_at {
     const btConvexHullShape *shape;
     btTransform at;
@@ -50,7 +50,7 @@ struct narrow {
     btVoronoiSimplexSolver simplex;
     btGjkEpaPenetrationDepthSolver depth;
 
-    /// The signed distance, or BT_LARGE_FLOAT where it is beyond the cut-off.
+    /// The signed distance, or BT_LARGE_FLOAT if it is beyond the cut-off.
     btScalar ask(const hull_at &a, const hull_at &b, btScalar cut, btVector3 *axis) {
         btGjkPairDetector detector(a.shape, b.shape, CONVEX_HULL_SHAPE_PROXYTYPE, CONVEX_HULL_SHAPE_PROXYTYPE, 0, 0,
                                    &simplex, &depth);

@@ -1,5 +1,5 @@
-// Bullet with a robot: the parts in a dynamic tree, each link's box put to it, the pair detector with each pair's last
-// separating axis. The tree's box query cannot be stopped, so after a hit the rest is skipped.
+// Bullet with a robot: the parts are in a dynamic tree, each link's box is queried against it, and the pair detector
+// uses each pair's last separating axis. The tree's box query cannot be stopped, so after a hit the rest is skipped.
 #include "peers/peer_many_bullet.h"
 
 namespace {
@@ -52,7 +52,7 @@ void move(self *s, const ovoid_pose *links) {
     }
 }
 
-/// What the tree calls for each part whose box meets that of the link. near: NULL for the planner.
+/// The tree's callback for each part whose box meets that of the link. near: NULL for the planner.
 struct visitor : btBroadphaseAabbCallback {
     self *s;
     uint32_t link = 0;
@@ -75,7 +75,7 @@ struct visitor : btBroadphaseAabbCallback {
             ask(static_cast<uint32_t>(reinterpret_cast<uintptr_t>(proxy->m_clientObject)));
         return true;
     }
-    /// The link with all parts, then with the links after it.
+    /// Queries the link with all parts, then with the links after it.
     void visit(uint32_t i) {
         btVector3 wide(cut, cut, cut);
         link = i;

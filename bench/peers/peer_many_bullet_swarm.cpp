@@ -1,8 +1,8 @@
-// Bullet's dynamic tree with its hashed pair cache, and two ways to ask about the pairs: as its collision world does it
-// (dispatcher, convex-convex algorithm, persistent manifolds), and lean: yes or no by btGjkEpaSolver2::Distance, which
-// is its fastest, with each pair's separating axis kept beside it, and one collision of the tree with itself a frame
-// (deferred) in place of one for each body. The trees' margin is a step of the motion; pools are large enough; all
-// margins of shapes are 0.
+// Bullet's dynamic tree with its hashed pair cache, and two ways to query the pairs. The first is that of its collision
+// world (dispatcher, convex-convex algorithm, persistent manifolds). The lean one asks yes or no by
+// btGjkEpaSolver2::Distance, its fastest, keeps each pair's separating axis, and collides the tree with itself once a
+// frame (deferred) instead of once for each body. The trees' margin is a step of the motion; pools are large enough;
+// all margins of shapes are 0.
 #include "peers/peer_many_bullet.h"
 
 namespace {
@@ -75,7 +75,7 @@ void destroy_world(void *state) { delete static_cast<world *>(state); }
 
 // --- yes or no
 
-/// What the pair cache keeps with a pair: the last separating axis. The cache destroys it with the pair.
+/// Stored by the pair cache with a pair: the last separating axis. The cache destroys it with the pair.
 struct kept_axis : btCollisionAlgorithm {
     btVector3 axis = {0, 0, 0};
     void processCollision(const btCollisionObjectWrapper *, const btCollisionObjectWrapper *, const btDispatcherInfo &,

@@ -1,4 +1,4 @@
-// What both of FCL's many-body contestants use.
+// Shared by FCL's two many-body contestants.
 #ifndef OVOID_BENCH_PEERS_PEER_MANY_FCL_H
 #define OVOID_BENCH_PEERS_PEER_MANY_FCL_H
 
@@ -31,10 +31,10 @@ class posed_convex : public fcl::CollisionObjectd {
         aabb.max_ = high + t.translation();
     }
 
-    /// Another box than that of the vertices.
+    /// Sets a box other than that of the vertices.
     void set_box(const fcl::AABBd &box) { aabb = box; }
 
-    /// The most that a vertex reaches along a direction of the world, from where the body is.
+    /// The largest reach of a vertex along a direction of the world, relative to the body's position.
     double find_extreme(const fcl::Vector3d &direction) const {
         fcl::Vector3d own = t.linear().transpose() * direction;
         double most = -INFINITY;

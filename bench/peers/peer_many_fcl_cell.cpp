@@ -1,6 +1,6 @@
-// FCL with a robot: the parts in a dynamic tree that is set up once. The planner's question goes link by link against
-// the tree and stops at the first hit; the monitor's uses the tree's distance traversal with the margin as its bound.
-// Links among themselves are few: their boxes are compared directly.
+// FCL with a robot: the parts are in a dynamic tree that is set up once. The planner queries each link against the tree
+// and stops at the first hit; the monitor uses the tree's distance traversal with the margin as its bound. Links are
+// few, so their boxes are compared directly.
 #include "peers/peer_many_fcl.h"
 
 namespace {

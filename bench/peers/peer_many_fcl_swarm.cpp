@@ -1,11 +1,11 @@
-// FCL's dynamic trees, two ways. Plainly: each frame sets all transforms and boxes, refits the tree once (update), and
-// asks it for all pairs, each of which goes to fcl::collide without contacts, over libccd: FCL's own solver took 3.5
-// times as long here, and the boxes of CollisionObject::computeAABB, those of the enclosing spheres, 2.4 times.
+// FCL's dynamic trees, used in two ways. Plain: each frame sets all transforms and boxes, refits the tree once
+// (update), and queries it for all pairs, each of which goes to fcl::collide without contacts, over libccd. (FCL's own
+// solver took 3.5 times as long here, and the boxes of CollisionObject::computeAABB, those of the enclosing spheres,
+// 2.4 times.)
 //
-// And as a careful user writes it: boxes in the tree are enlarged, so that few change in a frame; the list of pairs is
-// kept from frame to frame; a pair is asked only if its tight boxes meet and the axis that parted it last no longer
-// does. FCL hands out no axis with a yes or no, so it is asked for a distance where a pair has just parted or its axis
-// has failed.
+// Careful: boxes in the tree are enlarged, so that few change in a frame; the list of pairs is kept from frame to
+// frame; a pair is queried only if its tight boxes meet and its last separating axis no longer separates it. FCL
+// returns no axis with a yes or no, so a distance is queried if a pair has just separated or its axis has failed.
 #include "peers/peer_many_fcl.h"
 
 namespace {
@@ -57,7 +57,7 @@ template <typename manager> void destroy(void *state) { delete static_cast<self<
 
 // --- the careful way
 
-/// How far a box may be enlarged: of what the outermost points go in a frame.
+/// The enlargement of a box, relative to the motion of the outermost points in a frame.
 const double steps_ahead = 8;
 
 struct kept_pair {
@@ -112,7 +112,7 @@ bool add_pair(fcl::CollisionObjectd *p, fcl::CollisionObjectd *q, void *context)
     return false;
 }
 
-/// Places all; those that left their boxes get new ones, and their pairs are brought up to date.
+/// Moves all bodies; those that left their boxes get new ones, and their pairs are updated.
 void move_careful(careful *s, const ovoid_pose *poses) {
     std::vector<fcl::CollisionObjectd *> left;
     for (size_t i = 0; i < s->objects.size(); i++) {

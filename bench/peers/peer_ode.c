@@ -1,6 +1,6 @@
-// ODE (R. Smith): dCollide of two convex geometries, which Debian's build hands to libccd's MPR, after its own bounding
-// boxes. It wants the origin inside a body, so bodies are moved there. Boolean: one contact asked for, its least; depth
-// and normal: the deepest of eight contacts. It measures no distance and has no warm start.
+// ODE (R. Smith): dCollide of two convex geometries, which Debian's build passes to libccd's MPR, after its own
+// bounding boxes. It needs the origin inside a body, so bodies are moved there. Yes or no: one contact, the least that
+// it allows; depth and normal: the deepest of eight contacts. It measures no distance and has no warm start.
 #include "common/rotation.h"
 #include "peers/peer.h"
 
@@ -8,7 +8,7 @@
 #include <ode/ode.h>
 #include <stdlib.h>
 
-/// What dGeomSetConvex keeps pointers into.
+/// The arrays to which dGeomSetConvex keeps pointers.
 typedef struct hull {
     dReal *planes, *points;
     unsigned *polygons;

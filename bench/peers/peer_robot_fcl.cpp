@@ -1,12 +1,12 @@
 // FCL as MoveIt drives it: a dynamic tree for the world and one for the robot's own bodies, whose callbacks leave out
-// allowed pairs and stop at the first contact; URDF's boxes, cylinders and spheres as such. What has no name is a tree
-// of triangles (BVHModel<OBBRSS>), as MoveIt makes of all meshes, or in the second contestant a Convex.
+// allowed pairs and stop at the first contact; URDF's boxes, cylinders and spheres are FCL's own. Other shapes are
+// trees of triangles (BVHModel<OBBRSS>), as in MoveIt, or in the second contestant Convex.
 #include "peers/peer_fcl.h"
 #include "peers/robot_peer.h"
 
 namespace {
 
-/// Whose body it is; links from 0 on, obstacles -1.
+/// The owner of a body: links from 0 on, obstacles -1.
 struct owner {
     int link;
 };

@@ -1,7 +1,8 @@
-// Solids against FCL's BVHModel<OBBRSS>, in one run: bumpy spheres of about 5 000 and 50 000 triangles, at gaps of 10 %
-// and 1 % of their diameter of 2, and overlapping by about a quarter of it; random turns. Both answer the same pairs
-// one after another, the best of several passes each; distances and hits are compared and have to agree. A pair's
-// distance is asked to a relative tolerance of 1e-9 here, to FCL's own there. `bench_solids [TRIANGLES [PAIRS]]`.
+// Solids compared with FCL's BVHModel<OBBRSS>, in one run: bumpy spheres of about 5 000 and 50 000 triangles, at gaps
+// of 10 % and 1 % of their diameter of 2, and overlapping by about a quarter of it, in random rotations. Both answer
+// the same pairs in turns, the best of several passes each; distances and hits are compared and have to agree.
+// Distances are computed to a relative tolerance of 1e-9 here, to FCL's default there. `bench_solids [TRIANGLES
+// [PAIRS]]`.
 #include <fcl/fcl.h>
 #include <ovoid/ovoid.h>
 

@@ -51,14 +51,14 @@ double get_seconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// Who validates: ovoid, or a peer at states that are this part of the space's extent apart.
+/// The validator: ovoid, or a peer at states that are this share of the space's extent apart.
 struct contestant {
     std::string name;
     const robot_peer *peer;
     double resolution;
 };
 
-/// What was measured of a contestant.
+/// The measurements of a contestant.
 struct results {
     std::vector<double> planned, shortened;
     unsigned solved = 0, proven = 0, hit_at_samples = 0, hit_between = 0, open = 0;
@@ -131,7 +131,7 @@ ovoid::robot_query_options make_options() {
     return how;
 }
 
-/// How deep the path gets, proven, at states a two hundredth of a segment apart.
+/// The depth that the path reaches, proven, at states a two hundredth of a segment apart.
 double find_depth(ovoid::robot_checker &checker, const std::vector<double> &states, std::size_t n) {
     double deepest = 0;
     std::vector<double> q(n);
@@ -235,7 +235,7 @@ void set_positions(const ovoid::robot &robot, const ovoid_joint_position *items,
     }
 }
 
-/// 0: it cannot be read, or has other than one goal, or an end hits.
+/// 0: it cannot be read, or does not have exactly one goal, or an end hits.
 bool open_problem(problem &of, machine *m, unsigned index) {
     if (!robots_scene_create(&of.scene, m, index)) return false;
     of.robot = ovoid::robot(m->robot);

@@ -1,5 +1,5 @@
-// What the queries of overhead.py cost in C. A shared library that overhead.py loads: it gives shapes as the bytes of
-// .ovoid files and poses as x y z w x y z numbers, so both sides query the same bits. Times are seconds of the
+// The cost in C of the queries of overhead.py. A shared library that overhead.py loads: it passes shapes as the bytes
+// of .ovoid files and poses as x y z w x y z numbers, so both sides query the same bits. Times are seconds of the
 // monotonic clock.
 #define _POSIX_C_SOURCE 200809L // clock_gettime
 #include <ovoid/ovoid.h>
@@ -39,7 +39,8 @@ static ovoid_answer query(int kind, const ovoid_pair *pair) {
     return ovoid_depth(pair, NULL, NULL, &cover);
 }
 
-/// Seconds of `count` queries of the first two bodies; the sum of the bounds is kept, so that none is left out.
+/// Seconds of `count` queries of the first two bodies; the sum of the bounds is returned, so that the compiler keeps
+/// them.
 double time_single(int kind, const given_body *bodies, size_t count) {
     ovoid_shape *a = ovoid_shape_read(bodies[0].bytes, bodies[0].size, NULL, NULL);
     ovoid_shape *b = ovoid_shape_read(bodies[1].bytes, bodies[1].size, NULL, NULL);

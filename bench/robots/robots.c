@@ -1,4 +1,4 @@
-// The whole of `bench --robot`.
+// `bench --robot`.
 #include "robots/robots.h"
 
 #include "common/build.h"
@@ -33,7 +33,7 @@ static int run_scene(robots_run *run, const robots_field *who, uint32_t index) {
     rival rivals[ROBOT_PEERS_MOST];
     uint32_t count = 0;
     for (uint32_t i = 0; i < who->count; i++) {
-        // They begin in turn.
+        // The contestants begin in turn.
         const robot_peer *one = who->peers[(i + index) % who->count];
         void *self = one->create(&s.what);
         if (self) rivals[count++] = (rival){one, self};
@@ -46,7 +46,7 @@ static int run_scene(robots_run *run, const robots_field *who, uint32_t index) {
     return 1;
 }
 
-/// A title that stays while rows point to it.
+/// A title that lives as long as rows point to it.
 static const char *make_title(const machine *m, const char *what) {
     enum { TITLES = 128 };
     static char titles[TITLES][128];
@@ -75,7 +75,7 @@ static void report(robots_run *run, rows *all, double obstacles) {
 
 static void run_matrix(robots_run *run, rows *all) {
     double start = get_own_seconds();
-    // Of many links the proofs of nearly two thousand pairs would be all that is timed.
+    // With many links the proofs of nearly two thousand pairs would dominate the time.
     size_t budget = run->machine->link_count > 40 ? 100 : run->plan->budget;
     ovoid_robot_matrix_options options = {.samples = run->plan->samples, .budget = budget};
     ovoid_robot_matrix *matrix = ovoid_robot_matrix_create(run->machine->robot, &options, NULL);
@@ -100,7 +100,7 @@ static int run_machine(machine *m, const robots_plan *plan, const robots_field *
     static robots_run run;
     run = (robots_run){.machine = m, .plan = plan};
     uint32_t scenes = machine_count_scenes(m);
-    // Of many scenes those that are taken are spread over all of them.
+    // If not all scenes are used, they are spread over all of them.
     uint32_t count = scenes < plan->scenes ? scenes : plan->scenes;
     double obstacles = count_obstacles(m);
     printf("\n%s: %u links with %u solids, %u variables, %u of %u scenes\n", m->name, m->link_count, m->element_count,

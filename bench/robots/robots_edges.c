@@ -1,4 +1,4 @@
-// Edges: ovoid proves them, peers look at some of their states; the states along an edge, one after another.
+// Edges: ovoid proves them, peers check some of their states; the states along an edge, one after another.
 #include "robots/robots.h"
 
 #include "common/random.h"
@@ -18,15 +18,15 @@ uint32_t robots_count_samples(const machine *m, const double *q0, const double *
     return (uint32_t)ceil(moved / (ROBOTS_RESOLUTION * range)) + 1;
 }
 
-/// An edge and what was proven of it.
+/// An edge and its proven result.
 typedef struct edge {
-    double *q; ///< its two states, then one of work
+    double *q; ///< its two states, then one for work
     uint32_t samples;
     ovoid_robot_path_answer is;
-    double depth; ///< of a hit: the deepest of the states that were sampled
+    double depth; ///< for a hit: the greatest depth in the sampled states
 } edge;
 
-/// From a state that is free, in a random direction: each joint by up to that part of its range. 0: none was found.
+/// From a free state, in a random direction: each joint by up to that share of its range. 0: none was found.
 static int draw_edge(robots_run *run, robots_scene *s, edge *e, double length) {
     const machine *m = run->machine;
     uint32_t width = m->variable_count;
@@ -46,8 +46,7 @@ static int draw_edge(robots_run *run, robots_scene *s, edge *e, double length) {
     return 0;
 }
 
-/// One question about the edge: the first hit or, as samplers ask, any. Its time in microseconds; below zero: it
-/// failed.
+/// One query of the edge: the first hit or, as in sampling, any hit. Its time in microseconds; below zero: it failed.
 static double ask(robots_scene *s, const edge *e, int any_hit, ovoid_robot_path_answer *is) {
     ovoid_robot_path path = {e->q, 2};
     ovoid_robot_path_options options = {.any_hit = any_hit};
@@ -56,8 +55,8 @@ static double ask(robots_scene *s, const edge *e, int any_hit, ovoid_robot_path_
     return code == OVOID_OK ? (get_own_seconds() - start) * 1e6 : -1;
 }
 
-/// Both questions in turn: the first of the two is timed, as it finds nothing remembered of the edge. The steps are
-/// written by one more search, and ovoid_robot_path_verify measures them again.
+/// Both queries in turn: the first of the two is timed, as no memory of the edge helps it. One more search writes the
+/// steps, and ovoid_robot_path_verify measures them again.
 static void prove(robots_run *run, robots_scene *s, edge *e, uint32_t length) {
     enum { STEPS = 1 << 16 };
     static ovoid_robot_step steps[STEPS];
@@ -91,8 +90,8 @@ static void place_sample(const machine *m, const edge *e, uint32_t i, double *q)
     for (uint32_t k = 0; k < m->variable_count; k++) q[k] = e->q[k] + t * (e->q[m->variable_count + k] - e->q[k]);
 }
 
-/// How deep the hit is that samples may miss, in the states at the resolution times 8; and whether any truth speaks
-/// against the proof.
+/// The depth of a hit that samples may miss, in the states at 8 times the resolution; and whether the truth of a state
+/// contradicts the proof.
 static void judge_edge(robots_run *run, const robots_scene *s, edge *e, double *q) {
     const machine *m = run->machine;
     e->depth = 0;
@@ -118,7 +117,7 @@ static int sample_edge(const machine *m, const rival *r, const edge *e, double *
     return 0;
 }
 
-/// A sampler's question and, where the edge is free, its cost a state.
+/// A sampler's query and, if the edge is free, its cost for each state.
 static void time_rival(robots_run *run, const rival *r, const edge *e, double *q, ovoid_pose *links, tally *to) {
     double start = get_own_seconds();
     int said_hit = sample_edge(run->machine, r, e, q, links);
@@ -129,7 +128,7 @@ static void time_rival(robots_run *run, const rival *r, const edge *e, double *q
     if (!is_hit && !said_hit) tally_add(tallies_get(&run->along, r->who->name), time / e->samples * 1e9);
 }
 
-/// ovoid as a sampler.
+/// Times ovoid as a sampler.
 static void time_along(robots_run *run, robots_scene *s, const edge *e) {
     const machine *m = run->machine;
     uint32_t hits = 0;
@@ -161,7 +160,7 @@ void robots_run_edges(robots_run *run, robots_scene *s, rival *rivals, uint32_t 
     double *q = malloc(sizeof *q * 3 * (m->variable_count + 1));
     ovoid_pose *links = malloc(sizeof *links * m->link_count);
     edge e = {.q = q};
-    // The first search makes the checker's memory for paths.
+    // The first search allocates the checker's memory for paths.
     if (q && links && draw_edge(run, s, &e, 0.1))
         (void)ovoid_robot_path_find_hit(s->checker, &(ovoid_robot_path_query){&(ovoid_robot_path){q, 2}, NULL}, &e.is,
                                         NULL);

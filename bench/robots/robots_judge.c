@@ -1,5 +1,5 @@
-// What is true of a robot's state, and what was wrong in the answers. The truth is found pair by pair, without a tree,
-// a box or a proof of an earlier state; each pair's proof is put before ovoid_answer_verify.
+// The truth about a robot's state, and the faults of answers. The truth is found pair by pair, without a tree, a box or
+// a proof of an earlier state; each pair's proof is verified by ovoid_answer_verify.
 #include "robots/robots.h"
 
 #include <math.h>
@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Far more than what the kinematics may be off by.
+/// Far more than the error of the kinematics.
 static const double pose_error = 1e-11;
 
 /// A body of the scene.
@@ -92,7 +92,7 @@ tally *tallies_get(tallies *all, const char *line) {
     return t;
 }
 
-/// Room for one more; 0: it is not counted.
+/// Makes room for one more; 0: it is not counted.
 static int grow(double **list, uint32_t count, uint32_t *room) {
     if (count < *room) return 1;
     uint32_t wanted = *room ? 2 * *room : 256;

@@ -1,4 +1,4 @@
-// Robots and their scenes, for ovoid and as plain arrays for its peers.
+// Robots and their scenes, in ovoid's form and as plain arrays for its peers.
 #define _GNU_SOURCE
 #include "robots/robots.h"
 
@@ -26,8 +26,8 @@ int robots_field_load(robots_field *all, const char *path) {
 
 // ---- solids
 
-/// A box where eight vertices are at the same distances from the middle; a cylinder along z where all vertices are at
-/// one height or its negative, at one distance from the axis.
+/// A box if eight vertices have the same distances from the middle; a cylinder along z if all vertices have one height
+/// or its negative, and one distance from the axis.
 static void find_kind(solid *s, double radius) {
     s->kind = SOLID_HULL;
     double most[3] = {0, 0, 0}, low = INFINITY, high = 0;
@@ -66,7 +66,7 @@ static void find_kind(solid *s, double radius) {
     }
 }
 
-/// The number of the shape's solid, added where there is none; it stays the owner's. NONE: no room.
+/// The number of the shape's solid, added if it is new; its owner keeps the shape. NONE: no room.
 static uint32_t add_solid(machine *m, const ovoid_shape *shape) {
     for (uint32_t i = 0; i < m->solid_count; i++)
         if (m->solids[i].hull.shape == shape) return i;
@@ -116,7 +116,7 @@ static void set_limits(machine *m) {
     }
 }
 
-/// About how far it comes: the farthest part of its links in some states.
+/// The reach of the robot, about: the farthest part of its links in some states.
 static void find_reach(machine *m) {
     uint64_t random = 1;
     double *q = malloc(sizeof *q * (m->variable_count + 1));
@@ -133,7 +133,7 @@ static void find_reach(machine *m) {
     free(poses);
 }
 
-/// What follows from the robot.
+/// Computes the fields that follow from the robot.
 static int finish(machine *m) {
     if (!m->robot) return 0;
     ovoid_robot_description d = ovoid_robot_get_description(m->robot);
@@ -157,8 +157,7 @@ static int finish(machine *m) {
     return 1;
 }
 
-/// The problems of an archive, unpacked to a folder that is removed once they have been found and are held in memory:
-/// only at the end, as the files are read scene by scene.
+/// The problems of an archive, unpacked to a folder that is removed at the end, as the files are read scene by scene.
 static int unpack(machine *m, const char *archive) {
     char folder[] = "/tmp/ovoid-bench-XXXXXX", command[2400];
     ovoid_error error;
@@ -214,9 +213,9 @@ void machine_draw(const machine *m, uint64_t *random, double *q) {
     for (uint32_t i = 0; i < m->variable_count; i++) q[i] = random_uniform(random, m->low[i], m->high[i]);
 }
 
-// ---- machines that are made here
+// ---- machines made here
 
-/// A chain that turns about y and z in turn, links of capsules; neighbours touch.
+/// A chain whose joints turn about y and z alternately, with capsules as links; neighbours touch.
 int machine_make_snake(machine *m, uint32_t links) {
     enum { MOST = 256 };
     static char names[2][MOST][16];
@@ -232,7 +231,7 @@ int machine_make_snake(machine *m, uint32_t links) {
         (void)snprintf(names[0][i], sizeof names[0][i], "link%u", i);
         (void)snprintf(names[1][i], sizeof names[1][i], "joint%u", i);
         link[i].name = names[0][i];
-        // Each takes its own, as the robot frees them.
+        // Each element has a shape of its own, as the robot frees them.
         element[i] = (ovoid_robot_element){i, NULL, ovoid_shape_create_capsule(0.03, 0.05, NULL, NULL), middle, NULL};
         if (i == 0) continue;
         pair[i - 1] = (ovoid_robot_pair){i - 1, i, "Adjacent"};
@@ -255,7 +254,7 @@ int machine_make_snake(machine *m, uint32_t links) {
     return 0;
 }
 
-/// A description twice over, on a base between the two.
+/// A description repeated twice, on a base between the two.
 typedef struct twins {
     ovoid_robot_link *links;
     ovoid_robot_joint *joints;
@@ -347,7 +346,7 @@ static int add_obstacle(robots_scene *s, machine *m, const ovoid_shape *shape, o
     return ovoid_robot_cell_add(s->cell, &(ovoid_body){.shape = shape, .pose = pose}, NULL) != 0;
 }
 
-/// Ten boxes around the robot, half its reach away or more.
+/// Ten boxes around the robot, at half its reach or more.
 static int make_boxes(robots_scene *s, machine *m) {
     for (int i = 0; i < 10; i++) {
         double r = m->reach;
@@ -365,7 +364,7 @@ static int make_boxes(robots_scene *s, machine *m) {
 }
 
 static int read_obstacles(robots_scene *s, machine *m, uint32_t index) {
-    // The peers take hulls.
+    // The peers use hulls.
     const ovoid_robot_read_options hulls = {.hull = 1};
     ovoid_error error;
     s->file = ovoid_obstacles_read(ovoid_problems_get(m->problems, index).scene, &hulls, &error);
@@ -406,7 +405,7 @@ void robots_scene_destroy(robots_scene *s, machine *m) {
     ovoid_robot_cell_destroy(s->cell);
     ovoid_obstacles_destroy(s->file);
     for (uint32_t i = 0; i < s->made_count; i++) ovoid_shape_destroy(s->made[i]);
-    // Solids of the scene go; those of the robot, which come first, stay.
+    // Solids of the scene are removed; those of the robot, which come first, stay.
     uint32_t own = 0;
     for (uint32_t i = 0; i < m->element_count; i++)
         own = m->elements[i].solid + 1 > own ? m->elements[i].solid + 1 : own;

@@ -1,4 +1,4 @@
-// States: random ones that are free and that are hits, one by one and in batches; the monitor's cycles.
+// States: random free ones and random hits, one by one and in batches; the monitor's cycles.
 #include "robots/robots.h"
 
 #include "common/random.h"
@@ -9,7 +9,7 @@
 
 enum { TRIES = 8000, NEARS = 512 };
 
-/// As many states of one kind as are wanted, and their truth.
+/// The wanted number of states of one kind, and their truth.
 typedef struct states {
     double *q;
     state_truth *truths;
@@ -22,7 +22,7 @@ static int is_hit(robots_scene *s, const double *q) {
            is.status != OVOID_ROBOT_FREE;
 }
 
-/// Draws until there are enough of both kinds, or the tries are over.
+/// Draws until there are enough of both kinds, or too many tries.
 static int draw_states(robots_run *run, robots_scene *s, states kinds[2]) {
     machine *m = run->machine;
     uint32_t wanted = run->plan->states, width = m->variable_count;
@@ -51,7 +51,7 @@ static void judge_states(robots_run *run, const robots_scene *s, states *all, in
     *(said_hit ? &run->states_hit : &run->states_free) += all->count;
 }
 
-/// One by one; what was answered counts as wrong where it is not what the first search said.
+/// Times states one by one; an answer counts as wrong if it differs from the truth.
 static void time_alone(robots_run *run, robots_scene *s, const states *all, int hit, tallies *to) {
     uint32_t width = run->machine->variable_count, other = 0;
     ovoid_robot_checker_reset(s->checker);
@@ -124,7 +124,7 @@ static double time_monitor(const robots_scene *s, ovoid_robot_checker *checker, 
     return (get_own_seconds() - start) * 1e6;
 }
 
-/// near: how many pairs there are; a rival that counts others is wrong.
+/// near: the number of pairs; a rival with another count is wrong.
 static void time_measure(robots_run *run, const rival *r, const double *q, ovoid_pose *links, size_t near) {
     double start = get_own_seconds();
     if (!r->who->has_kinematics) (void)ovoid_robot_compute_poses(run->machine->robot, q, links, NULL);
@@ -134,7 +134,7 @@ static void time_measure(robots_run *run, const rival *r, const double *q, ovoid
     tally_judge(t, counted >= near, counted <= near, 0);
 }
 
-/// From one random state towards another one, the fastest joint by 0.01 a cycle.
+/// From one random state toward another, the fastest joint by 0.01 a cycle.
 void robots_run_monitor(robots_run *run, robots_scene *s, rival *rivals, uint32_t count) {
     machine *m = run->machine;
     uint32_t width = m->variable_count;
@@ -143,7 +143,7 @@ void robots_run_monitor(robots_run *run, robots_scene *s, rival *rivals, uint32_
     ovoid_robot_nears nears = {.items = malloc(sizeof *nears.items * NEARS),
                                .gradients = malloc(sizeof(double) * NEARS * (width + 1)),
                                .capacity = NEARS};
-    // What peers find: distances alone, and of overlaps that there is one.
+    // The query of the peers: distances alone, and for overlaps only that there is one.
     ovoid_robot_checker *plain = ovoid_robot_checker_create(s->cell, NULL, NULL);
     if (q && links && nears.items && nears.gradients && plain) {
         double most = 0;
@@ -158,7 +158,7 @@ void robots_run_monitor(robots_run *run, robots_scene *s, rival *rivals, uint32_
             double time_alone = time_monitor(s, plain, at, &alone);
             run->wrong += alone.count != expected;
             if (k > 0) tally_add(tallies_get(&run->monitor, "ovoid, distances"), time_alone);
-            // The first cycle has no earlier one to begin with.
+            // The first cycle has no earlier state.
             if (k > 0) tally_add(tallies_get(&run->monitor, "ovoid, gradients"), time);
             if (k > 0) run->near += (double)nears.count;
             for (uint32_t r = 0; r < count; r++)

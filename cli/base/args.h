@@ -96,7 +96,7 @@ args_complain(const cli_command *command, const char *format, ...);
 /// Parses a text that is one number, including infinity and NaN; 0 if it is not a number.
 int args_parse_number(const char *text, double *value);
 
-/// The subcommand of that name, without this one's, or NULL.
+/// The subcommand of that name, which is given without the command's own name, or NULL.
 const cli_command *args_find_subcommand(const cli_command *command, const char *name);
 
 /// The name of a subcommand without that of its command.

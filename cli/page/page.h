@@ -51,8 +51,8 @@ typedef struct page_head {
 /// Begins the file: the template up to the data, and their head. 0, or EXIT_INPUT after a message.
 int page_begin(cli_page *page, const page_head *head);
 
-/// Ends the data and the file, which appears whole or not at all. code: of what was done in between; with one that is
-/// not 0 the file is dropped. Says on stderr what was left out. Returns the code, or EXIT_INPUT after a message.
+/// Ends the data and the file, which appears completely or not at all. code: the result of the work in between; if it
+/// is not 0 the file is dropped. Reports on stderr what was left out. Returns the code, or EXIT_INPUT after a message.
 int page_end(cli_page *page, int code);
 
 /// Frees the page, and drops an unfinished file.

@@ -28,8 +28,8 @@ typedef struct page_run {
     double margin;    ///< of the events; negative: none
 } page_run;
 
-/// Writes the page of a scene that moves: of each pair that was listed its answer in the frame on the page that is
-/// nearest to where it was nearest. job: without poses and couples. The same otherwise.
+/// Writes the page of a moving scene: for each listed pair its answer in the frame of the page that is nearest to the
+/// pair's nearest frame. job: without poses and couples. Otherwise as page_write_scene.
 int page_write_run(cli_page *page, const char *title, const answers_job *job, const page_run *run);
 
 #endif

@@ -13,8 +13,8 @@ typedef struct page_template {
     size_t size, mark; ///< mark: where PAGE_MARK begins
 } page_template;
 
-/// Finds and reads it: the file that the environment variable OVOID_PAGE names; without one, page.html in the folder of
-/// this program, then in ../share/ovoid from there. 0, or EXIT_INPUT after a message.
+/// Finds and reads the template: the file that the environment variable OVOID_PAGE names; without one, page.html in the
+/// folder of this program, then in ../share/ovoid from that folder. 0, or EXIT_INPUT after a message.
 int page_template_read(page_template *template);
 void page_template_clear(page_template *template);
 

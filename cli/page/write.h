@@ -8,8 +8,8 @@
 #include <stdint.h>
 #include <stdio.h>
 
-/// Copies JSON: each < becomes \u003c, so that nothing in it ends a script or begins a comment, each byte that is no
-/// UTF-8 becomes \ufffd, and ends of lines, which no string has, go.
+/// Copies JSON: each < becomes \u003c, so that nothing in it ends a script or begins a comment; each byte that is not
+/// UTF-8 becomes \ufffd; line ends, which no string contains, are dropped.
 void page_copy_json(FILE *file, const char *json, size_t size);
 
 /// Writes a text as a JSON string, with the same escapes.

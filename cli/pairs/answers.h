@@ -26,13 +26,13 @@ typedef struct answers_query {
     const ovoid_body_proof *earlier; ///< of this pair, or NULL
 } answers_query;
 
-/// Answers one query: the record's answer and parts, and with a proof its cover and exclusions, which live in the room
-/// until the next call; so does the answer of a pair with a solid. 0 if memory runs out.
+/// Answers one query: sets the record's answer and parts, and with a proof its cover and exclusions, which are in the
+/// room until the next call; so is the answer of a pair with a solid. 0 if memory runs out.
 int answers_find(answer_room *room, const ovoid_body_pair *pair, const answers_query *query, ovoid_record *record);
 void answer_room_clear(answer_room *room);
 
-/// Sets the limit of an answer whose bracket holds the margin and is no wider than its query made it: ALLOWANCE where
-/// the bodies' allowances make most of its width, as ovoid_within does. tolerance: an absolute one, that was asked for.
+/// Sets the limit of an answer whose bracket contains the margin and is no wider than its query made it: ALLOWANCE if
+/// the bodies' allowances make most of its width, as in ovoid_within. tolerance: the absolute tolerance of the query.
 void answers_settle_limit(ovoid_answer *answer, const ovoid_body_pair *pair, double margin, double tolerance);
 
 /// Sets the kinds of two objects of a scene in a record.

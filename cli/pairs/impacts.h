@@ -63,8 +63,9 @@ int impacts_hold(cli_impacts *impacts, ovoid_couple couple);
 /// Records a pair that is proven on neither side of the margin: only a proven impact of it is written.
 int impacts_leave_open(cli_impacts *impacts, ovoid_couple couple);
 
-/// Finds the impacts from the frame before to this one, of pairs that were not held then, writes them in the order of
-/// their times, also those of which nothing is proven, and clears the held pairs. 0, or an exit code after a message.
+/// Finds the impacts from the frame before to this one, of pairs that were not within the margin then, writes them in
+/// the order of their times, including those that are not proven, and clears the lists of the frame before. 0, or an
+/// exit code after a message.
 int impacts_find(cli_impacts *impacts);
 
 void impacts_close(cli_impacts *impacts);

@@ -1,6 +1,6 @@
-// A liar's tool: the fields of a record, altered one at a time. A test names the fields by their place and type; each
-// kind of alteration gives a copy of the record in which one field says something else: by one unit in the last place,
-// by a tolerance, by much, of the other sign, zero, infinite, not a number, or what another record says there.
+// Altering the fields of a record, one at a time. A test lists the fields by their place and type; each kind of
+// alteration changes one field: by one unit in the last place, by a tolerance, by much more, to the other sign, zero,
+// infinite, not a number, or to the value in another record.
 #ifndef OVOID_TESTS_ALTER_H
 #define OVOID_TESTS_ALTER_H
 
@@ -9,7 +9,7 @@
 /// The type of a field. An enumeration is an int.
 typedef enum alter_type { ALTER_REAL, ALTER_INT, ALTER_U32, ALTER_SIZE } alter_type;
 
-/// A field of a record. tolerance: what the field is measured by, a length or a time; 0 if nothing is.
+/// A field of a record. tolerance: the tolerance of the field, a length or a time; 0 if it has none.
 typedef struct alter_field {
     const char *name;
     size_t offset;
@@ -104,15 +104,15 @@ static inline int alter_apply(void *record, const void *other, const alter_field
     return memcmp(before, at, size) != 0;
 }
 
-/// What became of the lies in one field.
+/// The results of the alterations of one field.
 typedef struct alter_count {
     long told, refused, still_true;
 } alter_count;
 
-/// The lie at hand: what is altered, and how.
+/// The present alteration: which field, and how.
 static const char *alter_name = "", *alter_way = "";
 
-/// Counts a lie and checks that it is refused or may be true; 0 if it is not.
+/// Counts an alteration and checks that it is refused or may be true; 0 if neither.
 static inline int alter_take(alter_count *n, int is_false, int is_refused) {
     n->told++;
     n->refused += is_refused;
@@ -140,7 +140,7 @@ static inline void alter_print_table(const alter_table *table) {
     for (int i = 0; i < table->count; i++) alter_print(table->fields[i].name, &table->counts[i]);
 }
 
-/// A walk through all alterations of a record, of at most 4096 bytes, each in the record itself.
+/// A loop over all alterations of a record, of at most 4096 bytes, each in the record itself.
 typedef struct alter_walk {
     const alter_table *table;
     void *record;
@@ -158,7 +158,7 @@ static inline alter_walk alter_walk_make(const alter_table *table, void *record,
     return w;
 }
 
-/// Alters the record in the next way: the count of its field. NULL at the end: the record is then as it was.
+/// Alters the record in the next way and returns the count of its field. NULL at the end: the record is then unaltered.
 static inline alter_count *alter_next(alter_walk *w) {
     for (; w->step < w->table->count * ALTER_KINDS; w->step++) {
         alter_field field = w->table->fields[w->step / ALTER_KINDS];

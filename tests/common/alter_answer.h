@@ -1,4 +1,4 @@
-// The fields of an answer with its proof, for liars (alter.h).
+// The fields of an answer with its proof, for tests that alter them (alter.h).
 #ifndef OVOID_TESTS_ALTER_ANSWER_H
 #define OVOID_TESTS_ALTER_ANSWER_H
 
@@ -13,7 +13,7 @@
         ALTER_FIELD(ovoid_answer, member[2], type, 1e-9), ALTER_FIELD(ovoid_answer, member[3], type, 1e-9),            \
         ALTER_FIELD(ovoid_answer, member[4], type, 1e-9), ALTER_FIELD(ovoid_answer, member[5], type, 1e-9)
 
-/// All that an answer claims; stage and iterations say how it was found.
+/// All fields of an answer that claim something; stage and iterations only say how it was found.
 static const alter_field alter_answer_fields[] = {ALTER_FIELD(ovoid_answer, status, ALTER_INT, 0),
                                                   ALTER_FIELD(ovoid_answer, limit, ALTER_INT, 0),
                                                   ALTER_FIELD(ovoid_answer, lower, ALTER_REAL, 1e-9),
@@ -33,8 +33,8 @@ static const alter_field alter_answer_fields[] = {ALTER_FIELD(ovoid_answer, stat
                                                   ALTER_VEC3(proof.inner_b)};
 enum { ALTER_ANSWER_FIELDS = sizeof alter_answer_fields / sizeof *alter_answer_fields };
 
-/// Lies that are no change of one number: parts of the answer swapped, another's, or what no enumeration has. 0: there
-/// is no such lie, or it changes nothing.
+/// Alterations that are no change of one number: parts of the answer swapped, those of another answer, or values that
+/// no enumeration has. 0: there is no such alteration, or it changes nothing.
 enum { ALTER_ANSWER_FORGERIES = 10 };
 static inline int alter_answer_forge(ovoid_answer *x, const ovoid_answer *other, const uint32_t counts[2], int which) {
     const ovoid_answer before = *x;
@@ -54,8 +54,8 @@ static inline int alter_answer_forge(ovoid_answer *x, const ovoid_answer *other,
     return memcmp(&before, x, sizeof before) != 0;
 }
 
-/// 1 if the limit promises a width that the bracket has not, or a distance beyond a cap that it does not show. most: no
-/// less than the tolerance for these bodies; wide: than the width that their allowances make.
+/// 1 if the limit claims a width that the bracket does not have, or a distance beyond a cap that it does not prove.
+/// most: at least the tolerance for these bodies; wide: at least the width that their allowances add.
 static inline int alter_limit_is_false(const ovoid_answer *x, double most, double wide, double cap) {
     double width = x->upper - x->lower;
     if ((int)x->limit < 0 || x->limit > OVOID_LIMIT_ALLOWANCE) return 1;

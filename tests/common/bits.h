@@ -1,6 +1,6 @@
-// A large set of answers, the same on every machine, and its hash: what must be equal between compilers, levels of
+// A large set of answers, the same on every machine, and its hash, which must be equal for all compilers, levels of
 // optimisation, vector widths and threads. Only operations that IEEE 754 rounds correctly go into the input, so the
-// mathematics library's version does not matter.
+// version of the mathematics library does not matter.
 #ifndef OVOID_TESTS_BITS_H
 #define OVOID_TESTS_BITS_H
 
@@ -68,10 +68,10 @@ typedef enum bits_family {
 static const char *const bits_names[BITS_FAMILIES] = {"plain",    "round", "large", "needles", "slabs", "flat",
                                                       "segments", "balls", "boxes", "far",     "tiny",  "huge"};
 
-/// The length that a family's shapes are about as large as.
+/// The approximate size of a family's shapes.
 static inline double bits_scale(bits_family f) { return f == BITS_TINY ? 0x1p-40 : f == BITS_HUGE ? 0x1p60 : 1; }
 
-/// Where the family's shapes are, in their own frames: exact in the coordinates.
+/// The place of the family's shapes in their own frames: exact in the coordinates.
 static inline double bits_away(bits_family f) { return f == BITS_FAR ? 0x1p20 : 0; }
 
 static inline ovoid_shape *bits_make_shape(bits_family f, uint64_t *s) {
@@ -96,7 +96,7 @@ static inline ovoid_shape *bits_make_shape(bits_family f, uint64_t *s) {
     return ovoid_shape_create_from_points(xyz, count, &o, NULL);
 }
 
-/// The shape's bytes: vertices, ellipsoids; with what is derived.
+/// Adds the shape's bytes: vertices, ellipsoids, and the derived data.
 static inline uint64_t bits_add_shape(uint64_t hash, const ovoid_shape *shape) {
     unsigned char bytes[1 << 16];
     hash = bits_add(hash, bytes, ovoid_shape_write(shape, bytes, sizeof bytes));
@@ -121,8 +121,8 @@ static inline int bits_make_shapes(ovoid_shape *shapes[BITS_SHAPES]) {
     return all;
 }
 
-/// The i-th pair, its first shape of the family; a quarter each: anywhere, at exact places on a grid, not turned, close
-/// to the same place, near.
+/// The i-th pair, its first shape of the family; a quarter of the pairs each: anywhere, at exact places on a grid
+/// without rotation, close to the same place, near.
 static inline ovoid_pair bits_make_pair(ovoid_shape *const shapes[BITS_SHAPES], bits_family f, uint32_t i) {
     uint64_t s = 1000003u * (uint64_t)i + (uint64_t)f;
     bits_family other = i % 3 == 0 ? (bits_family)(random_next(&s) % BITS_FAMILIES) : f;
@@ -139,7 +139,7 @@ static inline ovoid_pair bits_make_pair(ovoid_shape *const shapes[BITS_SHAPES], 
         p.pose_a.rotation = bits_quat(&s);
         p.pose_b.rotation = bits_quat(&s);
     }
-    // Shapes away from their frames' origins are brought near where that is on a grid too.
+    // Shapes far from their frames' origins are moved near, also by steps of the grid.
     if (i % 4 == 1) p.pose_a.position.x -= bits_away(f), p.pose_b.position.x -= bits_away(other);
     if (f == other && i % 4 > 1) p.pose_b.rotation = p.pose_a.rotation;
     return p;

@@ -1,10 +1,10 @@
-// The liar of test_compound_impact_altered and test_solid_impact_altered. Right records of two moving bodies are
-// altered one field at a time (alter.h), their groups and steps too, and others are forged: free for no time, a hit
+// The alterations of test_compound_impact_altered and test_solid_impact_altered. True records of two moving bodies are
+// altered one field at a time (alter.h), with their groups and steps, and others are forged: free for no time, a hit
 // before the beginning, free by coarse steps of the balls around all leaves.
 //
-// The truth comes by other means than verification's: distances of the bodies at sampled times, those of the deciding
-// leaves at the hit, and a table of the pairs of leaves that the groups name. What these show to be false must be
-// refused; what they do not show to be false may pass. Slack: the rounding of poses (docs/motion.md).
+// The truth comes from other sources than the verification: distances of the bodies at sampled times, those of the
+// deciding leaves at the hit, and a table of the pairs of leaves that the groups name. A record that these show to be
+// false must be refused; other records may pass. Slack: the rounding of poses (docs/motion.md).
 #ifndef OVOID_TESTS_BODY_IMPACT_LIAR_H
 #define OVOID_TESTS_BODY_IMPACT_LIAR_H
 
@@ -17,7 +17,7 @@ enum { LEAVES = 64, CAPACITY = 40000, SAMPLES = 24, TIMES = SAMPLES + 3 };
 static ovoid_step steps[CAPACITY];
 static ovoid_step_group groups[CAPACITY];
 
-/// A posed shape for a query, and what is to be destroyed after it, or NULL.
+/// A posed shape for a query, and the shape to destroy after it, or NULL.
 typedef struct leaf_shape {
     ovoid_posed_shape posed;
     ovoid_shape *own;
@@ -30,11 +30,11 @@ typedef struct truth {
     double times[TIMES], upper[TIMES];
     int count;
     ovoid_motion_options options;
-    const ovoid_motion_options *told; ///< what the check is told of the options, or NULL
+    const ovoid_motion_options *told; ///< the options that the check receives, or NULL
     void *bodies;                     ///< of the test
 } truth;
 
-/// The test's own: a leaf of body a (side 0) or b as a shape in the world at a time.
+/// Given by the test: a leaf of body a (side 0) or b as a shape in the world at a time.
 static leaf_shape make_leaf(const truth *t, int side, uint32_t leaf, double time);
 
 static ovoid_body place(const ovoid_moving_body *m, double time) {
@@ -59,7 +59,7 @@ static void add_time(truth *t, double time) {
     t->upper[t->count++] = ask(t, time).upper + t->slack;
 }
 
-// ---- what records claim
+// ---- the claims of records
 
 // 1 if a pair of leaves is in no group or in two.
 static int groups_are_false(const truth *t, size_t count) {
@@ -78,7 +78,7 @@ static int groups_are_false(const truth *t, size_t count) {
     return 0;
 }
 
-// At the beginning the bodies' answer, else that of the deciding leaves.
+// The truth of `hit`: at the beginning the bodies' answer, else that of the deciding leaves.
 static int hit_is_false(const truth *t, const ovoid_body_impact *x) {
     const ovoid_answer *said = &x->impact.hit;
     ovoid_answer leaves = ask_leaves(t, x->part_a, x->part_b, x->impact.hit_at);
@@ -115,7 +115,7 @@ static int is_false(const truth *t, const ovoid_body_impact *found) {
     return (x->free_until > x->begin || is_free) && groups_are_false(t, found->group_count);
 }
 
-// ---- lies
+// ---- alterations
 
 static void tell(const truth *t, const ovoid_body_impact *x, alter_count *n) {
     ovoid_code code =
@@ -162,7 +162,7 @@ static void lie_about(const truth *t, const ovoid_body_impact *right) {
         if (x.group_count <= CAPACITY) tell(t, &x, n);
 }
 
-// The first, the last and one group in between, and a step of each.
+// Alters the first, the last and one group in between, and a step of each.
 static void lie_about_groups(const truth *t, const ovoid_body_impact *right) {
     const size_t count = right->group_count, which[3] = {0, count / 2, count ? count - 1 : 0};
     for (int k = 0; k < 3 && count; k++) {
@@ -210,7 +210,7 @@ static void leaf_groups(const truth *t, ovoid_body_impact *x) {
         for (uint32_t b = 0; b < t->count_b; b++) groups[x->group_count++] = (ovoid_step_group){a, a + 1, b, b + 1, 0};
 }
 
-// A pair of groups said twice, steps and all, in the place of another.
+// Replaces a pair of groups by a copy of another, with its steps.
 static void forge_twice(const truth *t, const ovoid_body_impact *right) {
     size_t at_i = 0, stride = 1 + right->group_count / 50 * 6; // a part of many groups
 
@@ -232,7 +232,7 @@ static void forge_twice(const truth *t, const ovoid_body_impact *right) {
     }
 }
 
-// Any two leaves at any time as those that meet then.
+// Claims any two leaves at any time as a hit.
 static void forge_hits(const truth *t) {
     for (int i = 0; i < t->count; i++) {
         ovoid_body_impact x = {.impact = {.status = OVOID_IMPACT_HIT, .begin = t->begin, .end = t->end}};
@@ -245,7 +245,7 @@ static void forge_hits(const truth *t) {
     }
 }
 
-// A larger margin than the one that was asked about.
+// Claims a larger margin than that of the query.
 static void forge_margins(const truth *t, const ovoid_body_impact *right) {
     truth larger = *t;
     double least = INFINITY;
@@ -257,7 +257,7 @@ static void forge_margins(const truth *t, const ovoid_body_impact *right) {
     }
 }
 
-// Of a body that is refused only that reason is right, and nothing may be claimed beside it.
+// For a body that is refused, only that reason is right, and nothing else may be claimed.
 static void forge_refusals(const truth *t) {
     ovoid_moving_body none = {.motion = t->b.motion};
     ovoid_body_impact right = ovoid_body_impact_find(&(ovoid_moving_body_pair){t->a, none, t->margin}, &t->options),

@@ -1,5 +1,5 @@
-// The tests' own few words. A failing check prints place, expression, both values (%.17g) and the seed; the program
-// goes on, and exits 1 at the end. The last line is "N passed, N failed[, N skipped]".
+// The checks of the tests. A failing check prints place, expression, both values (%.17g) and the seed; the program
+// continues, and exits 1 at the end. The last line is "N passed, N failed[, N skipped]".
 #ifndef OVOID_TESTS_CHECK_H
 #define OVOID_TESTS_CHECK_H
 
@@ -11,10 +11,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static uint64_t check_seed; // the seed of the case at hand, 0 if there is none
+static uint64_t check_seed; // the seed of the present case, 0 if there is none
 static long check_passed, check_failed, check_skipped;
 
-/// A number of any type, kept as it is: a whole one with its sign, or a double.
+/// A number of any type, stored exactly: a whole number with its sign, or a double.
 typedef struct check_value {
     int is_real, is_negative;
     uint64_t size; ///< of a whole number
@@ -33,7 +33,7 @@ static inline check_value check_value_signed(int64_t x) {
     check_value v = {0, x < 0, x < 0 ? 0 - (uint64_t)x : (uint64_t)x, 0};
     return v;
 }
-// Types that are narrower become int64_t; an enumeration is the integer type that it is.
+// Narrower types become int64_t; an enumeration becomes its integer type.
 #ifdef __cplusplus
 static inline check_value CHECK_VALUE(double x) { return check_value_real(x); }
 static inline check_value CHECK_VALUE(unsigned long x) { return check_value_unsigned(x); }
@@ -66,7 +66,7 @@ static inline int check_value_compare(check_value a, check_value b) {
         int order = check_value_compare(b, a);
         return order == 2 ? 2 : -order;
     }
-    // A double beside a whole number: by its floor, and by what is above that.
+    // A double and a whole number are compared by the floor and the fraction of the double.
     if (isnan(a.real)) return 2;
     double below = floor(a.real);
     if (below >= 0x1p64) return 1;
@@ -83,7 +83,7 @@ static inline void check_value_print(const char *before, check_value x) {
         printf("%s%s%llu", before, x.is_negative ? "-" : "", (unsigned long long)x.size);
 }
 
-/// Where a check stands.
+/// The place of a check.
 typedef struct check_place_at {
     const char *file;
     int line;
@@ -117,7 +117,7 @@ static inline int check_is_near(double a, double b, double tolerance, check_plac
     return check_report(fabs(a - b) <= tolerance, at, check_value_real(a), check_value_real(b));
 }
 
-// Each argument is evaluated once. Whole numbers are compared as they are, also with doubles.
+// Each argument is evaluated once. Whole numbers are compared exactly, also with doubles.
 #define CHECK_PLACE(expression) check_place_make(__FILE__, __LINE__, expression)
 #define CHECK(condition)                                                                                               \
     check_report((condition) != 0, CHECK_PLACE(#condition), check_value_signed((int64_t)0),                            \

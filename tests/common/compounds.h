@@ -1,4 +1,4 @@
-// Compounds for the tests, and the answer by brute force: every pair of parts asked alone.
+// Compounds for the tests, and the answer by brute force: a query of every pair of parts.
 #ifndef OVOID_TESTS_COMPOUNDS_H
 #define OVOID_TESTS_COMPOUNDS_H
 
@@ -47,14 +47,14 @@ static inline ovoid_compound *make_compound(ovoid_shape *const shapes[SHAPES], s
     for (size_t i = 0; parts && i < count; i++) {
         uint64_t kind = random_next(s) % SHAPES;
         parts[i] = (ovoid_posed_shape){shapes[kind], {random_vec3(s, reach), random_quat(s)}};
-        // Back to where the others are.
+        // Moves the part back to where the others are.
         if (kind == 6) {
             ovoid_polytope p = ovoid_shape_get_polytope(shapes[6]);
             ovoid_vec3 at = {p.origin.x + p.vertices[0], p.origin.y + p.vertices[1], p.origin.z + p.vertices[2]};
             ovoid_vec3 off = ovoid_pose_compute_point(&parts[i].pose, at), *to = &parts[i].pose.position;
             *to = (ovoid_vec3){2 * to->x - off.x, 2 * to->y - off.y, 2 * to->z - off.z};
         }
-        // Some parts come twice.
+        // Some parts are repeated.
         if (i && random_next(s) % 16 == 0) parts[i] = parts[i - 1];
     }
     ovoid_compound *c = ovoid_compound_create(parts, count, NULL, &error);

@@ -1,4 +1,4 @@
-// An allocator whose k-th allocation fails: for each k, a function must say MEMORY and hold nothing.
+// An allocator whose k-th allocation fails: for each k, a function must return MEMORY and hold nothing.
 #ifndef OVOID_TESTS_COUNTDOWN_H
 #define OVOID_TESTS_COUNTDOWN_H
 
@@ -6,7 +6,7 @@
 
 #include <stdlib.h>
 
-/// How many allocations still succeed, and how many are held now.
+/// How many more allocations succeed, and how many are held.
 typedef struct countdown {
     long left, held;
 } countdown;

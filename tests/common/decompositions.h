@@ -1,5 +1,5 @@
-// Solids and convex parts in extended precision: how far a point is from either, by brute force over triangles. Long
-// double has 11 bits more than double, so distances are trusted to 1e-16 of the size.
+// Solids and convex parts in extended precision: the distance of a point from either, by brute force over triangles.
+// Long double has 11 bits more than double, so distances are trusted to 1e-16 of the size.
 #ifndef OVOID_TESTS_DECOMPOSITIONS_H
 #define OVOID_TESTS_DECOMPOSITIONS_H
 
@@ -35,7 +35,7 @@ static inline long_mesh long_mesh_of_shape(const ovoid_shape *s) {
     return m;
 }
 
-/// How far a point is from what the closed triangles enclose; 0 inside.
+/// The distance of a point from the body that the closed triangles enclose; 0 inside.
 static inline long double long_mesh_distance(const long_mesh *m, long3 x) {
     if (fabsl(long_winding(m->corners, m->count, x)) > 0.5L) return 0;
     long double best = INFINITY;
@@ -44,7 +44,7 @@ static inline long double long_mesh_distance(const long_mesh *m, long3 x) {
     return best;
 }
 
-/// The least over parts, each rounded by its radius.
+/// The least distance from a part, each rounded by its radius.
 static inline long double long_parts_distance(const long_mesh *parts, const ovoid_decomposition *d, long3 x) {
     long double best = INFINITY;
     for (size_t i = 0; i < d->part_count; i++) {
@@ -62,7 +62,7 @@ static inline ovoid_vec3 draw_in(uint64_t *s, const ovoid_box *b) {
 
 static inline long3 long3_from(ovoid_vec3 p) { return (long3){p.x, p.y, p.z}; }
 
-/// A box of a part of its own.
+/// A box as a single part.
 static inline ovoid_shape *make_box_between(ovoid_vec3 a, ovoid_vec3 b) {
     double xyz[24];
     for (int i = 0; i < 8; i++) {
@@ -73,7 +73,7 @@ static inline ovoid_shape *make_box_between(ovoid_vec3 a, ovoid_vec3 b) {
     return ovoid_shape_create_from_points(xyz, 8, NULL, NULL);
 }
 
-/// Adds the surface of a box, turned inside out where asked.
+/// Adds the surface of a box, inside out if `inward`.
 static inline void mesh_add_box(mesh *m, ovoid_vec3 a, ovoid_vec3 b, int inward) {
     static const uint8_t faces[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                                          {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};

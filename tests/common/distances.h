@@ -1,4 +1,4 @@
-// Distances from the origin, for the tests' own truths: plainly computed, nothing of the library's searches.
+// Distances from the origin for the tests, computed plainly, without the library's searches.
 #ifndef OVOID_TESTS_DISTANCES_H
 #define OVOID_TESTS_DISTANCES_H
 

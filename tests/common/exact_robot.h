@@ -43,7 +43,7 @@ static inline void axis_rotation(const real n[3], real angle, real r[3][3]) {
         for (int j = 0; j < 3; j++) r[i][j] = (i == j) + sinl(angle) * k[i][j] + (1 - cosl(angle)) * kk[i][j];
 }
 
-// The x of the plane of a planar joint, as the header has it for z and -z; else the formula of its source.
+// The x axis of the plane of a planar joint: as in the header for z and -z; else by the formula of its source.
 static inline void plane_axes(const real n[3], real x[3], real y[3]) {
     real sign = n[2] < 0 ? -1 : 1, a = -1 / (sign + n[2]), b = n[0] * n[1] * a;
     x[0] = 1 + sign * n[0] * n[0] * a, x[1] = sign * b, x[2] = -sign * n[0];

@@ -1,6 +1,6 @@
-// Points and directions in long double, for tests that hold rounded results against what is meant. Its 64 digits are 11
-// more than a double's: what it rounds is below 2^-60 of the lengths, and a test takes that off. Where long double is
-// double there is nothing to hold against: EXTENDED is 0 and the test says that it skips.
+// Points and directions in long double, for tests that compare rounded results with exact ones. Its 64 bits are 11 more
+// than a double's: its rounding is below 2^-60 of the lengths, and a test subtracts that. If long double is double
+// there is nothing to compare with: EXTENDED is 0 and the test says that it skips.
 #ifndef OVOID_TESTS_EXTENDED_H
 #define OVOID_TESTS_EXTENDED_H
 
@@ -26,7 +26,7 @@ static inline extended3 extended3_cross(extended3 a, extended3 b) {
 static inline long double extended3_dot(extended3 a, extended3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 static inline long double extended3_norm(extended3 a) { return sqrtl(extended3_dot(a, a)); }
 
-/// The rotation that a quaternion of any norm means: v + 2 (w (q x v) + q x (q x v)) / |q|^2.
+/// The rotation of a quaternion of any norm: v + 2 (w (q x v) + q x (q x v)) / |q|^2.
 static inline extended3 extended3_rotate(ovoid_quat q, extended3 v) {
     extended3 axis = {q.x, q.y, q.z}, across = extended3_cross(axis, v), twice = extended3_cross(axis, across);
     long double norm = (long double)q.w * q.w + extended3_dot(axis, axis);

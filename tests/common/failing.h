@@ -1,4 +1,4 @@
-// Memory that fails: the linker puts these functions before those of the C library (--wrap), in the programs that
+// Allocations that fail: the linker replaces the functions of the C library by these (--wrap), in the programs that
 // tests/CMakeLists.txt names, and the k-th allocation of an operation fails, for every k.
 #ifndef OVOID_TESTS_FAILING_H
 #define OVOID_TESTS_FAILING_H
@@ -32,9 +32,9 @@ void *__wrap_aligned_alloc(size_t alignment, size_t size) {
     return must_fail() ? NULL : __real_aligned_alloc(alignment, size);
 }
 
-/// Runs with the first, second, ... allocation failing, until none is left to fail. is_lax: of what jansson reads only
-/// that it is refused, or that the missing memory was of no consequence, can be asked: it takes a text that it has no
-/// memory for as a shorter one or a syntax error.
+/// Runs with the first, second, ... allocation failing, until none fails. is_lax: for jansson's reader only requires
+/// that the text is refused, or that the missing memory had no effect: it reports missing memory as a shorter text or a
+/// syntax error.
 static inline void check_operation(const char *name, int is_lax, int (*run)(ovoid_error *error)) {
     ovoid_error error = {OVOID_OK, -1, ""};
     countdown = 0;

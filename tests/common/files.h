@@ -8,7 +8,7 @@
 
 #include <sys/stat.h>
 
-/// The folder of the build; a test whose files have names that others use has one of its own.
+/// The folder of the build; a test whose file names occur in other tests has a folder of its own.
 #ifndef FILES_FOLDER
 #define FILES_FOLDER "test_files"
 #endif
@@ -49,7 +49,7 @@ static inline char *file_read(const char *path, size_t *size) {
     return data;
 }
 
-/// One line of a table of bad inputs: what must be said of it. Most lines leave the code out.
+/// One line of a table of bad inputs, with the expected error. Most lines leave the code out.
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 typedef struct bad_input {
     const char *name; ///< of the case and, with its extension, of the file
@@ -59,7 +59,7 @@ typedef struct bad_input {
     ovoid_code code;    ///< OVOID_OK stands for the most frequent one, OVOID_ERROR_FORMAT
 } bad_input;
 
-/// Checks the error of a case; prints what was said where it is another.
+/// Checks the error of a case; prints the actual error if it is different.
 static inline void check_error(const bad_input *input, const ovoid_error *error) {
     ovoid_code code = input->code == OVOID_OK ? OVOID_ERROR_FORMAT : input->code;
     int good = error->code == code && error->place == input->place && strstr(error->message, input->phrase) &&

@@ -1,6 +1,6 @@
-// What must hold of every hull, by exact arithmetic: a closed surface of triangles that are all convex to their
-// neighbors, with every given point behind every triangle, is the hull. Planes and rank are promised to 64 roundings of
-// the largest coordinate (polytope/facets.h); twice that is allowed here, as a facet's plane turns away from that of
+// Properties of every hull, by exact arithmetic: a closed surface of triangles that are all convex to their neighbors,
+// with every given point behind every triangle, is the hull. Planes and rank are promised to 64 roundings of the
+// largest coordinate (polytope/facets.h). Twice that is allowed here, as the plane of a facet may differ from that of
 // its largest triangle by as much.
 #ifndef OVOID_TESTS_HULLS_H
 #define OVOID_TESTS_HULLS_H
@@ -12,9 +12,9 @@
 
 #define FLATNESS (2 * 64 * 0x1p-53)
 
-// ---- what must hold of every hull ----
+// ---- properties of every hull ----
 
-// Vertices are given points, in the order given, and the counts add up.
+// Vertices are given points, in their given order, and the counts add up.
 static inline void check_counts(const hull *h, const double *xyz, size_t count) {
     const ovoid_report *r = &h->report;
     CHECK_EQ(r->points, count);
@@ -27,7 +27,7 @@ static inline void check_counts(const hull *h, const double *xyz, size_t count) 
     for (uint32_t v = 0; v < h->vertex_count && found; v++, at++) {
         vec3 want = vec3_at(h->vertices, v);
         for (; at < count; at++) {
-            // The difference is exact, so this finds the very point.
+            // The difference is exact, so this finds the given point.
             vec3 p = vec3_sub(vec3_at(xyz, at), h->origin);
             if (p.x == want.x && p.y == want.y && p.z == want.z) break;
         }
@@ -93,7 +93,8 @@ static inline uint32_t find_opposite(const hull *h, uint32_t a, uint32_t b, uint
     return found;
 }
 
-// Closed, of the sphere's kind, convex at every edge, three creases at every vertex. Quadratic: for small hulls.
+// The surface is closed, of the sphere's topology, convex at every edge, with three creases at every vertex. Quadratic:
+// for small hulls.
 static inline void check_surface(const hull *h) {
     CHECK_EQ(h->triangle_count, 2 * h->vertex_count - 4);
     uint32_t *creases = calloc(h->vertex_count, sizeof *creases);
@@ -129,9 +130,9 @@ static inline void check_holds(const hull *h, const double *xyz, size_t count) {
     CHECK_EQ(outside, 0);
 }
 
-// No point is beyond the vertices along any direction, without tolerance: the rounded dot product is one function of
-// the point, and extreme points are vertices themselves. Where a point is not extreme it may still round above all
-// vertices, by 3 roundings of the largest term.
+// No point is beyond the vertices along any direction, without tolerance: the rounded dot product is a function of the
+// point alone, and extreme points are vertices. A point that is not extreme may round above all vertices, by 3
+// roundings of the largest term.
 static inline void check_directions(const hull *h, const double *xyz, size_t count, int directions) {
     uint64_t s = count;
     double extent = compute_extent_of(h), worst = 0;
@@ -173,7 +174,7 @@ static inline void check_again(const hull *h) {
     hull_destroy(&g, &memory);
 }
 
-// All of it; the caller destroys the hull.
+// All of these checks; the caller destroys the hull.
 static inline hull check_hull(const double *xyz, size_t count) {
     hull h;
     ovoid_allocator memory = allocator_make(NULL);

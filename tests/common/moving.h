@@ -5,7 +5,7 @@
 
 #include "bits.h"
 
-/// How fast bodies turn: not, a little, some turns, hundreds of turns.
+/// The rotation of bodies: none, a little, some turns, hundreds of turns.
 static const double moving_spins[4] = {0, 0.5, 12, 1500};
 
 typedef struct moving_case {
@@ -17,7 +17,7 @@ typedef struct moving_case {
     double size; ///< a length about as large as the bodies
 } moving_case;
 
-/// A random pose: C leaves open in which order an expression's calls are made, so each call is a statement.
+/// A random pose. Each call is a statement, since C leaves open in which order the calls of an expression are made.
 static inline ovoid_pose moving_make_pose(uint64_t *s, double scale) {
     ovoid_vec3 position = bits_vec3(s, scale);
     ovoid_quat rotation = bits_quat(s);
@@ -26,7 +26,7 @@ static inline ovoid_pose moving_make_pose(uint64_t *s, double scale) {
 
 static inline ovoid_vec3 moving_scaled(ovoid_vec3 v, double s) { return (ovoid_vec3){v.x * s, v.y * s, v.z * s}; }
 
-/// One body's motion, from about `at`, 2 bodies' sizes about.
+/// One body's motion, from near `at`, within 2 sizes of the bodies.
 static inline void moving_set_motion(moving_case *c, int which, ovoid_vec3 at, uint64_t *s) {
     ovoid_moving_shape *m = which ? &c->b : &c->a;
     ovoid_pose start = {at, bits_quat(s)}, end = moving_make_pose(s, 3 * c->size);

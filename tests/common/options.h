@@ -1,5 +1,4 @@
-// Options of the tests that have some: --NAME VALUE, --NAME for a switch. --help lists them and runs nothing; what is
-// not understood is refused.
+// Options of tests: --NAME VALUE, --NAME for a switch. --help lists them and runs nothing; unknown options are refused.
 #ifndef OVOID_TESTS_OPTIONS_H
 #define OVOID_TESTS_OPTIONS_H
 
@@ -8,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// One option: where its value goes, of the one kind that is not NULL.
+/// One option: the pointer that is not NULL receives its value.
 typedef struct test_option {
     const char *name, *help; ///< without the dashes; a name of NULL ends a table
     uint64_t *whole;
@@ -17,7 +16,7 @@ typedef struct test_option {
     int *flag;
 } test_option;
 
-/// Reads a value; 0 if it is none.
+/// Reads a value; 0 if it is not valid.
 static inline int option_take(const test_option *o, const char *value) {
     char *end = NULL;
     if (o->text) return *o->text = value, 1;
@@ -30,7 +29,7 @@ static inline int option_take(const test_option *o, const char *value) {
     return 1;
 }
 
-/// Reads the command line. -1: go on; else the exit code, after --help (0) or a sentence about a mistake (2).
+/// Reads the command line. -1: continue; else the exit code, after --help (0) or a sentence about a mistake (2).
 static inline int options_read(const test_option *options, int count, char **arguments) {
     for (int i = 1; i < count; i++) {
         const test_option *o = options;

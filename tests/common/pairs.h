@@ -8,7 +8,7 @@
 #include "linear/rotation.h"
 #include "ovoid/ellipsoid.h"
 
-/// How a test's ellipsoids look.
+/// The kinds of a test's ellipsoids.
 typedef enum kind { KIND_ROUND, KIND_PLAIN, KIND_THIN, KIND_EXTREME, KIND_FLAT, KIND_COUNT } kind;
 static const char *const kind_names[KIND_COUNT] = {"spheres", "1:5", "1:1000", "1:1e5", "flat, segments, points"};
 
@@ -34,7 +34,7 @@ static inline ovoid_ellipsoid make_ellipsoid(kind k, vec3 center, uint64_t *s) {
     return (ovoid_ellipsoid){center, sym3_rotate(sym3_diagonal(x * x, y * y, z * z), random_rotation(s))};
 }
 
-/// The point of the ellipsoid farthest along n; where n is across a flat one (to rounding), the centre.
+/// The point of the ellipsoid farthest along n; the centre if n is perpendicular to a flat one (to rounding).
 static inline vec3 support_point(const ovoid_ellipsoid *e, vec3 n) {
     double form = sym3_quadratic(e->q, n);
     if (!(form > 1e-15 * sym3_trace(e->q))) return e->center;

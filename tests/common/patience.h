@@ -1,10 +1,10 @@
-// A host's watch that says stop at its k-th question.
+// A host's watch that stops a call at its k-th question.
 #ifndef OVOID_TESTS_PATIENCE_H
 #define OVOID_TESTS_PATIENCE_H
 
 #include <ovoid/base.h>
 
-/// Says 1 from a question on.
+/// Returns 1 from a question on.
 typedef struct patience {
     size_t asked, most;
 } patience;

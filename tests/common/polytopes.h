@@ -1,5 +1,5 @@
-// Polytopes made by hand, with exact topology and no hull code behind them: box, simplex, prism, sphere of triangles,
-// the hull of a few random points, flat bodies; and any affine image of them.
+// Polytopes made by hand, with exact topology and without hull code: box, simplex, prism, sphere of triangles, the hull
+// of a few random points, flat bodies; and any affine image of them.
 #ifndef OVOID_TESTS_POLYTOPES_H
 #define OVOID_TESTS_POLYTOPES_H
 
@@ -9,7 +9,7 @@
 #include "linear/rotation.h"
 #include "ovoid/polytope.h"
 
-/// A polytope and the arrays it views.
+/// A polytope and its arrays.
 typedef struct made {
     ovoid_polytope p;
     double *vertices;
@@ -27,7 +27,8 @@ static inline void made_destroy(made *m) {
     *m = (made){0};
 }
 
-/// Planes anew from the vertices: Newell's normal over the facet's triangles, offset at the mean of their corners.
+/// Recomputes the planes from the vertices: Newell's normal over the facet's triangles, offset at the mean of their
+/// corners.
 static inline void made_update_planes(made *m) {
     if (m->p.rank < 2) return;
     uint32_t *count = calloc(m->p.facet_count, sizeof *count);
@@ -87,7 +88,7 @@ static inline made made_from_polygons(const double *xyz, uint32_t vertex_count, 
     return m;
 }
 
-/// Every vertex v becomes a v + b; the determinant of a must be positive.
+/// Maps every vertex v to a v + b; the determinant of a must be positive.
 static inline void made_map(made *m, mat3 a, vec3 b) {
     for (uint32_t v = 0; v < m->p.vertex_count; v++) {
         vec3 x = vec3_add(mat3_mul_vec3(a, vec3_at(m->vertices, v)), b);
@@ -97,7 +98,7 @@ static inline void made_map(made *m, mat3 a, vec3 b) {
 }
 
 static inline mat3 mat3_diagonal(double x, double y, double z) { return (mat3){{x, 0, 0}, {0, y, 0}, {0, 0, z}}; }
-/// One after another: the order of initialisers is the compiler's.
+/// One coordinate after another, since the order of initialisers is the compiler's.
 static inline vec3 vec3_random(uint64_t *s) {
     vec3 v;
     v.x = random_normal(s);
@@ -194,8 +195,8 @@ static inline made made_sphere(uint32_t k) {
     return m;
 }
 
-/// The hull of points in general position, each of which must be extreme for it to be a vertex; others stay as
-/// vertices of no facet. By insertion with exact orientations: cost points times facets.
+/// The hull of points in general position. Only extreme points become corners of facets; others stay as vertices
+/// without a facet. By insertion with exact orientations: cost points times facets.
 static inline made made_hull(const double *xyz, uint32_t count) {
     uint32_t(*face)[3] = malloc(sizeof(uint32_t[3]) * (8 * count + 64)), faces = 0;
     uint32_t(*edge)[2] = malloc(sizeof(uint32_t[2]) * (16 * count + 64));

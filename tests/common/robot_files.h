@@ -1,4 +1,4 @@
-// Robots from texts, for the tests of their readers: files of the tests' folder, and the notes that reading them gave.
+// Robots from texts, for the tests of their readers: files of the tests' folder, and the notes of their reading.
 #ifndef OVOID_TESTS_ROBOT_FILES_H
 #define OVOID_TESTS_ROBOT_FILES_H
 
@@ -27,11 +27,11 @@ static inline void add_note(void *context, const ovoid_robot_note *note) {
     list->length += (size_t)length;
 }
 
-/// Options that collect the notes, of which there are none at first.
+/// Options that collect the notes; there are none at first.
 static inline ovoid_robot_read_options make_read_options(void) {
     notes.length = notes.count = 0;
     notes.text[0] = 0;
-    // No package of the machine's own.
+    // Packages of the machine are not searched.
     return (ovoid_robot_read_options){
         .ros_package_path = "", .ament_prefix_path = "", .note = add_note, .context = &notes};
 }
@@ -42,7 +42,7 @@ static inline int has_note(const char *phrase) {
     return found;
 }
 
-/// The robot of a text; NULL after a failure, which is shown where error is NULL.
+/// The robot of a text; NULL after a failure, which is printed if error is NULL.
 static inline ovoid_robot_file *read_urdf(const char *text, const ovoid_robot_read_options *options,
                                           ovoid_error *error) {
     ovoid_error own = {OVOID_OK, -1, ""};
@@ -61,7 +61,7 @@ static inline ovoid_robot_file *read_both(const char *urdf, const char *srdf, co
     return file;
 }
 
-/// How often elements of that kind were ignored.
+/// How many elements of that kind were ignored.
 static inline size_t count_ignored(const ovoid_robot_file *file, const char *name) {
     for (size_t i = 0; i < ovoid_robot_file_get_ignored_count(file); i++) {
         ovoid_robot_ignored kind = ovoid_robot_file_get_ignored(file, i);

@@ -58,7 +58,7 @@ static inline void make_random_robot(uint64_t *s, random_robot *r) {
         uint32_t leader = random_below(s, i + 1);
         if (leader == i || !has_one_variable(j) || !has_one_variable(&r->joints[leader])) continue;
         j->mimic = leader;
-        // Any state of the leader is one of the follower.
+        // Every value of the leading joint must be valid for the following one.
         j->lower = -1e9, j->upper = 1e9;
         j->multiplier = random_below(s, 3) ? random_uniform(s, -2, 2) : -1;
         j->offset = random_below(s, 2) ? random_uniform(s, -1, 1) : 0;
@@ -67,7 +67,7 @@ static inline void make_random_robot(uint64_t *s, random_robot *r) {
         .links = r->links, .link_count = links, .joints = r->joints, .joint_count = links - 1, .elements = r->elements};
 }
 
-/// A state: within limits where there are any, lengths up to 3, angles up to 40, some of them quarter turns.
+/// A state: within limits if there are any, lengths up to 3, angles up to 40, some of them quarter turns.
 static inline void make_random_state(uint64_t *s, const ovoid_robot *r, double *q) {
     for (size_t i = 0; i < ovoid_robot_get_variable_count(r); i++) {
         ovoid_robot_variable v = ovoid_robot_get_variable(r, i);

@@ -5,15 +5,15 @@
 #include "check.h"
 #include "shape/block.h"
 
-/// The checksum as docs/polytope.md says: FNV-1a of 64 bits over all bytes before it, little-endian.
+/// The checksum of docs/polytope.md: FNV-1a of 64 bits over all bytes before it, little-endian.
 static inline void shape_files_mend(uint8_t *bytes, size_t size) {
     uint64_t h = 0xcbf29ce484222325u;
     for (size_t i = 0; i + 8 < size; i++) h = (h ^ bytes[i]) * 0x100000001b3u;
     for (int i = 0; i < 8; i++) bytes[size - 8 + (size_t)i] = (uint8_t)(h >> 8 * i);
 }
 
-/// Two shapes are the same to the last bit: members one by one, as padding between them is nobody's; fits and report
-/// are compared as written.
+/// Checks that two shapes are equal to the last bit: members one by one, since the padding between them is undefined;
+/// fits and report are compared as written.
 static inline void shape_files_check_same(const ovoid_shape *a, const ovoid_shape *b) {
     if (!CHECK(a && b) || !CHECK_EQ(a->at.size, b->at.size)) return;
     size_t front = offsetof(ovoid_shape, outer_fit), arrays = (sizeof(ovoid_shape) + 63) / 64 * 64;

@@ -53,7 +53,7 @@ static inline void fill_search(uint64_t *s, small_gjk_query *q, double rows[2][9
     q->iterations = random_next(s) % 8 ? 1000 : (uint32_t)(random_next(s) % 5);
 }
 
-// Of an open end nothing but that is said; of the others, what counts of the corners.
+// Compares two results. An open end has no other content; of the others only the corners in use are compared.
 static inline int same_search(const small_gjk_result *x, const small_gjk_result *y) {
     if (x->end != y->end) return 0;
     if (x->end == SMALL_GJK_OPEN) return 1;

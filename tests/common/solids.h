@@ -14,7 +14,7 @@ static inline ovoid_vec3 random_vec3(uint64_t *s, double reach) {
     return (ovoid_vec3){x, y, random_uniform(s, -reach, reach)};
 }
 
-/// A mesh on its way to a solid.
+/// A mesh under construction.
 typedef struct mesh {
     double *xyz;
     uint32_t *indices;
@@ -51,8 +51,8 @@ static inline ovoid_solid *mesh_make_solid(const mesh *m) {
     return s;
 }
 
-/// A grid of u by v quadrangles, closed in both directions: a ring of that radius with a tube of another. bumps: by how
-/// much of it each point of the tube is moved.
+/// A grid of u by v quadrangles, closed in both directions: a ring of that radius with a tube of another. bumps: the
+/// share of the tube's radius by which each point is moved.
 static inline void mesh_add_ring(mesh *m, double radius, double tube, uint32_t u, uint32_t v, double bumps,
                                  uint64_t *seed) {
     uint32_t first = (uint32_t)m->points;
@@ -112,7 +112,7 @@ static inline void mesh_add_angle(mesh *m, double length, double width, double h
     }
 }
 
-/// One of the kinds, of a size of about `scale`.
+/// A solid of a random kind, of a size of about `scale`.
 static inline void mesh_add_random(mesh *m, double scale, uint64_t *seed) {
     switch (random_next(seed) % 4) {
     case 0:
@@ -147,7 +147,7 @@ static inline int cubes_get(const cubes *c, int x, int y, int z) {
     return in && c->is[(x * CUBES + y) * CUBES + z];
 }
 
-/// From one cube on, each beside one that is there.
+/// Starts with one cube and adds cubes, each beside an existing one.
 static inline cubes cubes_make(uint64_t *s) {
     cubes c = {{0}};
     int count = 1 + (int)(random_next(s) % 12), at[3] = {1, 1, 1};
@@ -217,7 +217,8 @@ static inline long double long_edges_distance(long3 p, long3 p1, long3 q, long3 
     long3 u = long3_sub(p1, p), v = long3_sub(q1, q), r = long3_sub(p, q);
     long double a = long3_dot(u, u), e = long3_dot(v, v), f = long3_dot(v, r), c = long3_dot(u, r), b = long3_dot(u, v);
     long double best = INFINITY, denominator = a * e - b * b;
-    // The inside of both, and each end above the other edge: the least of five is the distance, with no case to choose.
+    // The interiors of both, and each end projected to the other edge: the least of five is the distance, without
+    // cases.
     long double s[5] = {denominator > 0 ? clamp01((b * f - c * e) / denominator) : 0, 0, 1, a > 0 ? clamp01(-c / a) : 0,
                         a > 0 ? clamp01((b - c) / a) : 0};
     for (int i = 0; i < 5; i++) {
@@ -278,7 +279,7 @@ static inline long double long_winding(const long3 *t, size_t count, long3 p) {
     return sum / 6.28318530717958647692528676655900577L;
 }
 
-/// What brute force says: the distance of the surfaces, and whether the bodies have a point in common.
+/// The result of brute force: the distance of the surfaces, and whether the bodies have a common point.
 typedef struct solid_truth {
     double surfaces;
     int is_common;
@@ -303,8 +304,8 @@ static inline long_ball *long_make_balls(const long3 *t, size_t count) {
     return balls;
 }
 
-/// Over all pairs of triangles, but those whose balls are farther apart than the nearest so far. Where no surfaces
-/// meet, any corner inside decides; nothing is inside of open ones.
+/// Over all pairs of triangles, except those whose balls are farther apart than the nearest so far. If no surfaces
+/// meet, a corner inside decides; open surfaces have no inside.
 static inline solid_truth find_truth_of(const mesh *a, const ovoid_pose *pose_a, int is_open_a, const mesh *b,
                                         const ovoid_pose *pose_b, int is_open_b) {
     long3 *p = long_place_mesh(a, pose_a), *q = long_place_mesh(b, pose_b);

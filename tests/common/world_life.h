@@ -1,4 +1,5 @@
-// A world's life at random: bodies come, move a little or far, and go; pairs are ignored and taken back.
+// Random events in a world: bodies are added, move a little or far, and are removed; pairs are ignored and queried
+// again.
 #ifndef OVOID_TESTS_WORLD_LIFE_H
 #define OVOID_TESTS_WORLD_LIFE_H
 
@@ -83,9 +84,9 @@ static inline void life_end(life *l) {
     world_destroy_shapes(l->shapes);
 }
 
-/// A frame with any question, looked at beside all pairs, and at the bytes that the world holds: arrays double, so an
-/// item's 330 bytes of a body with its leaf, and 390 of a pair with its cached answer and its contact, take at most
-/// twice that of the most there have been.
+/// A frame with any query, compared with all pairs; and the bytes that the world holds: arrays double, so the 330 bytes
+/// of a body with its leaf, and the 390 of a pair with its cached answer and its contact, take at most twice that for
+/// the largest numbers so far.
 static inline void life_frame(life *l, ovoid_contact_query *q) {
     if (random_next(&l->s) % 6 == 0) {
         q->kind = (ovoid_query_kind)(random_next(&l->s) % 4);

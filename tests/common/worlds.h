@@ -1,4 +1,4 @@
-// Bodies at random, and what a frame must say of them: the queries of all pairs, one by one.
+// Random bodies, and the expected contacts of a frame: the queries of all pairs, one by one.
 #ifndef OVOID_TESTS_WORLDS_H
 #define OVOID_TESTS_WORLDS_H
 
@@ -26,7 +26,7 @@ static inline void world_destroy_shapes(ovoid_shape *shapes[WORLD_SHAPES]) {
     for (int k = 0; k < WORLD_SHAPES; k++) ovoid_shape_destroy(shapes[k]);
 }
 
-/// A few of the shapes in one body.
+/// A compound of a few of the shapes.
 static inline ovoid_compound *world_make_compound(uint64_t *s, ovoid_shape *const *shapes, double scale) {
     ovoid_posed_shape parts[5];
     for (int i = 0; i < 5; i++)
@@ -43,7 +43,7 @@ static inline ovoid_vec3 random_place(uint64_t *s, double side) {
     return (ovoid_vec3){random_uniform(s, -side, side), random_uniform(s, -side, side), random_uniform(s, -side, side)};
 }
 
-/// The answer of the pair alone, cold.
+/// The answer of a query of the pair alone, without a warm start.
 static inline ovoid_body_answer world_ask(const ovoid_world_body *a, const ovoid_world_body *b,
                                           const ovoid_contact_query *q) {
     ovoid_body_pair pair = {a->body, b->body};
@@ -58,10 +58,10 @@ static inline ovoid_body_answer world_ask(const ovoid_world_body *a, const ovoid
     }
 }
 
-/// No less than what a body adds to a pair's size, of which the tolerance is a billionth.
+/// An upper bound of what a body adds to a pair's size, of which the tolerance is a billionth.
 static inline double world_find_reach(const ovoid_body *body) {
     if (body->compound) {
-        // The ellipsoid reaches no farther than the root of its trace.
+        // The ellipsoid's reach is at most the root of its trace.
         ovoid_ellipsoid e = ovoid_compound_get_outer(body->compound);
         return 2 * (sqrt(e.q.xx + e.q.yy + e.q.zz) + fabs(e.center.x) + fabs(e.center.y) + fabs(e.center.z));
     }
@@ -75,7 +75,7 @@ static inline double world_find_size(const ovoid_body *a, const ovoid_body *b) {
     return world_find_reach(a) + world_find_reach(b) + apart;
 }
 
-/// One contact beside the truth: an exact bracket of the signed distance, and the proof that is made of it.
+/// Compares one contact with the truth: an exact bracket of the signed distance, and the proof made for it.
 static inline void world_check_contact(const ovoid_world *w, const ovoid_contact *c, const ovoid_world_body *a,
                                        const ovoid_world_body *b, const ovoid_contact_query *q) {
     static ovoid_exclusion items[4096];
@@ -87,7 +87,7 @@ static inline void world_check_contact(const ovoid_world *w, const ovoid_contact
     CHECK(c->user_a == a->user && c->user_b == b->user);
     CHECK_LE(c->verdict.lower, truth.upper);
     CHECK_LE(truth.lower, c->verdict.upper);
-    // The reported bounds show the status.
+    // The reported bounds prove the status.
     CHECK(c->verdict.status != OVOID_SEPARATED || c->verdict.lower > 0);
     CHECK(c->verdict.status != OVOID_OVERLAPPING || c->verdict.upper < 0);
     ovoid_contact_proof proof = {.exclusions = &exclusions};
@@ -105,7 +105,7 @@ static inline void world_check_contact(const ovoid_world *w, const ovoid_contact
         CHECK_NEAR(c->verdict.lower, truth.lower, near);
 }
 
-/// The frame against all pairs of the world, which must be small.
+/// Compares the frame with all pairs of the world, which must be small.
 static inline void world_validate_frame(const ovoid_world *w, const ovoid_contact_query *q, const ovoid_contacts *f) {
     size_t at = 0;
     for (ovoid_id a = ovoid_world_find_next(w, 0); a; a = ovoid_world_find_next(w, a)) {
