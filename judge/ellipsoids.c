@@ -82,7 +82,7 @@ static int segment_is_outside(pool *p, const inner *e, nvec a, nvec b) {
 }
 
 // 1 if the point of the triangle's plane, of normal n, where the form is least lies in the triangle. It is the multiple
-// offset / (n' Q n) of Q n, and a . n = det(a, b, c) = offset, so that the offset's sign drops out.
+// offset / (n' Q n) of Q n, and a . n = det(a, b, c) = offset, so the offset's sign cancels.
 static int is_least_point_inside(pool *p, const inner *e, nvec n, nvec a, nvec b, nvec c) {
     nvec along = symmetric_apply(p, e->q, n);
     return num_sign(nvec_det(p, along, a, b)) >= 0 && num_sign(nvec_det(p, along, b, c)) >= 0 &&

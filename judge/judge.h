@@ -16,8 +16,8 @@ typedef struct judge judge;
 judge *judge_create(void);
 void judge_destroy(judge *context);
 
-/// What is to be called if memory runs out, by any judge of the process: it must not return, as neither GMP nor the
-/// judge can go on. NULL, and until this is called: abort. Call it before the first judge is made.
+/// Sets the function that any judge of the process calls when memory runs out: it must not return, as neither GMP nor
+/// the judge can continue. NULL, and until this is called: abort. Call it before the first judge is made.
 void judge_set_out_of_memory(void (*handler)(void));
 
 /// Forgets all shapes.
