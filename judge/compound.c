@@ -168,12 +168,12 @@ static measure measure_body(const ovoid_body *of) {
 }
 
 // Checks that the bracket of "touching" is narrow relative to the bodies, whose deciding parts may be small.
-static ovoid_code verify_touching(const judge *context, const ovoid_body_pair *pair, const ovoid_answer *x,
+static ovoid_code verify_touching(const judge *context, const ovoid_body_pair *pair, const ovoid_answer *answer,
                                   ovoid_error *error) {
     ovoid_vec3 a = pair->a.pose.position, b = pair->b.pose.position;
     measure ma = measure_body(&pair->a), mb = measure_body(&pair->b);
     double size = ma.size + mb.size + compute_norm((ovoid_vec3){b.x - a.x, b.y - a.y, b.z - a.z});
-    return judge_verify_touching(context, x, size, ma.reach + mb.reach, error);
+    return judge_verify_touching(context, answer, size, ma.reach + mb.reach, error);
 }
 
 ovoid_code judge_verify_compound(judge *context, const ovoid_body_pair *pair, const ovoid_body_answer *answer,

@@ -22,7 +22,7 @@ uint32_t robots_count_samples(const machine *m, const double *q0, const double *
 typedef struct edge {
     double *q; ///< its two states, then one for work
     uint32_t samples;
-    ovoid_robot_path_answer is;
+    ovoid_robot_path_answer answer;
     double depth; ///< for a hit: the greatest depth in the sampled states
 } edge;
 
@@ -30,15 +30,15 @@ typedef struct edge {
 static int draw_edge(robots_run *run, robots_scene *s, edge *e, double length) {
     const machine *m = run->machine;
     uint32_t width = m->variable_count;
-    ovoid_robot_answer is;
+    ovoid_robot_answer answer;
     for (int i = 0; i < 100; i++) {
         machine_draw(m, &s->random, e->q);
         for (uint32_t k = 0; k < width; k++) {
             double by = random_uniform(&s->random, -0.5, 0.5) * length * (m->high[k] - m->low[k]);
             e->q[width + k] = fmin(fmax(e->q[k] + by, m->low[k]), m->high[k]);
         }
-        if (ovoid_robot_collide(s->checker, &(ovoid_robot_query){e->q, NULL}, &is, NULL) != OVOID_OK ||
-            is.status != OVOID_ROBOT_FREE)
+        if (ovoid_robot_collide(s->checker, &(ovoid_robot_query){e->q, NULL}, &answer, NULL) != OVOID_OK ||
+            answer.status != OVOID_ROBOT_FREE)
             continue;
         e->samples = robots_count_samples(m, e->q, e->q + width);
         return 1;
@@ -47,11 +47,11 @@ static int draw_edge(robots_run *run, robots_scene *s, edge *e, double length) {
 }
 
 /// One query of the edge: the first hit or, as in sampling, any hit. Its time in microseconds; below zero: it failed.
-static double ask(robots_scene *s, const edge *e, int any_hit, ovoid_robot_path_answer *is) {
+static double ask(robots_scene *s, const edge *e, int any_hit, ovoid_robot_path_answer *answer) {
     ovoid_robot_path path = {e->q, 2};
     ovoid_robot_path_options options = {.any_hit = any_hit};
     double start = get_own_seconds();
-    ovoid_code code = ovoid_robot_path_find_hit(s->checker, &(ovoid_robot_path_query){&path, &options}, is, NULL);
+    ovoid_code code = ovoid_robot_path_find_hit(s->checker, &(ovoid_robot_path_query){&path, &options}, answer, NULL);
     return code == OVOID_OK ? (get_own_seconds() - start) * 1e6 : -1;
 }
 
@@ -65,15 +65,15 @@ static void prove(robots_run *run, robots_scene *s, edge *e, uint32_t length) {
     double times[2] = {0, 0};
     for (int k = 0; k < 2; k++) {
         int is_any = k ^ any_first;
-        times[is_any] = ask(s, e, is_any, is_any ? &any : &e->is);
+        times[is_any] = ask(s, e, is_any, is_any ? &any : &e->answer);
     }
     if (times[0] < 0 || times[1] < 0) {
         run->wrong++;
         return;
     }
-    int is_hit = e->is.status == OVOID_ROBOT_HIT;
+    int is_hit = e->answer.status == OVOID_ROBOT_HIT;
     tallies *to = is_hit ? &run->hit_edges[length] : &run->edges[length];
-    if (is_hit || e->is.status == OVOID_ROBOT_FREE)
+    if (is_hit || e->answer.status == OVOID_ROBOT_FREE)
         tally_add(tallies_get(to, any_first ? "ovoid, any hit" : "ovoid, first hit"), times[any_first]);
     ovoid_robot_path path = {e->q, 2};
     ovoid_robot_path_options options = {.steps = steps, .capacity = STEPS};
@@ -82,7 +82,7 @@ static void prove(robots_run *run, robots_scene *s, edge *e, uint32_t length) {
     if (code == OVOID_OK && again.step_count <= STEPS)
         code = ovoid_robot_path_verify(s->cell, &again, &(ovoid_robot_path_basis){{&path, &options}, steps}, NULL);
     run->judged++;
-    run->wrong += code != OVOID_OK || again.status != e->is.status || any.status != e->is.status;
+    run->wrong += code != OVOID_OK || again.status != e->answer.status || any.status != e->answer.status;
 }
 
 static void place_sample(const machine *m, const edge *e, uint32_t i, double *q) {
@@ -96,14 +96,14 @@ static void judge_edge(robots_run *run, const robots_scene *s, edge *e, double *
     const machine *m = run->machine;
     e->depth = 0;
     edge fine = *e;
-    fine.samples = e->is.status == OVOID_ROBOT_HIT ? 8 * (e->samples - 1) + 1 : e->samples;
+    fine.samples = e->answer.status == OVOID_ROBOT_HIT ? 8 * (e->samples - 1) + 1 : e->samples;
     for (uint32_t i = 0; i < fine.samples; i++) {
         place_sample(m, &fine, i, q);
         double at = (double)i / (fine.samples - 1);
         state_truth t = robots_judge(s, m, q);
         e->depth = fmax(e->depth, t.depth);
         run->judged++;
-        run->wrong += t.is_hit && at < e->is.free_until;
+        run->wrong += t.is_hit && at < e->answer.free_until;
     }
 }
 
@@ -123,7 +123,7 @@ static void time_rival(robots_run *run, const rival *r, const edge *e, double *q
     int said_hit = sample_edge(run->machine, r, e, q, links);
     double time = get_own_seconds() - start;
     tally_add(to, time * 1e6);
-    int is_hit = e->is.status == OVOID_ROBOT_HIT;
+    int is_hit = e->answer.status == OVOID_ROBOT_HIT;
     tally_judge(to, said_hit, is_hit, e->depth);
     if (!is_hit && !said_hit) tally_add(tallies_get(&run->along, r->who->name), time / e->samples * 1e9);
 }
@@ -162,14 +162,14 @@ void robots_run_edges(robots_run *run, robots_scene *s, rival *rivals, uint32_t 
     edge e = {.q = q};
     // The first search allocates the checker's memory for paths.
     if (q && links && draw_edge(run, s, &e, 0.1))
-        (void)ovoid_robot_path_find_hit(s->checker, &(ovoid_robot_path_query){&(ovoid_robot_path){q, 2}, NULL}, &e.is,
-                                        NULL);
+        (void)ovoid_robot_path_find_hit(s->checker, &(ovoid_robot_path_query){&(ovoid_robot_path){q, 2}, NULL},
+                                        &e.answer, NULL);
     for (uint32_t i = 0; q && links && i < 3 * run->plan->edges; i++) {
         uint32_t length = i % 3;
         if (!draw_edge(run, s, &e, lengths[length])) break;
         prove(run, s, &e, length);
-        if (e.is.status != OVOID_ROBOT_FREE && e.is.status != OVOID_ROBOT_HIT) continue;
-        int is_hit = e.is.status == OVOID_ROBOT_HIT;
+        if (e.answer.status != OVOID_ROBOT_FREE && e.answer.status != OVOID_ROBOT_HIT) continue;
+        int is_hit = e.answer.status == OVOID_ROBOT_HIT;
         double *work = q + (size_t)2 * m->variable_count;
         judge_edge(run, s, &e, work);
         if (!is_hit) time_along(run, s, &e);

@@ -18,7 +18,7 @@ static double spread(uint32_t i, int k) {
 
 typedef struct sampling {
     const body *b;
-    const hull *h;
+    const hull *polytope;
     outlier *outliers; ///< room for OUTLIERS
     uint32_t count, hint;
     double excess, enough;
@@ -61,12 +61,12 @@ static vec3 get_on_face(const hull *polytope, uint32_t t, double u, double v) {
 // Samples faces at even steps of area; each point is also moved toward the middle to sample the inside.
 static void sample_faces(sampling *s, vec3 middle) {
     double total = 0, sum = 0;
-    for (uint32_t t = 0; t < s->h->triangle_count; t++) total += compute_area_of(s->h, t);
+    for (uint32_t t = 0; t < s->polytope->triangle_count; t++) total += compute_area_of(s->polytope, t);
     uint32_t drawn = 0;
-    for (uint32_t t = 0; t < s->h->triangle_count && s->excess <= s->enough; t++) {
-        sum += compute_area_of(s->h, t);
+    for (uint32_t t = 0; t < s->polytope->triangle_count && s->excess <= s->enough; t++) {
+        sum += compute_area_of(s->polytope, t);
         for (; drawn < ON_FACES && (drawn + 0.5) * total <= sum * ON_FACES; drawn++) {
-            vec3 x = get_on_face(s->h, t, spread(drawn, 0), spread(drawn, 1));
+            vec3 x = get_on_face(s->polytope, t, spread(drawn, 0), spread(drawn, 1));
             double d = measure(s, x, 0);
             if (d > 0) keep(s, x, d);
             if (drawn % (ON_FACES / WITHIN) != 0) continue;
@@ -93,7 +93,7 @@ static void climb(sampling *s, vec3 at, double best, double step) {
             double d[3] = {0, 0, 0};
             d[k / 2] = k % 2 ? step : -step;
             vec3 x = vec3_add(at, (vec3){d[0], d[1], d[2]});
-            if (!is_in_hull(s->h, x)) continue;
+            if (!is_in_hull(s->polytope, x)) continue;
             double distance = measure(s, x, best);
             if (distance > best) best = distance, at = x, is_better = 1;
         }
@@ -119,7 +119,7 @@ static ovoid_code estimate(sampling *s, const vec3 *points, uint32_t count, ovoi
     hull polytope;
     ovoid_code code = hull_create(&points[0].x, count, &s->b->memory, &polytope, error);
     if (code != OVOID_OK) return code;
-    s->h = &polytope;
+    s->polytope = &polytope;
     box around = box_make_around(&points[0].x, count);
     vec3 sum = {0, 0, 0};
     for (uint32_t i = 0; i < count; i++) sum = vec3_add(sum, points[i]);
@@ -127,7 +127,7 @@ static ovoid_code estimate(sampling *s, const vec3 *points, uint32_t count, ovoi
     // The planes of a flat hull do not bound it, so only its faces are sampled.
     if (s->excess <= s->enough && polytope.rank == 3) climb_all(s, 0.1 * vec3_norm(vec3_sub(around.max, around.min)));
     hull_destroy(&polytope, &s->b->memory);
-    s->h = NULL;
+    s->polytope = NULL;
     return OVOID_OK;
 }
 

@@ -6,67 +6,68 @@
 #include "pair/reject.h"
 #include "world/pair_update.h"
 
-static double measure_hull(const pair_frame *f, const pair_cache *k) {
+static double measure_hull(const pair_frame *f, const pair_cache *cache) {
     vec3 w[OVOID_PROOF_PAIRS];
-    for (uint32_t i = 0; i < k->count; i++) w[i] = frame_difference(f, k->of.entry[i][0], k->of.entry[i][1]);
-    double depth = k->count ? hull_compute_depth(w, k->count, f->claim) : 0;
+    for (uint32_t i = 0; i < cache->count; i++)
+        w[i] = frame_difference(f, cache->of.entry[i][0], cache->of.entry[i][1]);
+    double depth = cache->count ? hull_compute_depth(w, cache->count, f->claim) : 0;
     return depth > 0 ? -depth - f->upper_radii : 0;
 }
 
 // A common point of the inner ellipsoids: the cached one, which is fixed in A, or one for the present poses.
-static double measure_inner(const pair_frame *f, pair_cache *k) {
-    double upper = inner_compute_upper(f, k->of.inner);
+static double measure_inner(const pair_frame *f, pair_cache *cache) {
+    double upper = inner_compute_upper(f, cache->of.inner);
     vec3 x;
     double other = inner_find_common(f, &x) ? inner_compute_upper(f, x) : 0;
     if (!(other < upper)) return upper;
-    k->of.inner = x;
+    cache->of.inner = x;
     return other;
 }
 
-static int measure_overlap(pair_frame *f, pair_cache *k) {
+static int measure_overlap(pair_frame *f, pair_cache *cache) {
     frame_relate(f);
     double upper = 0;
-    if (k->proof == OVOID_PROOF_INNER) upper = measure_inner(f, k);
-    if (k->proof == OVOID_PROOF_HULL) upper = measure_hull(f, k);
+    if (cache->proof == OVOID_PROOF_INNER) upper = measure_inner(f, cache);
+    if (cache->proof == OVOID_PROOF_HULL) upper = measure_hull(f, cache);
     if (!(upper < 0)) return 0;
-    k->upper = upper;
+    cache->upper = upper;
     return 1;
 }
 
-static int measure_gap(const pair_frame *f, pair_cache *k, double margin) {
+static int measure_gap(const pair_frame *f, pair_cache *cache, double margin) {
     rejection found;
     ovoid_proof earlier;
     if (reject_by_spheres(f, margin, &found)) {
-        k->stage = OVOID_STAGE_SPHERE;
+        cache->stage = OVOID_STAGE_SPHERE;
     } else {
-        earlier.normal = k->normal;
+        earlier.normal = cache->normal;
         if (!reject_by_normal(f, margin, &earlier, &found)) return 0;
-        k->stage = OVOID_STAGE_PROOF;
+        cache->stage = OVOID_STAGE_PROOF;
     }
-    k->normal = found.normal;
-    k->lower = found.lower;
+    cache->normal = found.normal;
+    cache->lower = found.lower;
     return 1;
 }
 
-int pair_revalidate(const ovoid_world *w, const world_pair *p, pair_cache *k) {
+int pair_revalidate(const ovoid_world *w, const world_pair *p, pair_cache *cache) {
     const world_body *a = &w->bodies[p->a], *b = &w->bodies[p->b];
-    int is_apart = k->status == OVOID_SEPARATED && k->lower > w->margin;
-    int is_overlap = k->status == OVOID_OVERLAPPING && !world_is_measuring(w);
+    int is_apart = cache->status == OVOID_SEPARATED && cache->lower > w->margin;
+    int is_overlap = cache->status == OVOID_OVERLAPPING && !world_is_measuring(w);
     if (!(is_apart || is_overlap) || !a->body.shape || !b->body.shape) return 0;
     ovoid_pair both = {a->body.shape, b->body.shape, a->body.pose, b->body.pose};
     pair_frame f;
     if (frame_place(&both, &f) != OVOID_LIMIT_NONE) return 0;
-    if (!(is_apart ? measure_gap(&f, k, w->margin) : measure_overlap(&f, k))) return 0;
+    if (!(is_apart ? measure_gap(&f, cache, w->margin) : measure_overlap(&f, cache))) return 0;
     // The other bound comes from the spheres.
     double d = vec3_norm(vec3_sub(w->places[p->b].at, w->places[p->a].at)),
            center_error = a->center_error + b->center_error;
     double reach = ((a->reach + b->reach) + (a->radius + b->radius)) * (1 + 0x1p-48) + center_error;
     if (is_apart)
-        k->upper = (d + reach) * (1 + 0x1p-48);
+        cache->upper = (d + reach) * (1 + 0x1p-48);
     else
-        k->lower = d * (1 - 0x1p-48) - reach;
-    k->limit = OVOID_LIMIT_ANSWERED;
-    k->iterations = 0;
-    if (is_overlap) k->stage = OVOID_STAGE_PROOF;
+        cache->lower = d * (1 - 0x1p-48) - reach;
+    cache->limit = OVOID_LIMIT_ANSWERED;
+    cache->iterations = 0;
+    if (is_overlap) cache->stage = OVOID_STAGE_PROOF;
     return 1;
 }

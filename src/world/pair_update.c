@@ -14,34 +14,34 @@ static double sum_abs(vec3 v) { return fabs(v.x) + fabs(v.y) + fabs(v.z); }
 
 // ---- the cache and proofs
 
-static void write_proof(const pair_cache *k, ovoid_proof *p) {
-    *p = (ovoid_proof){.normal = k->normal, .kind = (ovoid_proof_kind)k->proof, .count = k->count};
+static void write_proof(const pair_cache *cache, ovoid_proof *p) {
+    *p = (ovoid_proof){.normal = cache->normal, .kind = (ovoid_proof_kind)cache->proof, .count = cache->count};
     if (p->kind == OVOID_PROOF_INNER) {
-        p->inner_a = k->of.inner;
+        p->inner_a = cache->of.inner;
         return;
     }
     for (uint32_t i = 0; i < p->count; i++) {
-        p->a[i] = k->of.entry[i][0];
-        p->b[i] = k->of.entry[i][1];
+        p->a[i] = cache->of.entry[i][0];
+        p->b[i] = cache->of.entry[i][1];
         p->weight_a[i] = p->weight_b[i] = 1;
     }
 }
 
-static void cache_proof(pair_cache *k, const ovoid_proof *p) {
-    k->normal = p->normal;
-    k->proof = (uint8_t)p->kind;
-    k->count = 0;
+static void cache_proof(pair_cache *cache, const ovoid_proof *p) {
+    cache->normal = p->normal;
+    cache->proof = (uint8_t)p->kind;
+    cache->count = 0;
     if (p->kind == OVOID_PROOF_INNER) {
-        k->of.inner = p->inner_a;
+        cache->of.inner = p->inner_a;
         return;
     }
     // Indices beyond 16 bits are not cached: the warm start is slower, from the normal alone.
     for (uint32_t i = 0; i < p->count; i++)
         if (p->a[i] > UINT16_MAX || p->b[i] > UINT16_MAX) return;
-    k->count = (uint8_t)p->count;
+    cache->count = (uint8_t)p->count;
     for (uint32_t i = 0; i < p->count; i++) {
-        k->of.entry[i][0] = (uint16_t)p->a[i];
-        k->of.entry[i][1] = (uint16_t)p->b[i];
+        cache->of.entry[i][0] = (uint16_t)p->a[i];
+        cache->of.entry[i][1] = (uint16_t)p->b[i];
     }
 }
 
@@ -59,16 +59,16 @@ static query_goal make_goal(const ovoid_world *w) {
     return goal;
 }
 
-void pair_query(const ovoid_world *w, const ovoid_body_pair *both, const pair_cache *k, ovoid_exclusions *exclusions,
-                ovoid_body_answer *out) {
+void pair_query(const ovoid_world *w, const ovoid_body_pair *both, const pair_cache *cache,
+                ovoid_exclusions *exclusions, ovoid_body_answer *out) {
     ovoid_body_proof earlier;
-    if (k && k->proof == OVOID_PROOF_NONE) k = NULL;
-    if (k) {
-        earlier.part_a = k->part_a;
-        earlier.part_b = k->part_b;
-        write_proof(k, &earlier.proof);
+    if (cache && cache->proof == OVOID_PROOF_NONE) cache = NULL;
+    if (cache) {
+        earlier.part_a = cache->part_a;
+        earlier.part_b = cache->part_b;
+        write_proof(cache, &earlier.proof);
     }
-    body_find_internal(both, &w->query_options, make_goal(w), k ? &earlier : NULL, exclusions, out);
+    body_find_internal(both, &w->query_options, make_goal(w), cache ? &earlier : NULL, exclusions, out);
 }
 
 // d and t of a pair at the present poses.
@@ -78,14 +78,15 @@ static vec3 find_between(const ovoid_world *w, const world_pair *p, double *trav
     return vec3_sub(b->at, a->at);
 }
 
-void pair_set_age(const ovoid_world *w, world_pair *p, const pair_cache *k) {
+void pair_set_age(const ovoid_world *w, world_pair *p, const pair_cache *cache) {
     double margin = w->margin;
-    double slack = SLACK_SET * (sum_abs(k->between) + k->travel + fabs(k->lower) + fabs(k->upper) + margin);
+    double slack =
+        SLACK_SET * (sum_abs(cache->between) + cache->travel + fabs(cache->lower) + fabs(cache->upper) + margin);
     p->kind = PAIR_OPEN;
     p->flags &= (uint16_t)~PAIR_CONTACT;
-    if (!(k->lower > margin)) p->flags |= PAIR_CONTACT;
+    if (!(cache->lower > margin)) p->flags |= PAIR_CONTACT;
     int are_shapes = w->bodies[p->a].body.shape && w->bodies[p->b].body.shape;
-    if (k->lower > margin && are_shapes && k->stage == OVOID_STAGE_SPHERE) {
+    if (cache->lower > margin && are_shapes && cache->stage == OVOID_STAGE_SPHERE) {
         // Three times the present centre error exceeds the part of any later one that the positions do not explain.
         const world_body *a = &w->bodies[p->a], *b = &w->bodies[p->b];
         double reach = (a->reach + b->reach) + (a->radius + b->radius);
@@ -93,24 +94,24 @@ void pair_set_age(const ovoid_world *w, world_pair *p, const pair_cache *k) {
         p->c = (reach + margin) * (1 + 0x1p-48) + 3 * (a->center_error + b->center_error);
         return;
     }
-    if (k->lower > margin && are_shapes && vec3_norm_squared(k->normal) > 0.5) {
+    if (cache->lower > margin && are_shapes && vec3_norm_squared(cache->normal) > 0.5) {
         p->kind = PAIR_PLANE;
-        p->v = k->normal;
-        p->c = ((k->lower - margin) - vec3_dot(k->normal, k->between)) + k->travel - slack;
+        p->v = cache->normal;
+        p->c = ((cache->lower - margin) - vec3_dot(cache->normal, cache->between)) + cache->travel - slack;
         return;
     }
     // Witness points move with the bodies and must be measured again. Compounds and solids have a normal for each pair
     // of parts; their bounds are adjusted by the motion of the points alone (docs/world.md).
     if (world_is_measuring(w) && p->flags & PAIR_CONTACT) return;
-    double lasts = -k->upper;
-    if (k->lower > margin)
-        lasts = k->lower - margin;
-    else if (k->status == OVOID_SEPARATED)
-        lasts = min2(k->lower, margin - k->upper);
+    double lasts = -cache->upper;
+    if (cache->lower > margin)
+        lasts = cache->lower - margin;
+    else if (cache->status == OVOID_SEPARATED)
+        lasts = min2(cache->lower, margin - cache->upper);
     if (!(lasts > 0)) return;
     p->kind = PAIR_BALL;
-    p->v = k->between;
-    p->c = lasts + k->travel - slack;
+    p->v = cache->between;
+    p->c = lasts + cache->travel - slack;
 }
 
 // The error of both centres that comes from their positions: 128 u of a position (body_bounds.c).
@@ -127,76 +128,80 @@ int pair_is_answered(const ovoid_world *w, const world_pair *p) {
     return p->kind == PAIR_SPHERE && vec3_norm(d) > p->c + slack + find_center_error(w, p);
 }
 
-double pair_compute_age(const ovoid_world *w, const world_pair *p, const pair_cache *k) {
+double pair_compute_age(const ovoid_world *w, const world_pair *p, const pair_cache *cache) {
     double t;
     vec3 d = find_between(w, p, &t);
-    return (vec3_norm(vec3_sub(d, k->between)) + (t - k->travel)) +
-           SLACK_REPORTED * (sum_abs(d) + sum_abs(k->between) + t + fabs(k->lower) + fabs(k->upper));
+    return (vec3_norm(vec3_sub(d, cache->between)) + (t - cache->travel)) +
+           SLACK_REPORTED * (sum_abs(d) + sum_abs(cache->between) + t + fabs(cache->lower) + fabs(cache->upper));
 }
 
-static void query_shapes(const ovoid_world *w, const world_pair *p, const pair_cache *k, ovoid_answer *out) {
+static void query_shapes(const ovoid_world *w, const world_pair *p, const pair_cache *cache, ovoid_answer *out) {
     const ovoid_body *a = &w->bodies[p->a].body, *b = &w->bodies[p->b].body;
     ovoid_pair both = {a->shape, b->shape, a->pose, b->pose};
     ovoid_proof earlier;
-    int is_warm = k->proof != OVOID_PROOF_NONE;
-    if (is_warm) write_proof(k, &earlier);
+    int is_warm = cache->proof != OVOID_PROOF_NONE;
+    if (is_warm) write_proof(cache, &earlier);
     answer_find_internal(&both, &w->query_options, make_goal(w), is_warm ? &earlier : NULL, NULL, out);
 }
 
-static void cache_answer(ovoid_world *w, const world_pair *p, pair_cache *k, const ovoid_answer *answer) {
-    k->lower = answer->lower;
-    k->upper = answer->upper;
-    k->status = (uint8_t)answer->status;
-    k->stage = (uint8_t)answer->stage;
-    k->limit = (uint8_t)answer->limit;
-    k->iterations = answer->iterations;
-    cache_proof(k, &answer->proof);
+static void cache_answer(ovoid_world *w, const world_pair *p, pair_cache *cache, const ovoid_answer *answer) {
+    cache->lower = answer->lower;
+    cache->upper = answer->upper;
+    cache->status = (uint8_t)answer->status;
+    cache->stage = (uint8_t)answer->stage;
+    cache->limit = (uint8_t)answer->limit;
+    cache->iterations = answer->iterations;
+    cache_proof(cache, &answer->proof);
     if (world_is_measuring(w))
         w->witnesses[p->slot] = (ovoid_witness){answer->point_a, answer->point_b, answer->normal};
 }
 
-static void query_pair(ovoid_world *w, const world_pair *p, pair_cache *k) {
+static void query_pair(ovoid_world *w, const world_pair *p, pair_cache *cache) {
     if (w->bodies[p->a].body.shape && w->bodies[p->b].body.shape) {
         ovoid_answer x;
-        query_shapes(w, p, k, &x);
-        cache_answer(w, p, k, &x);
+        query_shapes(w, p, cache, &x);
+        cache_answer(w, p, cache, &x);
         return;
     }
     ovoid_body_answer x;
     ovoid_body_pair both = {w->bodies[p->a].body, w->bodies[p->b].body};
-    pair_query(w, &both, k, NULL, &x);
-    k->part_a = x.part_a;
-    k->part_b = x.part_b;
+    pair_query(w, &both, cache, NULL, &x);
+    cache->part_a = x.part_a;
+    cache->part_b = x.part_b;
     ovoid_answer own = ovoid_body_answer_get_answer(&x);
-    cache_answer(w, p, k, &own);
+    cache_answer(w, p, cache, &own);
 }
 
 void pair_update(ovoid_world *w, world_pair *p) {
-    pair_cache *k = &w->pair_cache[p->slot];
-    if (!(p->flags & PAIR_KNOWN) || !pair_revalidate(w, p, k)) query_pair(w, p, k);
-    k->between = find_between(w, p, &k->travel);
+    pair_cache *cache = &w->pair_cache[p->slot];
+    if (!(p->flags & PAIR_KNOWN) || !pair_revalidate(w, p, cache)) query_pair(w, p, cache);
+    cache->between = find_between(w, p, &cache->travel);
     p->flags |= PAIR_STILL | PAIR_KNOWN;
-    pair_set_age(w, p, k);
+    pair_set_age(w, p, cache);
 }
 
 // ---- contacts
 
 ovoid_contact pair_make_contact(const ovoid_world *w, const world_pair *p) {
-    const pair_cache *k = &w->pair_cache[p->slot];
+    const pair_cache *cache = &w->pair_cache[p->slot];
     ovoid_contact contact = {.a = body_get_id(w, p->a),
                              .b = body_get_id(w, p->b),
                              .user_a = w->bodies[p->a].user,
                              .user_b = w->bodies[p->b].user,
-                             .part_a = k->part_a,
-                             .part_b = k->part_b};
-    contact.verdict = (ovoid_verdict){
-        (ovoid_status)k->status, (ovoid_stage)k->stage, (ovoid_limit)k->limit, k->iterations, k->lower, k->upper};
+                             .part_a = cache->part_a,
+                             .part_b = cache->part_b};
+    contact.verdict = (ovoid_verdict){(ovoid_status)cache->status,
+                                      (ovoid_stage)cache->stage,
+                                      (ovoid_limit)cache->limit,
+                                      cache->iterations,
+                                      cache->lower,
+                                      cache->upper};
     if (p->flags & PAIR_STILL) return contact;
-    double age = pair_compute_age(w, p, k);
-    contact.verdict = (ovoid_verdict){.status = (ovoid_status)k->status,
+    double age = pair_compute_age(w, p, cache);
+    contact.verdict = (ovoid_verdict){.status = (ovoid_status)cache->status,
                                       .stage = OVOID_STAGE_PROOF,
                                       .limit = OVOID_LIMIT_ANSWERED,
-                                      .lower = k->lower - age,
-                                      .upper = k->upper + age};
+                                      .lower = cache->lower - age,
+                                      .upper = cache->upper + age};
     return contact;
 }

@@ -6,20 +6,21 @@
 #include "world/state.h"
 
 /// The query of two bodies at the present poses, with the cached proof as warm start (NULL: without).
-void pair_query(const ovoid_world *w, const ovoid_body_pair *both, const pair_cache *k, ovoid_exclusions *exclusions,
-                ovoid_body_answer *out);
+void pair_query(const ovoid_world *w, const ovoid_body_pair *both, const pair_cache *cache,
+                ovoid_exclusions *exclusions, ovoid_body_answer *out);
 
 /// Sets how long the cached answer holds for the world's query: kind, v, c and CONTACT.
-void pair_set_age(const ovoid_world *w, world_pair *p, const pair_cache *k);
+void pair_set_age(const ovoid_world *w, world_pair *p, const pair_cache *cache);
 
 /// Answers the pair from its revalidated proof or by a query, caches the answer and sets its age.
 void pair_update(ovoid_world *w, world_pair *p);
 
 /// The most by which the signed distance can have changed since the cached answer, rounding included.
-double pair_compute_age(const ovoid_world *w, const world_pair *p, const pair_cache *k);
+double pair_compute_age(const ovoid_world *w, const world_pair *p, const pair_cache *cache);
 
-/// Measures the cached proof at the present poses: 1 if it still answers; the bounds of k are then the present ones.
-int pair_revalidate(const ovoid_world *w, const world_pair *p, pair_cache *k);
+/// Measures the cached proof at the present poses: 1 if it still answers; the bounds of cache are then the present
+/// ones.
+int pair_revalidate(const ovoid_world *w, const world_pair *p, pair_cache *cache);
 
 /// 1 if the cached answer still holds; reads no geometry.
 int pair_is_answered(const ovoid_world *w, const world_pair *p);

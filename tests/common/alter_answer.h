@@ -36,33 +36,40 @@ enum { ALTER_ANSWER_FIELDS = sizeof alter_answer_fields / sizeof *alter_answer_f
 /// Alterations that are no change of one number: parts of the answer swapped, those of another answer, or values that
 /// no enumeration has. 0: there is no such alteration, or it changes nothing.
 enum { ALTER_ANSWER_FORGERIES = 10 };
-static inline int alter_answer_forge(ovoid_answer *x, const ovoid_answer *other, const uint32_t counts[2], int which) {
-    const ovoid_answer before = *x;
-    ovoid_vec3 kept = x->point_a;
+static inline int alter_answer_forge(ovoid_answer *answer, const ovoid_answer *other, const uint32_t counts[2],
+                                     int which) {
+    const ovoid_answer before = *answer;
+    ovoid_vec3 kept = answer->point_a;
     switch (which) {
-    case 0: x->point_a = x->point_b, x->point_b = kept; break;
-    case 1: x->proof = other->proof; break;
-    case 2: x->proof = other->proof, x->normal = other->normal; break;
-    case 3: x->proof.a[x->proof.count ? x->proof.count - 1 : 0] = counts[0]; break;
-    case 4: x->proof.b[0] = counts[1]; break;
-    case 5: x->proof.count = OVOID_PROOF_PAIRS + 1; break;
-    case 6: x->normal = (ovoid_vec3){-x->normal.x, -x->normal.y, -x->normal.z}, x->proof.normal = x->normal; break;
-    case 7: x->lower = other->lower, x->upper = other->upper, x->status = other->status; break;
-    case 8: x->status = OVOID_TOUCHING, x->lower = fmin(x->lower, -1e-7), x->upper = fmax(x->upper, 1e-7); break;
-    default: x->limit = OVOID_LIMIT_NONE, x->lower -= 1 + fabs(x->lower); break;
+    case 0: answer->point_a = answer->point_b, answer->point_b = kept; break;
+    case 1: answer->proof = other->proof; break;
+    case 2: answer->proof = other->proof, answer->normal = other->normal; break;
+    case 3: answer->proof.a[answer->proof.count ? answer->proof.count - 1 : 0] = counts[0]; break;
+    case 4: answer->proof.b[0] = counts[1]; break;
+    case 5: answer->proof.count = OVOID_PROOF_PAIRS + 1; break;
+    case 6:
+        answer->normal = (ovoid_vec3){-answer->normal.x, -answer->normal.y, -answer->normal.z},
+        answer->proof.normal = answer->normal;
+        break;
+    case 7: answer->lower = other->lower, answer->upper = other->upper, answer->status = other->status; break;
+    case 8:
+        answer->status = OVOID_TOUCHING, answer->lower = fmin(answer->lower, -1e-7),
+        answer->upper = fmax(answer->upper, 1e-7);
+        break;
+    default: answer->limit = OVOID_LIMIT_NONE, answer->lower -= 1 + fabs(answer->lower); break;
     }
-    return memcmp(&before, x, sizeof before) != 0;
+    return memcmp(&before, answer, sizeof before) != 0;
 }
 
 /// 1 if the limit claims a width that the bracket does not have, or a distance beyond a cap that it does not prove.
 /// most: at least the tolerance for these bodies; wide: at least the width that their allowances add.
-static inline int alter_limit_is_false(const ovoid_answer *x, double most, double wide, double cap) {
-    double width = x->upper - x->lower;
-    if ((int)x->limit < 0 || x->limit > OVOID_LIMIT_ALLOWANCE) return 1;
-    if (x->limit == OVOID_LIMIT_NONE) return !(width <= most + wide);
-    if (x->limit == OVOID_LIMIT_ALLOWANCE) return !(wide > 0 && width <= most + 2 * wide);
-    if (x->limit == OVOID_LIMIT_CAP) return !(x->lower > cap);
-    return x->limit >= OVOID_LIMIT_POSE_A && (x->lower > -INFINITY || x->upper < INFINITY);
+static inline int alter_limit_is_false(const ovoid_answer *answer, double most, double wide, double cap) {
+    double width = answer->upper - answer->lower;
+    if ((int)answer->limit < 0 || answer->limit > OVOID_LIMIT_ALLOWANCE) return 1;
+    if (answer->limit == OVOID_LIMIT_NONE) return !(width <= most + wide);
+    if (answer->limit == OVOID_LIMIT_ALLOWANCE) return !(wide > 0 && width <= most + 2 * wide);
+    if (answer->limit == OVOID_LIMIT_CAP) return !(answer->lower > cap);
+    return answer->limit >= OVOID_LIMIT_POSE_A && (answer->lower > -INFINITY || answer->upper < INFINITY);
 }
 
 #endif

@@ -16,9 +16,9 @@ static inline uint64_t bits_add(uint64_t hash, const void *data, size_t size) {
 #define BITS_START 14695981039346656037u
 #define BITS_ADD(hash, value) ((hash) = bits_add((hash), &(value), sizeof(value)))
 
-static inline uint64_t bits_add_answer(uint64_t hash, const ovoid_answer *x) {
-    const ovoid_proof *p = &x->proof;
-    hash = bits_add(hash, x, offsetof(ovoid_answer, proof));
+static inline uint64_t bits_add_answer(uint64_t hash, const ovoid_answer *answer) {
+    const ovoid_proof *p = &answer->proof;
+    hash = bits_add(hash, answer, offsetof(ovoid_answer, proof));
     BITS_ADD(hash, p->normal);
     BITS_ADD(hash, p->normal_low);
     BITS_ADD(hash, p->kind);

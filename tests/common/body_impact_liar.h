@@ -47,10 +47,10 @@ static ovoid_body_answer ask(const truth *t, double time) {
 static ovoid_answer ask_leaves(const truth *t, uint32_t leaf_a, uint32_t leaf_b, double time) {
     leaf_shape a = make_leaf(t, 0, leaf_a, time), b = make_leaf(t, 1, leaf_b, time);
     ovoid_pair pair = {a.posed.shape, b.posed.shape, a.posed.pose, b.posed.pose};
-    ovoid_answer x = ovoid_depth(&pair, NULL, NULL, NULL);
+    ovoid_answer record = ovoid_depth(&pair, NULL, NULL, NULL);
     ovoid_shape_destroy(a.own);
     ovoid_shape_destroy(b.own);
-    return x;
+    return record;
 }
 
 static void add_time(truth *t, double time) {
@@ -79,12 +79,12 @@ static int groups_are_false(const truth *t, size_t count) {
 }
 
 // The truth of `hit`: at the beginning the bodies' answer, else that of the deciding leaves.
-static int hit_is_false(const truth *t, const ovoid_body_impact *x) {
-    const ovoid_answer *said = &x->impact.hit;
-    ovoid_answer leaves = ask_leaves(t, x->part_a, x->part_b, x->impact.hit_at);
+static int hit_is_false(const truth *t, const ovoid_body_impact *record) {
+    const ovoid_answer *said = &record->impact.hit;
+    ovoid_answer leaves = ask_leaves(t, record->part_a, record->part_b, record->impact.hit_at);
     double lower = leaves.lower, upper = leaves.upper;
-    if (x->impact.hit_at <= x->impact.begin) {
-        ovoid_body_answer bodies = ask(t, x->impact.hit_at);
+    if (record->impact.hit_at <= record->impact.begin) {
+        ovoid_body_answer bodies = ask(t, record->impact.hit_at);
         lower = fmin(lower, bodies.lower), upper = fmax(upper, bodies.upper);
         if (bodies.lower - t->slack > t->margin) return 1;
     } else if (leaves.lower - t->slack > t->margin) {
@@ -97,31 +97,34 @@ static int hit_is_false(const truth *t, const ovoid_body_impact *x) {
 }
 
 static int is_false(const truth *t, const ovoid_body_impact *found) {
-    const ovoid_impact *x = &found->impact;
-    int hit = x->status == OVOID_IMPACT_HIT, is_free = x->status == OVOID_IMPACT_FREE;
-    if (x->limit >= OVOID_LIMIT_POSE_A && x->limit <= OVOID_LIMIT_SHAPE_B)
-        return x->limit != OVOID_LIMIT_OPTIONS || x->hit_at != INFINITY || x->step_count || found->group_count;
-    if ((unsigned)x->status > OVOID_IMPACT_HIT || (unsigned)x->limit > OVOID_LIMIT_ALLOWANCE) return 1;
+    const ovoid_impact *impact = &found->impact;
+    int hit = impact->status == OVOID_IMPACT_HIT, is_free = impact->status == OVOID_IMPACT_FREE;
+    if (impact->limit >= OVOID_LIMIT_POSE_A && impact->limit <= OVOID_LIMIT_SHAPE_B)
+        return impact->limit != OVOID_LIMIT_OPTIONS || impact->hit_at != INFINITY || impact->step_count ||
+               found->group_count;
+    if ((unsigned)impact->status > OVOID_IMPACT_HIT || (unsigned)impact->limit > OVOID_LIMIT_ALLOWANCE) return 1;
     if (found->part_a >= t->count_a || found->part_b >= t->count_b) return 1;
-    if (!(x->begin >= 0 && x->end <= 1 && x->begin <= x->end)) return 1;
-    if (!(x->free_until >= x->begin && x->free_until <= x->end)) return 1;
-    if (hit ? !(x->hit_at >= x->free_until && x->hit_at <= x->end) : x->hit_at != INFINITY) return 1;
-    if (is_free && x->free_until != x->end) return 1;
+    if (!(impact->begin >= 0 && impact->end <= 1 && impact->begin <= impact->end)) return 1;
+    if (!(impact->free_until >= impact->begin && impact->free_until <= impact->end)) return 1;
+    if (hit ? !(impact->hit_at >= impact->free_until && impact->hit_at <= impact->end) : impact->hit_at != INFINITY)
+        return 1;
+    if (is_free && impact->free_until != impact->end) return 1;
     for (int i = 0; i < t->count; i++)
-        if (t->times[i] >= x->begin && (t->times[i] < x->free_until || (is_free && t->times[i] <= x->end)))
+        if (t->times[i] >= impact->begin &&
+            (t->times[i] < impact->free_until || (is_free && t->times[i] <= impact->end)))
             if (t->upper[i] <= t->margin) return 1;
-    if (is_free && ask(t, x->end).upper + t->slack <= t->margin) return 1;
+    if (is_free && ask(t, impact->end).upper + t->slack <= t->margin) return 1;
     if (hit && hit_is_false(t, found)) return 1;
-    return (x->free_until > x->begin || is_free) && groups_are_false(t, found->group_count);
+    return (impact->free_until > impact->begin || is_free) && groups_are_false(t, found->group_count);
 }
 
 // ---- alterations
 
-static void tell(const truth *t, const ovoid_body_impact *x, alter_count *n) {
+static void tell(const truth *t, const ovoid_body_impact *record, alter_count *n) {
     ovoid_code code =
-        ovoid_body_impact_verify(&(ovoid_moving_body_pair){t->a, t->b, t->margin}, x,
+        ovoid_body_impact_verify(&(ovoid_moving_body_pair){t->a, t->b, t->margin}, record,
                                  &(ovoid_motion_basis){.options = t->told, .steps = steps, .groups = groups}, NULL);
-    alter_take(n, is_false(t, x), code != OVOID_OK);
+    alter_take(n, is_false(t, record), code != OVOID_OK);
 }
 
 enum { FIELDS = 12, GROUP_FIELDS = 5, STEP_FIELDS = 5, FORGED = 7 };
@@ -156,10 +159,10 @@ static const alter_table table = ALTER_TABLE(fields, counts), group_table = ALTE
 static void lie_about(const truth *t, const ovoid_body_impact *right) {
     ovoid_motion_options half = {.begin = 0.25, .end = 0.75};
     ovoid_body_impact other = ovoid_body_impact_find(&(ovoid_moving_body_pair){t->a, t->b, t->margin}, &half),
-                      x = *right;
-    alter_walk w = alter_walk_make(&table, &x, sizeof x, &other);
+                      record = *right;
+    alter_walk w = alter_walk_make(&table, &record, sizeof record, &other);
     for (alter_count *n; (n = alter_next(&w));)
-        if (x.group_count <= CAPACITY) tell(t, &x, n);
+        if (record.group_count <= CAPACITY) tell(t, &record, n);
 }
 
 // Alters the first, the last and one group in between, and a step of each.
@@ -179,10 +182,10 @@ static void lie_about_groups(const truth *t, const ovoid_body_impact *right) {
 
 // ---- forgeries
 
-static void forge(const truth *t, const char *name, int which, const ovoid_body_impact *x) {
+static void forge(const truth *t, const char *name, int which, const ovoid_body_impact *record) {
     alter_name = name;
     alter_way = "forged";
-    tell(t, x, &forged_counts[which]);
+    tell(t, record, &forged_counts[which]);
 }
 
 // Free from begin to end by `count` steps of the balls around all leaves, along the bodies' normals.
@@ -204,10 +207,11 @@ static ovoid_body_impact make_free(const truth *t, double begin, double end, siz
 }
 
 // Groups of all pairs of single leaves, without steps.
-static void leaf_groups(const truth *t, ovoid_body_impact *x) {
-    x->group_count = 0;
+static void leaf_groups(const truth *t, ovoid_body_impact *record) {
+    record->group_count = 0;
     for (uint32_t a = 0; a < t->count_a; a++)
-        for (uint32_t b = 0; b < t->count_b; b++) groups[x->group_count++] = (ovoid_step_group){a, a + 1, b, b + 1, 0};
+        for (uint32_t b = 0; b < t->count_b; b++)
+            groups[record->group_count++] = (ovoid_step_group){a, a + 1, b, b + 1, 0};
 }
 
 // Replaces a pair of groups by a copy of another, with its steps.
@@ -235,13 +239,13 @@ static void forge_twice(const truth *t, const ovoid_body_impact *right) {
 // Claims any two leaves at any time as a hit.
 static void forge_hits(const truth *t) {
     for (int i = 0; i < t->count; i++) {
-        ovoid_body_impact x = {.impact = {.status = OVOID_IMPACT_HIT, .begin = t->begin, .end = t->end}};
-        x.part_a = (uint32_t)i % t->count_a;
-        x.part_b = (uint32_t)i % t->count_b;
-        x.impact.free_until = t->begin;
-        x.impact.hit_at = t->times[i];
-        x.impact.hit = ask_leaves(t, x.part_a, x.part_b, t->times[i]);
-        forge(t, "a hit that is none", 5, &x);
+        ovoid_body_impact record = {.impact = {.status = OVOID_IMPACT_HIT, .begin = t->begin, .end = t->end}};
+        record.part_a = (uint32_t)i % t->count_a;
+        record.part_b = (uint32_t)i % t->count_b;
+        record.impact.free_until = t->begin;
+        record.impact.hit_at = t->times[i];
+        record.impact.hit = ask_leaves(t, record.part_a, record.part_b, t->times[i]);
+        forge(t, "a hit that is none", 5, &record);
     }
 }
 
@@ -261,24 +265,24 @@ static void forge_margins(const truth *t, const ovoid_body_impact *right) {
 static void forge_refusals(const truth *t) {
     ovoid_moving_body none = {.motion = t->b.motion};
     ovoid_body_impact right = ovoid_body_impact_find(&(ovoid_moving_body_pair){t->a, none, t->margin}, &t->options),
-                      x = right;
-    CHECK_EQ(ovoid_body_impact_verify(&(ovoid_moving_body_pair){t->a, none, t->margin}, &x,
+                      record = right;
+    CHECK_EQ(ovoid_body_impact_verify(&(ovoid_moving_body_pair){t->a, none, t->margin}, &record,
                                       &(ovoid_motion_basis){.options = t->told}, NULL),
              OVOID_OK);
-    x.impact.hit_at = 0.5;
-    CHECK(ovoid_body_impact_verify(&(ovoid_moving_body_pair){t->a, none, t->margin}, &x,
+    record.impact.hit_at = 0.5;
+    CHECK(ovoid_body_impact_verify(&(ovoid_moving_body_pair){t->a, none, t->margin}, &record,
                                    &(ovoid_motion_basis){.options = t->told}, NULL) != OVOID_OK);
-    x = right;
-    x.impact.limit = OVOID_LIMIT_SHAPE_A;
-    CHECK(ovoid_body_impact_verify(&(ovoid_moving_body_pair){t->a, none, t->margin}, &x,
+    record = right;
+    record.impact.limit = OVOID_LIMIT_SHAPE_A;
+    CHECK(ovoid_body_impact_verify(&(ovoid_moving_body_pair){t->a, none, t->margin}, &record,
                                    &(ovoid_motion_basis){.options = t->told}, NULL) != OVOID_OK);
-    x = right;
-    x.impact.limit = OVOID_LIMIT_OPTIONS;
-    CHECK_EQ(ovoid_body_impact_verify(&(ovoid_moving_body_pair){t->a, t->b, -1}, &x,
+    record = right;
+    record.impact.limit = OVOID_LIMIT_OPTIONS;
+    CHECK_EQ(ovoid_body_impact_verify(&(ovoid_moving_body_pair){t->a, t->b, -1}, &record,
                                       &(ovoid_motion_basis){.options = t->told}, NULL),
              OVOID_OK);
-    x.group_count = 1;
-    CHECK(ovoid_body_impact_verify(&(ovoid_moving_body_pair){t->a, t->b, -1}, &x,
+    record.group_count = 1;
+    CHECK(ovoid_body_impact_verify(&(ovoid_moving_body_pair){t->a, t->b, -1}, &record,
                                    &(ovoid_motion_basis){.options = t->told, .groups = groups}, NULL) != OVOID_OK);
 }
 
@@ -288,25 +292,25 @@ static void forge_all(const truth *t, const ovoid_body_impact *right) {
     forge_hits(t);
     forge_refusals(t);
     for (int i = 0; i < t->count; i++) {
-        ovoid_body_impact x = make_free(t, t->times[i], t->times[i], 0);
-        forge(t, "free for no time", 0, &x);
-        leaf_groups(t, &x);
-        forge(t, "free for no time, leaf by leaf", 0, &x);
-        x = make_free(t, t->times[i], t->times[i], 1);
-        forge(t, "free for no time by a step", 0, &x);
+        ovoid_body_impact record = make_free(t, t->times[i], t->times[i], 0);
+        forge(t, "free for no time", 0, &record);
+        leaf_groups(t, &record);
+        forge(t, "free for no time, leaf by leaf", 0, &record);
+        record = make_free(t, t->times[i], t->times[i], 1);
+        forge(t, "free for no time by a step", 0, &record);
     }
     for (size_t count = 1; count <= 64 && t->begin < t->end; count *= 4) {
-        ovoid_body_impact x = make_free(t, t->begin, t->end, count);
-        forge(t, "coarse steps", 1, &x);
+        ovoid_body_impact record = make_free(t, t->begin, t->end, count);
+        forge(t, "coarse steps", 1, &record);
     }
     if (right->impact.status != OVOID_IMPACT_HIT) return;
-    ovoid_body_impact x = *right;
-    x.impact.begin = x.impact.free_until = 0.5 * (x.impact.hit_at + x.impact.end);
-    forge(t, "hit before the beginning", 2, &x);
-    x = *right;
-    x.impact.begin = x.impact.end = x.impact.free_until = 0.5 * x.impact.hit_at;
-    x.impact.status = OVOID_IMPACT_UNDECIDED;
-    forge(t, "undecided, with a hit after the end", 3, &x);
+    ovoid_body_impact record = *right;
+    record.impact.begin = record.impact.free_until = 0.5 * (record.impact.hit_at + record.impact.end);
+    forge(t, "hit before the beginning", 2, &record);
+    record = *right;
+    record.impact.begin = record.impact.end = record.impact.free_until = 0.5 * record.impact.hit_at;
+    record.impact.status = OVOID_IMPACT_UNDECIDED;
+    forge(t, "undecided, with a hit after the end", 3, &record);
 }
 
 // ---- cases
