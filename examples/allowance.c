@@ -1,5 +1,5 @@
-// How far is a scanned part, known to 0.1 mm, from a true cylinder? The bracket holds whatever the part really looks
-// like within its allowance, and for the cylinder, not for the prism that stands for it.
+// How far is a scanned part, known to 0.1 mm, from a true cylinder? The bracket holds for every real part within its
+// allowance, and for the true cylinder, not for the prism that approximates it.
 #include <ovoid/ovoid.h>
 
 #include <stdio.h>

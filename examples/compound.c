@@ -1,4 +1,4 @@
-// A table of five boxes and a mug of ten: which parts are nearest, how far, and what proves it.
+// A table of five boxes and a mug of ten: the nearest parts, their distance, and its proof.
 #include <ovoid/ovoid.h>
 
 #include <math.h>
@@ -30,7 +30,7 @@ int main(void) {
     ovoid_compound *table = ovoid_compound_create(parts, 5, NULL, &error), *mug = create_mug(slab, bottom, &error);
     if (!table || !mug) return fprintf(stderr, "%s\n", error.message), 1;
 
-    // The mug is lowered onto the table, each query warm from the one before.
+    // The mug is lowered onto the table; each query starts from the proof of the one before.
     ovoid_body_pair pair = {{.compound = table, .pose = {{0, 0, 0}, none}},
                             {.compound = mug, .pose = {{0.2, 0.1, 0.9}, none}}};
     ovoid_exclusion items[200];

@@ -1,4 +1,4 @@
-// A frame in convex parts, and a proof of how good they are: what a distance of the parts says of the frame itself.
+// A frame in convex parts, and a proof of their error: what a distance from the parts means for the frame itself.
 #include <ovoid/ovoid.h>
 
 #include <math.h>
@@ -20,7 +20,7 @@ static ovoid_solid *create_frame(ovoid_error *error) {
     return ovoid_solid_create_from_triangles(&(ovoid_triangles){points, 16, triangles, 32}, NULL, error);
 }
 
-// How far a shape is from the nearest part.
+// The distance of a shape from the nearest part.
 static double compute_distance(const ovoid_decomposition *d, const ovoid_shape *shape, const ovoid_pose *pose) {
     double least = INFINITY;
     for (size_t i = 0; i < d->part_count; i++) {
@@ -45,7 +45,7 @@ int main(void) {
     double r = proof.uncovered.upper, p = proof.excess.upper;
     printf("%zu parts; uncovered at most %.3f, excess at most %.3f\n", d.part_count, r, p);
 
-    // In the hole, 0.5 from the frame all around; a hull of the frame would hold it.
+    // In the hole, 0.5 from the frame all around; the hull of the frame contains it.
     ovoid_pose middle = ovoid_pose_make_identity();
     double distance = compute_distance(&d, ball, &middle);
     printf("ball in the hole: %.3f from the parts, so %.3f to %.3f from the frame\n", distance, distance - r,

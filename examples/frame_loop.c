@@ -29,7 +29,7 @@ int main(void) {
         if (ovoid_world_compute_contacts(world, &query, &frame, &error) != OVOID_OK) return 1;
         aged += frame.aged;
         queried += frame.queried;
-        // The whole answer of a contact, with its proof, where it is wanted.
+        // Computes the whole answer of a contact, with its proof, if it is wanted.
         if (frame.count) {
             ovoid_contact_proof proof = {.exclusions = NULL};
             ovoid_world_body a, b;

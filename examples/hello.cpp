@@ -1,4 +1,4 @@
-// From C++: two bodies, their distance and its proof; a world, its contacts; what is refused.
+// From C++: two bodies, their distance and its proof; a world and its contacts; a refused input.
 #include <ovoid/ovoid.hpp>
 
 #include <cmath>
@@ -11,7 +11,7 @@ int main() {
     const ovoid::pair pair{box, pill, {}, ovoid::pose::rpy({4, 0, 0}, {0, 0.7, 0})};
     const ovoid::answer answer = ovoid::distance(pair);
     std::printf("%s, %.17g <= d <= %.17g\n", ovoid::name(answer.status), answer.lower, answer.upper);
-    ovoid::verify(pair, answer); // throws where the proof does not hold
+    ovoid::verify(pair, answer); // throws if the proof does not hold
 
     auto world = ovoid::world::create();
     for (double x = 0; x < 10; x++) world.add({box, ovoid::vec3{1.9 * x, 0, 0}});

@@ -1,4 +1,4 @@
-// A shape from points: what became of them, and the ellipsoids that hold it.
+// A shape from points: the report of the given points, and the ellipsoids around and inside the hull.
 #include <ovoid/ovoid.h>
 
 #include <math.h>

@@ -1,4 +1,4 @@
-// A spinning rod flies toward a box: when do they meet, never a tunnel; and the proof that it was free until then.
+// A spinning rod flies toward a box: when do they meet? The proof shows that they were apart at all times before.
 #include <ovoid/ovoid.h>
 
 #include <stdio.h>
@@ -28,7 +28,7 @@ int main(void) {
     printf("at (%g, %g, %g), normal (%g, %g, %g)\n", x.free.point_a.x, x.free.point_a.y, x.free.point_a.z,
            x.free.normal.x, x.free.normal.y, x.free.normal.z);
 
-    // The steps prove it to whoever does not trust the search.
+    // The steps prove this without trusting the search.
     ovoid_code code = ovoid_impact_verify(&(ovoid_moving_pair){a, b, 0}, &x,
                                           &(ovoid_motion_basis){.options = &options, .steps = steps}, &error);
     printf("proof: %s\n", code == OVOID_OK ? "holds" : error.message);

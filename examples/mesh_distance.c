@@ -10,7 +10,7 @@ static ovoid_shape *load(const char *path) {
     ovoid_error error;
     ovoid_read_options read = {.scale = ovoid_unit_get_scale("mm", "m")};
     ovoid_shape *shape = ovoid_shape_read_file(path, &read, NULL, &error);
-    if (!shape) fprintf(stderr, "%s\n", error.message); // what, where, what to do
+    if (!shape) fprintf(stderr, "%s\n", error.message); // the message says what is wrong, where, and what to do
     return shape;
 }
 
@@ -21,7 +21,7 @@ int main(int count, char **arguments) {
     if (a && b) {
         ovoid_pose aside = ovoid_pose_make_rpy((ovoid_vec3){0.003, 0, 0}, (ovoid_vec3){0, 0, 0.5});
         ovoid_pair pair = {a, b, ovoid_pose_make_identity(), aside};
-        static ovoid_cover cover; // proves a depth, where they overlap
+        static ovoid_cover cover; // the proof of a depth, if they overlap
         ovoid_answer answer = ovoid_depth(&pair, NULL, NULL, &cover);
         ovoid_vec3 p = answer.point_a, q = answer.point_b;
         printf("%s, distance %.9g m\n", ovoid_status_get_name(answer.status), ovoid_answer_get_distance(&answer));

@@ -1,4 +1,5 @@
-// A robot from its files in a cell from MoveIt's YAML: is the arm free in its named state, and bent towards the table?
+// A robot from its files in a cell from MoveIt's YAML: is the arm free in its named state, and when bent toward the
+// table?
 #include <ovoid/robot_io.h>
 #include <stdio.h>
 
@@ -7,7 +8,7 @@ static void print_note(void *context, const ovoid_robot_note *note) {
     printf("%s:%d: %s\n", note->path, (int)note->line, note->text);
 }
 
-/// The cell of a robot among obstacles; NULL where something fails.
+/// The cell of a robot among obstacles; NULL if something fails.
 static ovoid_robot_cell *create_cell(const ovoid_robot *robot, const ovoid_obstacles *obstacles, ovoid_error *error) {
     ovoid_robot_cell *cell = ovoid_robot_cell_create(robot, NULL, error);
     if (cell && ovoid_robot_cell_add_obstacles(cell, obstacles, NULL, error) != OVOID_OK) return NULL;
@@ -26,7 +27,7 @@ int main(void) {
     ovoid_robot_checker *checker = cell ? ovoid_robot_checker_create(cell, NULL, &error) : NULL;
     if (!checker) return fprintf(stderr, "%s\n", error.message), 1;
 
-    // The joints' numbers of the SRDF's first state; the others stay 0.
+    // The joint values of the SRDF's first state; the others stay 0.
     double state[16] = {0};
     if (ovoid_robot_get_variable_count(robot) > 16) return 1;
     ovoid_robot_state named = ovoid_robot_file_get_state(file, 0);

@@ -1,9 +1,9 @@
-// Which pairs of a robot's links need never be looked at, and which of an SRDF's are left out wrongly?
+// Which pairs of a robot's links need never be queried, and which pairs does an SRDF disable wrongly?
 #include <ovoid/robot_io.h>
 #include <ovoid/robot_matrix.h>
 #include <stdio.h>
 
-/// 1 where the description disables the pair.
+/// 1 if the description disables the pair.
 static int is_disabled(const ovoid_robot_description *d, const ovoid_robot_matrix_pair *pair) {
     for (size_t i = 0; i < d->disabled_count; i++)
         if (d->disabled[i].a == pair->a && d->disabled[i].b == pair->b) return 1;
@@ -21,7 +21,7 @@ int main(void) {
     ovoid_robot_matrix *matrix = ovoid_robot_matrix_create(robot, &options, &error);
     if (!matrix) return fprintf(stderr, "%s\n", error.message), 1;
 
-    // As compiled, each disabled pair is there once, a < b, as in the matrix.
+    // The compiled description has each disabled pair once, with a < b, as in the matrix.
     ovoid_robot_description d = ovoid_robot_get_description(robot);
     for (size_t i = 0; i < ovoid_robot_matrix_get_count(matrix); i++) {
         ovoid_robot_matrix_pair pair = ovoid_robot_matrix_get_pair(matrix, i);

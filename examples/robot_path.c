@@ -1,4 +1,4 @@
-// Is the way of an arm past a wall clear for all times in between? Proven, and the proof checked.
+// Is the path of an arm past a wall free at all times in between? Proven, and the proof verified.
 #include <ovoid/robot_path.h>
 #include <stdio.h>
 

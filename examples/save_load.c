@@ -1,4 +1,4 @@
-// A shape as bytes: made once, kept in a file, checked byte by byte when it comes back.
+// A shape as bytes: created once, stored in a file, checked byte by byte when it is read.
 #include <ovoid/ovoid.h>
 
 #include <stdio.h>
@@ -26,14 +26,14 @@ int main(void) {
     ovoid_shape_write(cone, bytes, size);
     fwrite(bytes, 1, size, file);
 
-    // Back again.
+    // Read it back.
     rewind(file);
     memset(bytes, 0, size);
     size_t got = fread(bytes, 1, size, file);
     ovoid_shape *copy = ovoid_shape_read(bytes, got, NULL, &error);
     printf("%zu bytes, read back: %s\n", size, copy ? "yes" : error.message);
 
-    // One flipped bit is found.
+    // One flipped bit is detected.
     bytes[size / 2] ^= 1;
     ovoid_shape *broken = ovoid_shape_read(bytes, got, NULL, &error);
     printf("with one bit flipped: %s\n", broken ? "not noticed" : error.message);

@@ -1,4 +1,4 @@
-// A peg in the hole of a ring, the ring taken as the solid it is: how far apart they are, and a proof of it.
+// A peg in the hole of a ring, the ring as a non-convex solid: their distance, and its proof.
 #include <ovoid/ovoid.h>
 
 #include <math.h>

@@ -1,4 +1,4 @@
-// A body that moves past another: the proof of one frame starts the next, and often it is the answer.
+// A body that moves past another: the proof of one frame starts the next query, and often answers it.
 #include <ovoid/ovoid.h>
 
 #include <stdio.h>
@@ -21,7 +21,8 @@ int main(void) {
         answer = ovoid_collide(&pair, NULL, frame > 0 ? &answer.proof : NULL);
         by_proof += answer.stage == OVOID_STAGE_PROOF;
         touching += answer.status != OVOID_SEPARATED;
-        // The post reaches the box when its axis is within 1.5 of the box's centre (a polygon: a little later).
+        // The post reaches the box when its axis is within 1.5 of the box's centre (a little later, since it is a
+        // polygon).
         double gap = (pair.pose_b.position.x < 0 ? -pair.pose_b.position.x : pair.pose_b.position.x) - 1.5;
         wrong += (gap > 1e-9 && answer.status != OVOID_SEPARATED) || (gap < -0.01 && answer.status == OVOID_SEPARATED);
     }
