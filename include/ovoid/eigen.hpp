@@ -1,8 +1,8 @@
 /**
  * @file eigen.hpp
- * Eigen's types for <ovoid/ovoid.hpp>, of any scalar and storage order, expressions, maps and blocks included:
- * 3-vectors; quaternions, angle-axes and 3x3 matrices as rotations; transforms and 4x4 matrices as poses; as points
- * matrices of 3 rows (each column a point) or 3 columns (each row), and vectors x y z x y z ...
+ * Eigen's types for <ovoid/ovoid.hpp>, with any scalar and storage order, expressions, maps and blocks included.
+ * 3-vectors are vectors. Quaternions, angle-axes and 3x3 matrices are rotations. Transforms and 4x4 matrices are poses.
+ * Points are matrices of 3 rows (each column a point) or of 3 columns (each row a point), or vectors x y z x y z ...
  */
 #ifndef OVOID_EIGEN_HPP
 #define OVOID_EIGEN_HPP
@@ -47,30 +47,30 @@ template <class M, std::size_t N> M eigen_from_rows(const std::array<double, N> 
 
 /** A vector of three. */
 template <class T> struct vec3_traits<T, std::enable_if_t<detail::is_eigen_vec3<T>()>> {
-    /** Plain vectors of doubles. */
+    /** True for plain vectors of doubles, which are read without a copy. */
     static constexpr bool is_packed = std::is_same<typename T::Scalar, double>::value &&
                                       std::is_same<typename T::PlainObject, T>::value &&
                                       sizeof(T) == 3 * sizeof(double);
-    /** Reads it. */
+    /** Converts from Eigen. */
     static ovoid_vec3 get(const T &expression) {
         const auto v = expression.eval();
         return {static_cast<double>(v(0)), static_cast<double>(v(1)), static_cast<double>(v(2))};
     }
-    /** Makes one. */
+    /** Converts to Eigen. */
     static T make(const ovoid_vec3 &v) {
         using scalar = typename T::Scalar;
         return {static_cast<scalar>(v.x), static_cast<scalar>(v.y), static_cast<scalar>(v.z)};
     }
 };
 
-/** A quaternion. Eigen's constructor takes w first, its coeffs() have w last: here the names decide. */
+/** A quaternion. Eigen's constructor takes w first, but its coeffs() have w last: here members are read by name. */
 template <class T> struct quat_traits<T, std::enable_if_t<std::is_base_of<Eigen::QuaternionBase<T>, T>::value>> {
-    /** Reads it. */
+    /** Converts from Eigen. */
     static ovoid_quat get(const T &q) noexcept {
         return {static_cast<double>(q.w()), static_cast<double>(q.x()), static_cast<double>(q.y()),
                 static_cast<double>(q.z())};
     }
-    /** Makes one, of any norm. */
+    /** Converts to Eigen; the norm may differ from 1. */
     static T make(const ovoid_quat &q) {
         using scalar = typename T::Scalar;
         return {static_cast<scalar>(q.w), static_cast<scalar>(q.x), static_cast<scalar>(q.y), static_cast<scalar>(q.z)};
@@ -79,7 +79,7 @@ template <class T> struct quat_traits<T, std::enable_if_t<std::is_base_of<Eigen:
 
 /** An angle and a unit axis. */
 template <class S> struct quat_traits<Eigen::AngleAxis<S>, void> {
-    /** Throws as ovoid_pose_make_axis_angle refuses. */
+    /** Converts from Eigen. Throws as ovoid_pose_make_axis_angle fails. */
     static ovoid_quat get(const Eigen::AngleAxis<S> &turn) {
         return pose::axis_angle({}, vec3_traits<typename Eigen::AngleAxis<S>::Vector3>::get(turn.axis()),
                                 static_cast<double>(turn.angle()))
@@ -89,27 +89,27 @@ template <class S> struct quat_traits<Eigen::AngleAxis<S>, void> {
 
 /** A rotation matrix. */
 template <class T> struct quat_traits<T, std::enable_if_t<detail::is_eigen_of_size<T, 3, 3>()>> {
-    /** Throws as ovoid_pose_make_matrix refuses. */
+    /** Converts from Eigen. Throws as ovoid_pose_make_matrix fails. */
     static ovoid_quat get(const T &m) { return detail::rotation_of(detail::eigen_rows<9>(m)); }
-    /** Makes one. */
+    /** Converts to Eigen. */
     static T make(const ovoid_quat &q) { return detail::eigen_from_rows<T>(pose(vec3(), quat(q)).rotation_matrix()); }
 };
 
 /** A homogeneous matrix. */
 template <class T> struct pose_traits<T, std::enable_if_t<detail::is_eigen_of_size<T, 4, 4>()>> {
-    /** Throws as ovoid_pose_make_transform refuses. */
+    /** Converts from Eigen. Throws as ovoid_pose_make_transform fails. */
     static ovoid_pose get(const T &m) { return detail::pose_of(detail::eigen_rows<16>(m)); }
-    /** Makes one. */
+    /** Converts to Eigen. */
     static T make(const ovoid_pose &p) { return detail::eigen_from_rows<T>(pose(p).row_major()); }
 };
 
-/** A transform: Isometry3d, Affine3d (refused where it scales or shears), Projective3d. */
+/** A transform: Isometry3d, Affine3d (refused if it scales or shears), Projective3d. */
 template <class S, int Mode, int Options> struct pose_traits<Eigen::Transform<S, 3, Mode, Options>, void> {
-    /** Throws as ovoid_pose_make_transform refuses. */
+    /** Converts from Eigen. Throws as ovoid_pose_make_transform fails. */
     static ovoid_pose get(const Eigen::Transform<S, 3, Mode, Options> &t) {
         return detail::pose_of(detail::eigen_rows<16>(Eigen::Transform<S, 3, Eigen::Projective>(t).matrix()));
     }
-    /** Makes one. */
+    /** Converts to Eigen. */
     static Eigen::Transform<S, 3, Mode, Options> make(const ovoid_pose &p) {
         using transform = Eigen::Transform<S, 3, Mode, Options>;
         transform made = transform::Identity();
@@ -123,7 +123,10 @@ template <class S, int Mode, int Options> struct pose_traits<Eigen::Transform<S,
 
 /** Points: the columns of 3 x n, the rows of n x 3 (n not 3), or a vector x y z x y z ... */
 template <class T> struct points_traits<T, std::enable_if_t<std::is_base_of<Eigen::MatrixBase<T>, T>::value>> {
-    /** Throws ARGUMENT where a vector's length is not divisible by three. Copies only what does not lie as x y z. */
+    /**
+     * Copies the numbers only if they are not stored as x y z x y z ... Throws ARGUMENT if the length of a vector is
+     * not divisible by three.
+     */
     static point_array get(const T &points) {
         constexpr int rows = T::RowsAtCompileTime, columns = T::ColsAtCompileTime;
         constexpr bool is_vector = rows == 1 || columns == 1, is_by_column = rows == 3 && columns != 3;

@@ -120,7 +120,7 @@ OVOID_API ovoid_code ovoid_mesh_part_compute_convexity(const ovoid_mesh_part *pa
 /**
  * The triangles of a part as a solid; if the part is not closed they are a surface, as its report says. A polygon is
  * cut into triangles from the first corner for which all of them face as the polygon does. Errors: those of
- * ovoid_solid_create_from_triangles; EMPTY (no faces), FORMAT (place: a face without such a corner). The caller
+ * ovoid_solid_create_from_triangles; EMPTY (no faces), FORMAT (place: a face for which no corner works). The caller
  * destroys it.
  */
 OVOID_API ovoid_solid *ovoid_mesh_create_solid(const ovoid_mesh *mesh, size_t part, ovoid_error *error);
@@ -259,7 +259,7 @@ OVOID_API size_t ovoid_scene_get_pair_count(const ovoid_scene *scene);
 
 /**
  * A PAIRS.csv read line by line. Header: a,b,ax,ay,az,aqw,aqx,aqy,aqz,bx,by,bz,bqw,bqx,bqy,bqz. Errors: FORMAT,
- * INDEX (no such shape), NOT_FINITE, RANGE, ROTATION; place is the line.
+ * INDEX (a shape that is not in the list), NOT_FINITE, RANGE, ROTATION; place is the line.
  */
 typedef struct ovoid_pairs_reader ovoid_pairs_reader;
 
@@ -276,7 +276,7 @@ OVOID_API int ovoid_pairs_reader_read(ovoid_pairs_reader *reader, ovoid_indexed_
 /**
  * Restricts the reader, before the first pair is read, to part `part` of `parts`, counted from 0: the lines that begin
  * in an equal share of the file's bytes. All parts together have each line once. The bytes before the part are not
- * read. Errors: ARGUMENT (no such part, not a regular file), FILE.
+ * read. Errors: ARGUMENT (part >= parts, not a regular file), FILE.
  */
 OVOID_API ovoid_code ovoid_pairs_reader_set_part(ovoid_pairs_reader *reader, size_t part, size_t parts,
                                                  ovoid_error *error);
@@ -304,7 +304,7 @@ typedef struct ovoid_motion_line {
 
 /**
  * A MOTION.csv read line by line: times that never decrease, a body at most once at each time. Errors: FORMAT (also:
- * times out of order, no such body, a body twice), NOT_FINITE, RANGE, ROTATION; place is the line.
+ * times out of order, an unknown body, a body twice at one time), NOT_FINITE, RANGE, ROTATION; place is the line.
  */
 typedef struct ovoid_motion_reader ovoid_motion_reader;
 

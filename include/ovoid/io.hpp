@@ -1,8 +1,8 @@
 /**
  * @file io.hpp
  * Files from C++: shapes, meshes, lists, scenes, and the readers of pairs, motions and results. Links libovoid_io.
- * What cannot be read or written throws ovoid::error: its sentence is "path:line: what is wrong", its place the line.
- * Records, pictures and charts are plain structs: the functions of <ovoid/io.h> write them.
+ * If something cannot be read or written, ovoid::error is thrown: its message is "path:line: what is wrong", its place
+ * the line. Records, pictures and charts are plain structs: the functions of <ovoid/io.h> write them.
  */
 #ifndef OVOID_IO_HPP
 #define OVOID_IO_HPP
@@ -17,14 +17,16 @@ namespace ovoid {
 /** How to read a mesh: scale, parts, hull, trusted. */
 using read_options = zeroed<ovoid_read_options>;
 
-/** A shape from a file: `.ovoid`, or a mesh that is its hull; how.hull: the hull of any. Throws as
- * ovoid_shape_read_file fails. */
+/**
+ * A shape from a file: an `.ovoid` file, or a mesh that is its own hull; with how.hull, the hull of any mesh. Throws as
+ * ovoid_shape_read_file fails.
+ */
 inline shape read_shape(const std::string &path, const ovoid_read_options &how = read_options(),
                         const ovoid_shape_options &o = shape_options()) {
     ovoid_error e;
     return shape(detail::require(ovoid_shape_read_file(path.c_str(), &how, &o, &e), e));
 }
-/** Writes a `.ovoid` file: all of it, or the path is as it was. Throws FILE. */
+/** Writes an `.ovoid` file. If it fails, the path is unchanged. Throws FILE. */
 inline void write_shape(shape_view s, const std::string &path) {
     ovoid_error e;
     detail::require(ovoid_shape_write_file(s.get(), path.c_str(), &e), e);
@@ -36,11 +38,11 @@ inline solid read_solid(const std::string &path, const ovoid_read_options &how =
     return solid(detail::require(ovoid_solid_read_file(path.c_str(), &how, &e), e));
 }
 
-/** A mesh as a file holds it. */
+/** The contents of a mesh file. */
 class mesh : public detail::owner<detail::pointer<ovoid_mesh>, ovoid_mesh, ovoid_mesh_destroy> {
   public:
     using owner::owner;
-    /** Reads one. Throws as ovoid_mesh_read fails. */
+    /** Reads a mesh file. Throws as ovoid_mesh_read fails. */
     static mesh read(const std::string &path, const ovoid_read_options &how = read_options()) {
         ovoid_error e;
         return mesh(detail::require(ovoid_mesh_read(path.c_str(), &how, &e), e));
@@ -49,12 +51,12 @@ class mesh : public detail::owner<detail::pointer<ovoid_mesh>, ovoid_mesh, ovoid
     std::size_t size() const noexcept { return ovoid_mesh_get_part_count(get()); }
     /** Part i < size: a view. Its points make a shape: shape::from_points(points_of(part)). */
     ovoid_mesh_part operator[](std::size_t i) const noexcept { return ovoid_mesh_get_part(get(), i); }
-    /** The triangles of part i < size: ovoid_mesh_create_solid. */
+    /** A solid of the triangles of part i < size, by ovoid_mesh_create_solid. */
     solid create_solid(std::size_t i) const {
         ovoid_error e;
         return solid(detail::require(ovoid_mesh_create_solid(get(), i, &e), e));
     }
-    /** What part i < size is: its hull, a solid or a surface. */
+    /** What part i < size is: convex, a solid or a surface. hull: of its points. */
     ovoid_convexity compute_convexity(std::size_t i, const shape_view &hull) const {
         ovoid_convexity convexity;
         ovoid_error e{};
@@ -84,7 +86,7 @@ class shapes : public detail::owner<detail::pointer<ovoid_shapes>, ovoid_shapes,
         ovoid_error e;
         return shapes(detail::require(ovoid_shapes_read_list(path.c_str(), &how, &o, &e), e));
     }
-    /** How many there are. */
+    /** The number of shapes. */
     std::size_t size() const noexcept { return ovoid_shapes_get_count(get()); }
     /** The name of shape i < size. */
     const char *name(std::size_t i) const noexcept { return ovoid_shapes_get(get(), i).name; }
@@ -104,19 +106,19 @@ class shapes : public detail::owner<detail::pointer<ovoid_shapes>, ovoid_shapes,
 class scene : public detail::owner<detail::pointer<ovoid_scene>, ovoid_scene, ovoid_scene_destroy> {
   public:
     using owner::owner;
-    /** Reads one and the meshes it names. Throws as ovoid_scene_read fails. */
+    /** Reads a scene and the meshes that it names. Throws as ovoid_scene_read fails. */
     static scene read(const std::string &path, const ovoid_shape_options &o = shape_options()) {
         ovoid_error e;
         return scene(detail::require(ovoid_scene_read(path.c_str(), &o, &e), e));
     }
-    /** The same with hulls: ovoid_scene_read_hulls. */
+    /** Reads a scene and takes the hulls of its meshes: ovoid_scene_read_hulls. */
     static scene read_hulls(const std::string &path, const ovoid_shape_options &o = shape_options()) {
         ovoid_error e;
         return scene(detail::require(ovoid_scene_read_hulls(path.c_str(), &o, &e), e));
     }
-    /** How many objects there are. */
+    /** The number of objects. */
     std::size_t size() const noexcept { return ovoid_scene_get_count(get()); }
-    /** The unit of all its lengths, "mm" for example; "" where it names none. */
+    /** The unit of all lengths, for example "mm"; "" if the scene names none. */
     const char *unit() const noexcept { return ovoid_scene_get_unit(get()); }
     /** The name of object i < size. */
     const char *name(std::size_t i) const noexcept { return ovoid_scene_get(get(), i).name; }
@@ -125,24 +127,24 @@ class scene : public detail::owner<detail::pointer<ovoid_scene>, ovoid_scene, ov
         const ovoid_pose at = ovoid_scene_get(get(), i).pose;
         return ovoid_scene_get_body(get(), i, &at);
     }
-    /** The object of that name; size() where there is none. */
+    /** The index of the object with a name; size() if there is none. */
     std::size_t find(const std::string &named) const noexcept {
         const std::size_t i = ovoid_scene_find(get(), named.c_str());
         return i < size() ? i : size();
     }
-    /** How many hulls of meshes there are. */
+    /** The number of meshes, each with a hull. */
     std::size_t mesh_count() const noexcept { return ovoid_scene_get_mesh_count(get()); }
     /** Hull i < mesh_count, with its name and whether its mesh fills it. */
     ovoid_named_shape mesh(std::size_t i) const noexcept { return ovoid_scene_get_mesh(get(), i); }
-    /** The solid that counts in the place of that hull; empty: the hull does. */
+    /** The solid that queries use instead of hull i; empty if they use the hull. */
     solid_view mesh_solid(std::size_t i) const noexcept { return solid_view(ovoid_scene_get_mesh_solid(get(), i)); }
     /** True if the scene says to ignore the pair. */
     bool is_ignored(std::size_t a, std::size_t b) const noexcept { return ovoid_scene_is_ignored(get(), a, b) != 0; }
-    /** How many pairs of objects there are, without those to be ignored. */
+    /** The number of pairs of objects, without the ignored ones. */
     std::size_t pair_count() const noexcept { return ovoid_scene_get_pair_count(get()); }
 };
 
-/** A PAIRS.csv read line by line. */
+/** Reads a PAIRS.csv line by line. */
 class pairs_reader
     : public detail::owner<detail::pointer<ovoid_pairs_reader>, ovoid_pairs_reader, ovoid_pairs_reader_close> {
   public:
@@ -152,17 +154,20 @@ class pairs_reader
         ovoid_error e;
         return pairs_reader(detail::require(ovoid_pairs_reader_open(path.c_str(), shape_count, &e), e));
     }
-    /** Before the first pair: only part `part`, from 0 on, of `parts` by the file's bytes. Throws ARGUMENT, FILE. */
+    /**
+     * Restricts the reader to part `part` of `parts`, counted from 0, equal shares of the file's bytes. To be called
+     * before the first read. Throws ARGUMENT, FILE.
+     */
     void set_part(std::size_t part, std::size_t parts) {
         ovoid_error e;
         if (ovoid_pairs_reader_set_part(get(), part, parts, &e) != OVOID_OK) detail::fail(e);
     }
-    /** Leaves that many pairs out, or what there is of them. Throws FILE, LIMIT. */
+    /** Skips this many pairs, or fewer if the file ends. Throws FILE, LIMIT. */
     void skip(std::uint64_t count) {
         ovoid_error e;
         if (ovoid_pairs_reader_skip(get(), count, &e) != OVOID_OK) detail::fail(e);
     }
-    /** The next pair; false at the end. Throws as the file is wrong. */
+    /** Reads the next pair; false at the end. Throws if the file is wrong. */
     bool read(ovoid_indexed_pair &next) {
         ovoid_error e;
         const int found = ovoid_pairs_reader_read(get(), &next, &e);
@@ -171,7 +176,7 @@ class pairs_reader
     }
 };
 
-/** A MOTION.csv read line by line; it borrows the scene. */
+/** Reads a MOTION.csv line by line. It borrows the scene. */
 class motion_reader
     : public detail::owner<detail::pointer<ovoid_motion_reader>, ovoid_motion_reader, ovoid_motion_reader_close> {
   public:
@@ -181,20 +186,20 @@ class motion_reader
         ovoid_error e;
         return motion_reader(detail::require(ovoid_motion_reader_open(path.c_str(), of.get(), &e), e));
     }
-    /** What its lines give. */
+    /** Which columns its lines have. */
     ovoid_motion_columns columns() const noexcept { return ovoid_motion_reader_get_columns(get()); }
-    /** The next line; false at the end. Throws as the file is wrong. */
+    /** Reads the next line; false at the end. Throws if the file is wrong. */
     bool read(ovoid_motion_line &next) {
         ovoid_error e;
         const int found = ovoid_motion_reader_read(get(), &next, &e);
         if (found < 0) detail::fail(e);
         return found > 0;
     }
-    /** The 1-based line that was read last. */
+    /** The number of the last line read, from 1. */
     std::int64_t line() const noexcept { return ovoid_motion_reader_get_line(get()); }
 };
 
-/** A results file of JSON lines. */
+/** Reads a results file of JSON lines. */
 class results_reader
     : public detail::owner<detail::pointer<ovoid_results_reader>, ovoid_results_reader, ovoid_results_reader_close> {
   public:
@@ -204,29 +209,29 @@ class results_reader
         ovoid_error e;
         return results_reader(detail::require(ovoid_results_reader_open(path.c_str(), &e), e));
     }
-    /** The next record, valid until the next call; false at the end. Throws as the file is wrong. */
+    /** Reads the next record, which is valid until the next call; false at the end. Throws if the file is wrong. */
     bool read(ovoid_record &next) {
         ovoid_error e;
         const int found = ovoid_results_reader_read(get(), &next, &e);
         if (found < 0) detail::fail(e);
         return found > 0;
     }
-    /** The 1-based line of the last record. */
+    /** The line number of the last record, from 1. */
     std::int64_t line() const noexcept { return ovoid_results_reader_get_line(get()); }
 };
 
-/** A file that appears whole, by commit, or not at all. */
+/** A file that is put in place whole by commit, or not at all. */
 class output : public detail::owner<detail::pointer<ovoid_output>, ovoid_output, ovoid_output_close> {
   public:
     using owner::owner;
-    /** Starts one. Throws FILE. */
+    /** Starts a file. Throws FILE. */
     static output open(const std::string &path) {
         ovoid_error e;
         return output(detail::require(ovoid_output_open(path.c_str(), &e), e));
     }
-    /** Where to write; not to be closed. */
+    /** The stream to write to; must not be closed. */
     std::FILE *file() noexcept { return ovoid_output_get_file(get()); }
-    /** Puts the file in its place. Throws FILE, and the path is as it was. */
+    /** Puts the file in its place. Throws FILE; then the path is unchanged. */
     void commit() {
         ovoid_error e;
         detail::require(ovoid_output_commit(get(), &e), e);

@@ -2,15 +2,14 @@
  * @file ompl.hpp
  * Proven planning in OMPL, the Open Motion Planning Library (1.5 and later): a state space of a robot's joints, a state
  * validity checker and a motion validator. A motion that the validator accepts is proven free at all times in between,
- * not at samples of it. Links libovoid_robot and ompl. Two lines of a planning program change:
+ * not only at samples of it. Links libovoid_robot and ompl. Two lines of a planning program change:
  *
  *     auto space = std::make_shared<ovoid::robot_space>(robot, start);
  *     ompl::geometric::SimpleSetup setup(space);
  *     ovoid::set_cell(*setup.getSpaceInformation(), cell);
  *
- * The robot and the cell are borrowed, and must not change while a planner runs. A cell's checkers are not shared
- * between threads: each call borrows one of its own, so that OMPL's parallel planners are safe. What ovoid refuses
- * throws ovoid::error.
+ * The robot and the cell are borrowed, and must not change while a planner runs. Every call takes a checker of its own
+ * from a pool, so OMPL's parallel planners are safe. If ovoid refuses an argument, ovoid::error is thrown.
  */
 #ifndef OVOID_OMPL_HPP
 #define OVOID_OMPL_HPP
@@ -38,10 +37,10 @@ namespace detail {
 
 inline constexpr double half_turn = 3.14159265358979323846;
 
-/// An angle within a half turn of 0.
+/// The angle that differs by whole turns and is within half a turn of 0.
 inline double wrap_angle(double angle) { return std::remainder(angle, 2 * half_turn); }
 
-/// Draws states whose turning numbers pass a half turn.
+/// Draws states; angles that turn without end may be drawn beyond half a turn.
 class robot_sampler : public ::ompl::base::RealVectorStateSampler {
   public:
     robot_sampler(const ::ompl::base::StateSpace *space, const std::vector<bool> &turning)
@@ -73,10 +72,10 @@ class robot_sampler : public ::ompl::base::RealVectorStateSampler {
 } // namespace detail
 
 /**
- * The states of a robot that a planner moves through: some of its variables, within their limits; all others stand
- * still. The distance is the Euclidean norm of the differences, radians and metres alike. An angle without limits turns
- * the shorter way round, and -pi and pi are one; but one that other joints follow does not: a whole turn of it is not
- * a whole turn of theirs, so it goes from -pi to pi.
+ * The states of a robot that a planner moves through: some of its variables, within their limits; all others stay
+ * fixed. The distance is the Euclidean norm of the differences, radians and metres alike. An angle without limits turns
+ * the shorter way round, and -pi and pi are one. An exception is an angle that other joints mimic: a whole turn of it
+ * is not a whole turn of theirs, so it goes from -pi to pi.
  */
 class robot_space : public ::ompl::base::RealVectorStateSpace {
   public:
@@ -84,10 +83,10 @@ class robot_space : public ::ompl::base::RealVectorStateSpace {
     using state = ::ompl::base::RealVectorStateSpace::StateType;
 
     /**
-     * fixed: a whole state, whose numbers hold for the variables that stand still. moving: the variables that the
-     * planner moves, each once; empty: all whose limits leave room. slack: by how much variables may be outside their
-     * limits. Throws ARGUMENT (fixed has another number of variables than the robot; a floating joint is to move),
-     * INDEX, RANGE (a length without limits is to move).
+     * fixed: a whole state, with the values of the variables that stay fixed. moving: the variables that the planner
+     * moves, each once; empty: all variables whose limits leave room. slack: how far variables may be outside their
+     * limits. Throws ARGUMENT (fixed does not have one number for each variable of the robot; a floating joint is to
+     * move), INDEX, RANGE (a length without limits is to move).
      */
     robot_space(const ovoid::robot &r, span<const double> fixed, span<const std::uint32_t> moving = {},
                 double slack = 0)
@@ -100,7 +99,7 @@ class robot_space : public ::ompl::base::RealVectorStateSpace {
             if (r.variable(i).lower < r.variable(i).upper) moving_.push_back(i);
         bool has_turns = false;
         for (const std::uint32_t variable : moving_) has_turns = add_variable(variable, slack) || has_turns;
-        // Planners that draw samples from an ellipsoid of R^n must not take this for R^n.
+        // Planners that sample an ellipsoid of R^n must not take this space for R^n.
         if (has_turns) type_ = ::ompl::base::STATE_SPACE_UNKNOWN;
     }
 
@@ -108,24 +107,25 @@ class robot_space : public ::ompl::base::RealVectorStateSpace {
     const ovoid::robot &robot() const noexcept { return *robot_; }
     /** The variables that move, in the order of a state's numbers. */
     span<const std::uint32_t> moving() const noexcept { return {moving_.data(), moving_.size()}; }
-    /** True where number i turns without end. */
+    /** True if number i turns without end. */
     bool is_turning(std::size_t i) const noexcept { return turning_[i]; }
 
-    /** The whole state of the robot, into q: variable count numbers. */
+    /** Writes the whole state of the robot to q: one number for each variable. */
     void write_state(const ::ompl::base::State *from, double *q) const {
         std::copy(fixed_.begin(), fixed_.end(), q);
         const double *values = from->as<state>()->values;
         for (std::size_t i = 0; i < moving_.size(); i++) q[moving_[i]] = values[i];
     }
-    /** The state of this space by a whole state of the robot; angles without limits come to within -pi and pi. */
+    /** Reads a state of this space from a whole state of the robot; angles without limits are brought to -pi to pi. */
     void read_state(span<const double> q, ::ompl::base::State *to) const {
         if (q.size() != fixed_.size()) detail::fail(OVOID_ERROR_ARGUMENT, "a state has as many numbers as variables");
         double *values = to->as<state>()->values;
         for (std::size_t i = 0; i < moving_.size(); i++) values[i] = turning_[i] ? wrap(q[moving_[i]]) : q[moving_[i]];
     }
     /**
-     * The whole states of two, one after the other, so that each variable goes from the first to the second in a
-     * straight line as this space moves it: angles of the second may be beyond pi. q: twice variable count numbers.
+     * Writes the two whole states of a motion, one after the other. From the first to the second each variable goes in
+     * a straight line as this space moves it, so angles of the second may be beyond pi. q: twice as many numbers as the
+     * robot has variables.
      */
     void write_motion(const ::ompl::base::State *from, const ::ompl::base::State *to, double *q) const {
         write_state(from, q);
@@ -133,9 +133,9 @@ class robot_space : public ::ompl::base::RealVectorStateSpace {
         unwind(q, q + fixed_.size());
     }
     /**
-     * The whole states of a path, one after another, for robot_checker::find_hit: between two of them each variable
-     * goes in a straight line as this space moves it. begin: the first state as it was given, or empty; angles count
-     * on from there.
+     * The whole states of a path, one after another, for robot_checker::find_hit. Between two states each variable goes
+     * in a straight line as this space moves it. begin: the first state as it was given, or empty; angles continue from
+     * there.
      */
     std::vector<double> make_states(const ::ompl::geometric::PathGeometric &path, span<const double> begin = {}) const {
         const std::size_t n = fixed_.size();
@@ -150,14 +150,14 @@ class robot_space : public ::ompl::base::RealVectorStateSpace {
         return q;
     }
 
-    /** Turned back to within -pi and pi, and not beyond the limits of the others. */
+    /** Turns angles back to -pi to pi, and clamps the others to their limits. */
     void enforceBounds(::ompl::base::State *of) const override {
         double *values = of->as<state>()->values;
         for (std::size_t i = 0; i < moving_.size(); i++)
             if (turning_[i]) values[i] = wrap(values[i]);
         RealVectorStateSpace::enforceBounds(of);
     }
-    /** The Euclidean norm of the differences, the shorter way round. */
+    /** The Euclidean norm of the differences; angles the shorter way round. */
     double distance(const ::ompl::base::State *a, const ::ompl::base::State *b) const override {
         double sum = 0;
         for (std::size_t i = 0; i < moving_.size(); i++) {
@@ -166,13 +166,13 @@ class robot_space : public ::ompl::base::RealVectorStateSpace {
         }
         return std::sqrt(sum);
     }
-    /** True where all numbers are the same; -pi and pi are. */
+    /** True if all numbers are equal; -pi and pi are equal. */
     bool equalStates(const ::ompl::base::State *a, const ::ompl::base::State *b) const override {
         for (std::size_t i = 0; i < moving_.size(); i++)
             if (!(std::fabs(difference(a, b, i)) <= 2 * std::numeric_limits<double>::epsilon())) return false;
         return true;
     }
-    /** At t from 0 to 1 between two; may be one of them. */
+    /** The state at t from 0 to 1 between two states; `at` may be one of them. */
     void interpolate(const ::ompl::base::State *from, const ::ompl::base::State *to, double t,
                      ::ompl::base::State *at) const override {
         const double *a = from->as<state>()->values, *b = to->as<state>()->values;
@@ -182,7 +182,9 @@ class robot_space : public ::ompl::base::RealVectorStateSpace {
             values[i] = t == 1 ? end : turning_[i] ? wrap(moved) : moved;
         }
     }
-    /** Uniform within the bounds; near a state the bounds of what turns do not count. */
+    /**
+     * Samples uniformly within the bounds; near a state, without regard to the bounds of angles that turn without end.
+     */
     ::ompl::base::StateSamplerPtr allocDefaultStateSampler() const override {
         return std::make_shared<detail::robot_sampler>(this, turning_);
     }
@@ -191,12 +193,12 @@ class robot_space : public ::ompl::base::RealVectorStateSpace {
     static constexpr double pi = detail::half_turn;
     static double wrap(double angle) { return detail::wrap_angle(angle); }
 
-    /// From a to b in number i.
+    /// The difference from a to b in number i.
     double difference(const ::ompl::base::State *a, const ::ompl::base::State *b, std::size_t i) const {
         const double d = b->as<state>()->values[i] - a->as<state>()->values[i];
         return turning_[i] ? wrap(d) : d;
     }
-    /// Adds whole turns to the second of two whole states until it is the shorter way round from the first.
+    /// Adds whole turns to the second of two whole states until each angle goes the shorter way round from the first.
     void unwind(const double *from, double *to) const {
         for (std::size_t i = 0; i < moving_.size(); i++)
             if (turning_[i]) to[moving_[i]] += 2 * pi * std::rint((from[moving_[i]] - to[moving_[i]]) / (2 * pi));
@@ -207,7 +209,7 @@ class robot_space : public ::ompl::base::RealVectorStateSpace {
             if (d.joints[j].mimic == joint) return true;
         return false;
     }
-    /// Adds a variable as the next number of a state; true where it turns without end.
+    /// Adds a variable as the next number of a state; true if it turns without end.
     bool add_variable(std::uint32_t variable, double slack) {
         if (variable >= fixed_.size()) detail::fail(OVOID_ERROR_INDEX, "the robot has no such variable");
         const ovoid_robot_variable v = robot_->variable(variable);
@@ -233,25 +235,25 @@ class robot_space : public ::ompl::base::RealVectorStateSpace {
 
 namespace detail {
 
-/// The robot's space of a planner's; fails where it is another one.
+/// The robot_space of a planner; fails if the planner has another kind of space.
 inline const robot_space &robot_space_of(const ::ompl::base::SpaceInformation &planner) {
     const auto *space = dynamic_cast<const robot_space *>(planner.getStateSpace().get());
     if (!space) fail(OVOID_ERROR_ARGUMENT, "the planner's state space is no ovoid::robot_space");
     return *space;
 }
 
-/// A checker with room for a motion's two states.
+/// A checker with room for the two states of a motion.
 struct robot_worker {
     robot_checker checker;
     std::vector<double> states;
 };
 
-/// The checkers of a cell, as many as there were calls at one time. Safe from several threads.
+/// The checkers of a cell: as many as the calls that ran at one time. Safe from several threads.
 class robot_workers {
   public:
     robot_workers(const robot_space &space, const robot_cell &cell)
         : cell_(&cell), variables_(space.robot().variable_count()) {}
-    /// One that no other call has.
+    /// Takes a checker that no other call uses.
     std::unique_ptr<robot_worker> take() {
         {
             const std::lock_guard<std::mutex> lock(mutex_);
@@ -264,7 +266,7 @@ class robot_workers {
         return std::unique_ptr<robot_worker>(
             new robot_worker{robot_checker::create(*cell_), std::vector<double>(2 * variables_)});
     }
-    /// Gives it back; counts one more in *counter meanwhile, where there is one.
+    /// Gives a checker back, and counts one more in *counter under the same lock, unless it is nullptr.
     void give(std::unique_ptr<robot_worker> worker, unsigned *counter = nullptr) {
         const std::lock_guard<std::mutex> lock(mutex_);
         idle_.push_back(std::move(worker));
@@ -281,18 +283,18 @@ class robot_workers {
 } // namespace detail
 
 /**
- * Is a state free, proven? What cannot be decided counts as a hit, as do all states of a cell in which no pair is
- * queried. Safe from several threads. Throws MEMORY, ARGUMENT (options).
+ * Is a state proven free? A state that cannot be decided counts as a hit, and so do all states of a cell in which no
+ * pair is queried. Safe from several threads. Throws MEMORY, ARGUMENT (options).
  */
 class robot_state_checker : public ::ompl::base::StateValidityChecker {
   public:
-    /** For a planner whose space is a robot_space, which lives as long; borrows the cell. */
+    /** For a planner whose space is a robot_space that lives as long as this; borrows the cell. */
     robot_state_checker(::ompl::base::SpaceInformation *planner, const robot_cell &cell,
                         const ovoid_robot_query_options &how = robot_query_options())
         : StateValidityChecker(planner), space_(&detail::robot_space_of(*planner)), how_(how), workers_(*space_, cell) {
         specs_.clearanceComputationType = ::ompl::base::StateValidityCheckerSpecs::BOUNDED_APPROXIMATE;
     }
-    /** True where all pairs are farther apart than the margin, proven. */
+    /** True if all pairs are proven farther apart than the margin. */
     bool isValid(const ::ompl::base::State *state) const override {
         auto worker = workers_.take();
         space_->write_state(state, worker->states.data());
@@ -301,8 +303,8 @@ class robot_state_checker : public ::ompl::base::StateValidityChecker {
         return is_free;
     }
     /**
-     * A proven lower bound of the distance of the nearest pair, less the margin; negative where it is nearer. Infinity
-     * where no pair is queried; minus infinity of a state outside the limits.
+     * A proven lower bound of the distance of the nearest pair, minus the margin; negative if that pair is nearer than
+     * the margin. Infinity if no pair is queried; minus infinity for a state outside the limits.
      */
     double clearance(const ::ompl::base::State *state) const override {
         auto worker = workers_.take();
@@ -330,19 +332,19 @@ class robot_state_checker : public ::ompl::base::StateValidityChecker {
 };
 
 /**
- * Is a motion free, proven at all times in between? What cannot be decided counts as a hit. Both ends are looked at,
- * also that which OMPL takes for valid. Safe from several threads; OMPL's counters of motions count all of them. Throws
+ * Is a motion proven free at all times? A motion that cannot be decided counts as a hit. Both ends are checked, also
+ * the one that OMPL takes for valid. Safe from several threads; OMPL's counters of motions count all of them. Throws
  * MEMORY, ARGUMENT (options). Cost: docs/robot-path.md.
  */
 class robot_motion_validator : public ::ompl::base::MotionValidator {
   public:
-    /** For a planner whose space is a robot_space, which lives as long; borrows the cell. */
+    /** For a planner whose space is a robot_space that lives as long as this; borrows the cell. */
     robot_motion_validator(::ompl::base::SpaceInformation *planner, const robot_cell &cell,
                            const ovoid_robot_query_options &how = robot_query_options())
         : MotionValidator(planner), space_(&detail::robot_space_of(*planner)), workers_(*space_, cell) {
         path_.query = how;
     }
-    /** True: proven free. Any hit ends the search. */
+    /** True if the motion is proven free. The first hit ends the search. */
     bool checkMotion(const ::ompl::base::State *from, const ::ompl::base::State *to) const override {
         auto worker = workers_.take();
         ovoid_robot_path_options any = path_;
@@ -352,9 +354,9 @@ class robot_motion_validator : public ::ompl::base::MotionValidator {
         return is_free;
     }
     /**
-     * The same; where it is not free, the motion is proven free up to the time `last.second`, which is free_until of
-     * ovoid_robot_path_find_hit less 2^-20, and `last.first`, if not nullptr, becomes the state there, which is free.
-     * Where there is none such, the first state and 0.
+     * As above. If the motion is not free, it is proven free up to the time `last.second`, which is free_until of
+     * ovoid_robot_path_find_hit minus 2^-20, and `last.first`, unless it is nullptr, becomes the state at this time,
+     * which is free. If there is no such time, they become the first state and 0.
      */
     bool checkMotion(const ::ompl::base::State *from, const ::ompl::base::State *to,
                      std::pair<::ompl::base::State *, double> &last) const override {
@@ -372,7 +374,7 @@ class robot_motion_validator : public ::ompl::base::MotionValidator {
         space_->write_motion(from, to, worker.states.data());
         return worker.checker.find_hit({worker.states.data(), worker.states.size()}, 2, how);
     }
-    /// Goes back from free_until until the state, with its rounding, is free; last.first may be one of the ends.
+    /// Goes back from free_until until the state is free in spite of its rounding. last.first may be one of the ends.
     void set_last(detail::robot_worker &worker, const ::ompl::base::State *from, const ::ompl::base::State *to,
                   double free_until, std::pair<::ompl::base::State *, double> &last) const {
         static constexpr double shortest = 1.0 / (1 << 20);
@@ -394,7 +396,7 @@ class robot_motion_validator : public ::ompl::base::MotionValidator {
 };
 
 /**
- * Lets a planner, whose state space is a robot_space, check states and motions in a cell, which is borrowed. how:
+ * Makes a planner, whose state space is a robot_space, check states and motions in a cell, which is borrowed. how:
  * margin, slack of the limits, which pairs. Throws ARGUMENT.
  */
 inline void set_cell(::ompl::base::SpaceInformation &planner, const robot_cell &cell,

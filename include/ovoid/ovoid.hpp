@@ -1,7 +1,7 @@
 /**
  * @file ovoid.hpp
- * The core library for C++17 and later: header only, over the C functions, without dependencies but the standard
- * library. Meshes and scenes: <ovoid/io.hpp>. Eigen and glm: <ovoid/eigen.hpp>, <ovoid/glm.hpp>.
+ * The core library for C++17 and later: header only, over the C functions; it needs only the standard library. Meshes
+ * and scenes: <ovoid/io.hpp>. Eigen and glm: <ovoid/eigen.hpp>, <ovoid/glm.hpp>.
  *
  * - Values are the C structs, some with constructors (vec3, pose, pair, body, motion); no field is added, so both go
  *   wherever the other does. Options begin as zero, the default.

@@ -112,27 +112,28 @@ OVOID_API ovoid_code ovoid_triangles_compute_hull_match(const ovoid_triangles *t
                                                         ovoid_hull_match *match, ovoid_error *error);
 
 /**
- * How much farther from any body a solid is than its hull, at most: with *gap = g, d(hull, B) <= d(solid, B) <=
- * d(hull, B) + g for every B, depths included, so that hulls which are deeper than g in each other prove an overlap. g
- * is 0 where the solid is its hull by exact signs, and infinity where no convex body of at least half the hull's size
- * is shown to lie inside it, of the hull's form and about its centroid; of a surface it is. hull: of all points of the
- * solid; where it has a radius or an allowance, or a rank below 3, g is infinity. Errors: MEMORY (of the solid's
- * allocator). Cost: that of ovoid_triangles_compute_hull_match.
+ * An upper bound of how much farther a solid is than its hull from any other body: with *gap = g, d(hull, B) <=
+ * d(solid, B) <= d(hull, B) + g for every B, depths included. So hulls that are deeper than g in each other prove an
+ * overlap of the solids. g is 0 if the solid is its hull by exact signs. g is infinity if no copy of the hull, scaled
+ * about its centroid by at least one half, is proven to lie inside the solid, and for every surface. hull: of all
+ * points of the solid; if it has a radius, an allowance or a rank below 3, g is infinity. Errors: MEMORY (of the
+ * solid's allocator). Cost: that of ovoid_triangles_compute_hull_match.
  */
 OVOID_API ovoid_code ovoid_solid_compute_hull_gap(const ovoid_solid *solid, const ovoid_shape *hull, double *gap,
                                                   ovoid_error *error);
 
-/** Where a surface meets itself. */
+/** The pairs of triangles of a surface that cross, touch or are folded onto each other. */
 typedef struct ovoid_solid_crossings {
-    uint64_t pairs;                  /**< of triangles */
-    int is_complete;                 /**< 0: there may be more, the search ended at as many as were wanted */
-    uint32_t triangle_a, triangle_b; /**< the first pair found, in the tree's order; 0 where there is none */
+    uint64_t pairs;                  /**< number of pairs of triangles */
+    int is_complete;                 /**< 0: there may be more, as the search stopped at the wanted number */
+    uint32_t triangle_a, triangle_b; /**< the first pair found, in the order of the tree; 0 if there is none */
 } ovoid_solid_crossings;
 
 /**
- * The pairs of triangles that have a point in common which is not a corner or an edge of both, by exact signs: what
- * crosses, touches or is folded onto itself. Triangles without area, and those with the three corners of another, are
- * not counted. Stops at `most` pairs. Cost: for each triangle those whose boxes meet its own, some microseconds.
+ * Finds the pairs of triangles with a common point that is not a corner or an edge of both, by exact signs: triangles
+ * that cross, touch or are folded onto each other. Triangles without area, and triangles with the three corners of
+ * another one, are not counted. Stops at `most` pairs. Cost: for each triangle the triangles whose boxes meet its box,
+ * some microseconds.
  */
 OVOID_API ovoid_solid_crossings ovoid_solid_compute_crossings(const ovoid_solid *solid, uint64_t most);
 

@@ -1,6 +1,6 @@
 /**
  * @file shape.hpp
- * Shapes: a shape owns one, a shape_view borrows one; their ellipsoids and measures.
+ * Shapes: class shape owns one, shape_view borrows one; their ellipsoids and measures.
  *
  * A shape is immutable, and any number of bodies and threads share it; borrowers must not outlive it. If there is no
  * single owner, use std::make_shared<const ovoid::shape>(ovoid::shape::box(...)): *pointer is a shape_view.
@@ -29,11 +29,11 @@ using measures = ovoid_measures;
 class shape_view {
   public:
     constexpr shape_view() noexcept = default;
-    /** Wraps a C shape. */
+    /** Wraps a C shape, which must outlive the view. */
     constexpr explicit shape_view(const ovoid_shape *from) noexcept : shape_(from) {}
     /** The C shape, borrowed; nullptr if there is none. */
     constexpr const ovoid_shape *get() const noexcept { return shape_; }
-    /** False if there is none: after a move, or by default. No other function may then be called. */
+    /** False if there is no shape: after a move, or by default. Then no other function may be called. */
     explicit constexpr operator bool() const noexcept { return shape_ != nullptr; }
 
     /** The polyhedron. */
@@ -67,13 +67,15 @@ class shape_view {
     shape copy(const ovoid_allocator *allocator = nullptr) const;
     /** A copy with another allowance. */
     shape allowed(ovoid_allowance allowance) const;
-    /** The shape with its vertices moved, one point for each. Throws ARGUMENT (their number) and as shape::from_points.
+    /**
+     * The shape with its vertices moved to the given points, one for each vertex. Throws ARGUMENT (another number of
+     * points), and as shape::from_points.
      */
     template <class Points>
     shape deformed(const Points &points, const ovoid_shape_options &options = shape_options()) const;
     /**
-     * The two sides of a plane: first the side normal . x <= offset; empty if there is nothing on it. Throws as the C
-     * function.
+     * The two parts on the sides of a plane: first the side normal . x <= offset. A part is empty if nothing is on its
+     * side. Throws as ovoid_shape_create_divided fails.
      */
     std::pair<shape, shape> divided(const ovoid_plane &plane,
                                     const ovoid_shape_options &options = shape_options()) const;
@@ -88,13 +90,15 @@ class shape_view {
     const ovoid_shape *shape_ = nullptr;
 };
 
-/** A shape with an owner: moves, never copies (copy() does), destroyed once. Creation throws ovoid::error. */
+/** A shape that owns its memory: it moves and does not copy (copy() makes a copy). Creation throws ovoid::error. */
 class shape : public detail::owner<shape_view, ovoid_shape, ovoid_shape_destroy> {
   public:
     using owner::owner;
 
-    /** The convex hull of the points of a container. Throws EMPTY, NOT_FINITE (place: the point), RANGE, RADIUS, LIMIT,
-     * HULL, MEMORY, and ARGUMENT as points_of. */
+    /**
+     * The convex hull of the points of a container. Throws EMPTY, NOT_FINITE (place: the point), RANGE, RADIUS, LIMIT,
+     * HULL, MEMORY, and ARGUMENT as points_of does.
+     */
     template <class Points>
     static shape from_points(const Points &points, const ovoid_shape_options &options = shape_options()) {
         const point_array p = points_of(points);
@@ -106,8 +110,8 @@ class shape : public detail::owner<shape_view, ovoid_shape, ovoid_shape_destroy>
         return made([&](ovoid_error *e) { return ovoid_shape_create_from_points(p.data(), p.size(), &options, e); });
     }
     /**
-     * From points and faces, each a container of vertex indices, that are stated to be convex, which is checked. Throws
-     * INDEX, NOT_CONVEX (place: the face) and as from_points.
+     * A polyhedron from points and faces; each face is a container of vertex indices. The input is stated to be convex,
+     * which is checked. Throws INDEX, NOT_CONVEX (place: the face), and as from_points.
      */
     template <class Points, class Faces>
     static shape from_faces(const Points &points, const Faces &faces,
@@ -116,7 +120,7 @@ class shape : public detail::owner<shape_view, ovoid_shape, ovoid_shape_destroy>
         const face_array f(faces);
         return from_faces(f.with(p), options);
     }
-    /** From the C struct. */
+    /** As above, from the C struct. */
     static shape from_faces(const ovoid_faces &faces, const ovoid_shape_options &options = shape_options()) {
         return made([&](ovoid_error *e) { return ovoid_shape_create_from_faces(&faces, &options, e); });
     }
@@ -132,34 +136,41 @@ class shape : public detail::owner<shape_view, ovoid_shape, ovoid_shape_destroy>
     static shape capsule(double radius, double half_length, const ovoid_shape_options &options = shape_options()) {
         return made([&](ovoid_error *e) { return ovoid_shape_create_capsule(radius, half_length, &options, e); });
     }
-    /** The cylinder along z, held by a prism with an allowance of at most the tolerance, a length; 0: radius / 200. */
+    /**
+     * A cylinder along z, represented by a prism with an allowance of at most the tolerance, a length; 0: radius / 200.
+     */
     static shape cylinder(double radius, double half_length, double tolerance = 0,
                           const ovoid_shape_options &options = shape_options()) {
         ovoid_shape_options o = options;
         if (tolerance != 0) o.tolerance = tolerance;
         return made([&](ovoid_error *e) { return ovoid_shape_create_cylinder(radius, half_length, &o, e); });
     }
-    /** The cone along z, apex at z = +half_length, held by a pyramid with an allowance of at most the tolerance. */
+    /**
+     * A cone along z with its apex at z = +half_length, represented by a pyramid with an allowance of at most the
+     * tolerance.
+     */
     static shape cone(double radius, double half_length, double tolerance = 0,
                       const ovoid_shape_options &options = shape_options()) {
         ovoid_shape_options o = options;
         if (tolerance != 0) o.tolerance = tolerance;
         return made([&](ovoid_error *e) { return ovoid_shape_create_cone(radius, half_length, &o, e); });
     }
-    /** A prism of n >= 3 sides along z, inscribed in the cylinder: the polyhedron itself. */
+    /** A prism of n >= 3 sides along z, inscribed in the cylinder: exactly this polyhedron, without an allowance. */
     static shape prism(double radius, double half_length, std::uint32_t sides,
                        const ovoid_shape_options &options = shape_options()) {
         const ovoid_prism by = {radius, half_length, sides};
         return made([&](ovoid_error *e) { return ovoid_shape_create_prism(&by, &options, e); });
     }
-    /** A pyramid of n >= 3 sides along z, apex at z = +half_length. */
+    /** A pyramid of n >= 3 sides along z, apex at z = +half_length; without an allowance. */
     static shape pyramid(double radius, double half_length, std::uint32_t sides,
                          const ovoid_shape_options &options = shape_options()) {
         const ovoid_prism by = {radius, half_length, sides};
         return made([&](ovoid_error *e) { return ovoid_shape_create_pyramid(&by, &options, e); });
     }
-    /** From the bytes of an .ovoid file, each of them checked: anything contiguous. Throws FORMAT (place: the byte),
-     * MEMORY. */
+    /**
+     * A shape from the bytes of an .ovoid file in any contiguous container; every byte is checked. Throws FORMAT
+     * (place: the byte), MEMORY.
+     */
     template <class Bytes> static shape read(const Bytes &bytes, const ovoid_allocator *allocator = nullptr) {
         const std::size_t size = std::size(bytes) * sizeof(*std::data(bytes));
         shape_options o;
@@ -204,7 +215,10 @@ inline std::pair<shape, shape> shape_view::divided(const ovoid_plane &plane, con
 /** Measures of a polyhedron. */
 inline ovoid_measures compute_measures(const ovoid_polytope &p) noexcept { return ovoid_polytope_compute_measures(&p); }
 
-/** The smallest ellipsoid around a polyhedron, to a relative gap of its volume (0: 1e-6). Throws ARGUMENT, MEMORY. */
+/**
+ * The smallest ellipsoid around a polyhedron, to a relative gap of its volume (0: the default, 1e-6). Throws ARGUMENT,
+ * MEMORY.
+ */
 inline ovoid_fit compute_outer(const ovoid_polytope &p, double gap = 0, const ovoid_allocator *allocator = nullptr) {
     ovoid_fit made;
     ovoid_error e;
@@ -212,7 +226,10 @@ inline ovoid_fit compute_outer(const ovoid_polytope &p, double gap = 0, const ov
     detail::require(ovoid_ellipsoid_compute_outer(&p, &o, &made, &e), e);
     return made;
 }
-/** The largest ellipsoid inside a polyhedron, to a relative gap of its volume (0: 1e-6). Throws ARGUMENT, MEMORY. */
+/**
+ * The largest ellipsoid inside a polyhedron, to a relative gap of its volume (0: the default, 1e-6). Throws ARGUMENT,
+ * MEMORY.
+ */
 inline ovoid_fit compute_inner(const ovoid_polytope &p, double gap = 0, const ovoid_allocator *allocator = nullptr) {
     ovoid_fit made;
     ovoid_error e;
@@ -224,19 +241,19 @@ inline ovoid_fit compute_inner(const ovoid_polytope &p, double gap = 0, const ov
 inline ovoid_fit compute_shrunk(const ovoid_polytope &p, const ovoid_ellipsoid &outer) noexcept {
     return ovoid_ellipsoid_compute_shrunk(&p, &outer);
 }
-/** Phase 2 of the paper: stretched toward the farthest facet. */
+/** Phase 2 of the paper: the shrunk ellipsoid, stretched toward the farthest facet. */
 inline ovoid_fit compute_stretched(const ovoid_polytope &p, const ovoid_ellipsoid &shrunk) noexcept {
     return ovoid_ellipsoid_compute_stretched(&p, &shrunk);
 }
-/** Phase 3 of the paper: each radius enlarged. */
+/** Phase 3 of the paper: the stretched ellipsoid with each radius enlarged. */
 inline ovoid_fit compute_enlarged(const ovoid_polytope &p, const ovoid_ellipsoid &stretched) noexcept {
     return ovoid_ellipsoid_compute_enlarged(&p, &stretched);
 }
-/** Radii in descending order. */
+/** The radii of an ellipsoid, in descending order. */
 inline vec3 compute_radii(const ovoid_ellipsoid &e) noexcept { return ovoid_ellipsoid_compute_radii(&e); }
-/** Volume. */
+/** The volume of an ellipsoid. */
 inline double compute_volume(const ovoid_ellipsoid &e) noexcept { return ovoid_ellipsoid_compute_volume(&e); }
-/** The ellipsoid under a pose, rounded. */
+/** An ellipsoid moved by a pose, rounded. */
 inline ovoid_ellipsoid compute_posed(const ovoid_ellipsoid &e, const pose &at) noexcept {
     return ovoid_ellipsoid_compute_posed(&e, &at);
 }
@@ -252,7 +269,7 @@ inline ovoid_nearest compute_nearest_by_sphere(const ovoid_ellipsoid &a, const o
 inline ovoid_nearest compute_nearest(const ovoid_ellipsoid &a, const ovoid_ellipsoid &b) noexcept {
     return ovoid_ellipsoid_compute_nearest(&a, &b);
 }
-/** True where the ellipsoids are proven to share a point, which *point (may be nullptr) receives. */
+/** True if the ellipsoids are proven to share a point, which is written to *point (may be nullptr). */
 inline bool is_overlapping(const ovoid_ellipsoid &a, const ovoid_ellipsoid &b, vec3 *point = nullptr) noexcept {
     return ovoid_ellipsoid_is_overlapping(&a, &b, point) != 0;
 }

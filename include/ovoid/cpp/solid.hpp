@@ -10,20 +10,20 @@
 
 namespace ovoid {
 
-/** A solid that someone else owns: one pointer, passed by value. */
+/** A view of a solid that is owned elsewhere: one pointer, passed by value. */
 class solid_view {
   public:
     constexpr solid_view() noexcept = default;
-    /** Of a C solid. */
+    /** Wraps a C solid, which must outlive the view. */
     constexpr explicit solid_view(const ovoid_solid *from) noexcept : solid_(from) {}
-    /** The C solid, borrowed; nullptr where this is empty. */
+    /** The C solid, borrowed; nullptr if there is none. */
     constexpr const ovoid_solid *get() const noexcept { return solid_; }
-    /** False where there is none. No other function may then be called. */
+    /** False if there is no solid. Then no other function may be called. */
     explicit constexpr operator bool() const noexcept { return solid_ != nullptr; }
 
-    /** What was found of the triangles. */
+    /** Facts about the triangles. */
     ovoid_solid_report report() const noexcept { return ovoid_solid_get_report(solid_); }
-    /** The triangles in the order of the tree. */
+    /** The triangles in the order of the tree of boxes. */
     span<const std::uint32_t> order() const noexcept {
         return {ovoid_solid_get_order(solid_), static_cast<std::size_t>(report().triangles)};
     }
@@ -35,11 +35,13 @@ class solid_view {
     void triangle(std::size_t i, std::uint32_t points[3]) const noexcept {
         ovoid_solid_get_triangle(solid_, i, points);
     }
-    /** How often it winds around a point, exactly: true where *winding is written. */
+    /** How often the solid winds around a point, exactly. True if *winding is written. */
     bool winding(const ovoid_vec3 &point, std::int64_t *winding) const noexcept {
         return ovoid_solid_compute_winding(solid_, point, winding) != 0;
     }
-    /** The pairs of triangles that meet other than in common corners and edges, up to `most`. */
+    /**
+     * Counts the pairs of triangles with a common point that is not a corner or edge of both; stops at `most` pairs.
+     */
     ovoid_solid_crossings crossings(std::uint64_t most = UINT64_MAX) const noexcept {
         return ovoid_solid_compute_crossings(solid_, most);
     }
@@ -50,13 +52,15 @@ class solid_view {
     const ovoid_solid *solid_ = nullptr;
 };
 
-/** A solid that is owned. */
+/** A solid that owns its memory. */
 class solid : public detail::owner<solid_view, ovoid_solid, ovoid_solid_destroy> {
   public:
     using owner::owner;
 
-    /** Of point_count points, xyz of point i at 3 i, and count triangles, three indices each; copied. Throws ARGUMENT,
-     * EMPTY, LIMIT, NOT_FINITE (place: the point), RANGE, INDEX (place: the triangle), MEMORY. */
+    /**
+     * From point_count points, xyz of point i at 3 i, and count triangles, three indices each. All are copied. Throws
+     * ARGUMENT, EMPTY, LIMIT, NOT_FINITE (place: the point), RANGE, INDEX (place: the triangle), MEMORY.
+     */
     static solid from_triangles(const double *xyz, std::size_t point_count, const std::uint32_t *indices,
                                 std::size_t count, const ovoid_allocator *allocator = nullptr) {
         ovoid_error e;
@@ -66,7 +70,7 @@ class solid : public detail::owner<solid_view, ovoid_solid, ovoid_solid_destroy>
     }
 };
 
-/** Are the triangles the hull, exactly or nearly? hull: of the same points. */
+/** Are the triangles the surface of their hull, exactly or nearly? hull: of the same points. */
 inline ovoid_hull_match match_hull(const ovoid_triangles &triangles, const shape_view &hull) {
     ovoid_hull_match found;
     ovoid_error e;
@@ -74,7 +78,9 @@ inline ovoid_hull_match match_hull(const ovoid_triangles &triangles, const shape
     return found;
 }
 
-/** How much farther from any body a solid is than its hull, at most; infinity where that is not shown. Throws MEMORY.
+/**
+ * An upper bound of how much farther a solid is than its hull from any other body; infinity if none is proven. Throws
+ * MEMORY.
  */
 inline double hull_gap(const solid_view &solid, const shape_view &hull) {
     double gap;
