@@ -1,4 +1,4 @@
-// Memory through the caller's allocator, or malloc where there is none.
+// Memory from the caller's allocator, or from malloc if none is given.
 #ifndef OVOID_BASE_ALLOCATOR_H
 #define OVOID_BASE_ALLOCATOR_H
 

@@ -66,7 +66,7 @@ static moments compute_moments(const design *d, const double *vertices, uint32_t
     return m;
 }
 
-// scale S + thickness on the axes along which the vertices differ, rounded.
+// The matrix scale S, rounded, with `thickness` added on the axes along which the vertices differ.
 static sym3 combine(const moments *m, double scale, double thickness) {
     sym3dd q;
     for (int i = 0; i < 3; i++)
@@ -77,7 +77,8 @@ static sym3 combine(const moments *m, double scale, double thickness) {
     return sym3dd_round(&q);
 }
 
-// An ellipsoid of the covariance's form that is proven to enclose, by trials from a given thickness; in units of S.
+// An ellipsoid with the form of the covariance that is proven to enclose the vertices, by trials from a given
+// thickness; in units of S.
 static sym3 enclose(const ovoid_polytope *polytope, const moments *m, double rank, double thickness) {
     sym3 q = {0, 0, 0, 0, 0, 0};
     double scale = rank, unit = ldexp(1, m->exponent), slack = ROUNDING;
@@ -86,7 +87,7 @@ static sym3 enclose(const ovoid_polytope *polytope, const moments *m, double ran
         ovoid_ellipsoid e = {m->center, sym3_scale(sym3_scale(q, unit), unit)};
         double bound = ellipsoid_compute_enclosing_bound(polytope, &e);
         if (bound <= 1) break;
-        // The ellipsoid lacks either size, or thickness that rounding destroyed.
+        // The ellipsoid is too small, or too thin since rounding destroyed its thickness.
         if (bound <= 2) {
             scale *= bound * (1 + slack);
             slack *= 2;
@@ -104,7 +105,7 @@ static void fill_fit(const ovoid_polytope *polytope, const design *d, double gap
     double least_error, error, least = sym3dd_compute_content(&m.covariance, (int)rank, &least_error);
     least *= sqrt(rank == 3 ? 27 : rank == 2 ? 4 : 1) * (1 - fmin(least_error, 1));
     *fit = (ovoid_fit){.ellipsoid.center = m.center, .iterations = d->steps, .gap = INFINITY};
-    // If rounding affects thin axes, a little thickness beforehand may cost less than a larger scale afterwards.
+    // If rounding affects thin axes, a little thickness added beforehand may cost less than a larger scale afterwards.
     for (int i = 0; i < 5 && !fit->converged; i++) {
         sym3 q = enclose(polytope, &m, rank, i ? ldexp(ROUNDING, i - 2) : 0);
         sym3dd q2 = sym3dd_from(q);

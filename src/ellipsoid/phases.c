@@ -3,8 +3,8 @@
 // Splitting, section 2.3, steps (b), (c) and (d). Each phase is a bisection against the facets' planes, 2^-40 fine;
 // then the result is shrunk by what its proof needs (shrink_to_fit.c). The paper writes M = Q^-1; here its formulas
 // stand in Q, and no square root is needed. A phase never returns less than it was given: where there is no room, it
-// returns its input. Flat bodies: within the plane, against the edges; a segment: against its ends. Nothing is proven
-// of these. Cost: 40 to 250 evaluations of all facets a phase.
+// returns its input. A flat body is treated within its plane, against its edges, and a segment against its ends;
+// nothing is proven of these. Cost: 40 to 250 evaluations of all facets a phase.
 #include "base/environment.h"
 #include "ellipsoid/contain.h"
 #include "ellipsoid/halfspaces.h"
@@ -24,7 +24,7 @@ static int is_inside(const halfspaces *w, const ovoid_ellipsoid *e) {
     return 1;
 }
 
-// The largest t of a range whose ellipsoid is inside, by bisection; the lower end is taken to be inside.
+// The largest t of a range whose ellipsoid is inside, by bisection; the lower end is assumed to be inside.
 static double bisect(const halfspaces *w, family f, const double range[2], uint32_t *iterations) {
     double low = range[0], high = range[1];
     ovoid_ellipsoid e = f.make(f.context, high);
@@ -40,7 +40,7 @@ static double bisect(const halfspaces *w, family f, const double range[2], uint3
     return low;
 }
 
-// The proven result, or the input where that is larger and proven too.
+// The proven result; or the input if that is proven too, and larger.
 static ovoid_fit finish(const halfspaces *w, const ovoid_ellipsoid *e, const ovoid_ellipsoid *input) {
     sym3dd q = sym3dd_from(e->q);
     uint32_t rank = w->polytope->rank;
@@ -60,7 +60,7 @@ static ovoid_ellipsoid make_scaled(const void *context, double t) {
 static ovoid_fit compute_shrunk(const ovoid_polytope *polytope, const ovoid_ellipsoid *outer) {
     halfspaces w = halfspaces_make(polytope);
     uint32_t iterations = 0;
-    // A quarter of the radii lies inside by John's theorem, which promises a third.
+    // With a quarter of its radii the outer ellipsoid is inside: John's theorem promises a third.
     double t = bisect(&w, (family){make_scaled, outer}, (double[2]){0.25, 1}, &iterations);
     ovoid_ellipsoid e = make_scaled(outer, t);
     ovoid_fit fit = finish(&w, &e, NULL);
@@ -72,8 +72,8 @@ ovoid_fit ovoid_ellipsoid_compute_shrunk(const ovoid_polytope *polytope, const o
     ENVIRONMENT_RETURN(ovoid_fit, outer, compute_shrunk(polytope, outer));
 }
 
-// The mean of a facet's vertices. Each is the start of one edge of the facet; a diagonal between its triangles is no
-// edge, which the lists of neighbours show.
+// The mean of a facet's vertices. Each vertex is the start of one edge of the facet. A diagonal between two triangles
+// of the facet is not an edge, as the lists of neighbours show.
 static vec3 compute_facet_mean(const ovoid_polytope *p, uint32_t facet) {
     vec3 sum = {0, 0, 0};
     double count = 0;
@@ -112,7 +112,7 @@ static ovoid_ellipsoid make_stretched(const void *context, double beta) {
                              sym3_add(s->base.q, sym3_outer(s->d, 2 * beta / s->m + beta * beta))};
 }
 
-// |M^(1/2) d| in the eigen-axes that the body has extent along.
+// |M^(1/2) d| in the eigen-axes along which the body has extent.
 static double compute_gauge(sym3 q, vec3 d, uint32_t rank) {
     eigen3 e = sym3_compute_eigen(q);
     const vec3 axis[3] = {e.v.r0, e.v.r1, e.v.r2};
@@ -123,7 +123,7 @@ static double compute_gauge(sym3 q, vec3 d, uint32_t rank) {
 
 static ovoid_fit compute_stretched(const ovoid_polytope *polytope, const ovoid_ellipsoid *shrunk) {
     halfspaces w = halfspaces_make(polytope);
-    // The facet farthest from the centre, the first of equals.
+    // The facet farthest from the centre; the first one if several are.
     uint32_t facet = 0, iterations = 0;
     double farthest = -INFINITY;
     for (uint32_t i = 0; i < w.count; i++) {
@@ -157,7 +157,7 @@ ovoid_fit ovoid_ellipsoid_compute_stretched(const ovoid_polytope *polytope, cons
 typedef struct enlargement {
     ovoid_ellipsoid base;
     vec3 axis;
-    double value; // the square of the radius at hand
+    double value; // the square of the radius that is being enlarged
 } enlargement;
 
 static ovoid_ellipsoid make_enlarged(const void *context, double radius) {
@@ -171,12 +171,12 @@ static ovoid_fit compute_enlarged(const ovoid_polytope *polytope, const ovoid_el
     const vec3 axis[3] = {axes.v.r0, axes.v.r1, axes.v.r2};
     ovoid_ellipsoid e = *stretched;
     uint32_t iterations = 0;
-    // Shortest radius first; those across a flat body stay as they are.
+    // Shortest radius first; radii across a flat body are not changed.
     for (uint32_t i = 3 - polytope->rank; i < 3; i++) {
         enlargement g = {e, axis[i], axes.value[i]};
         double range[2] = {sqrt(fmax(g.value, 0)), sqrt(fmax(g.value, 0))};
         if (!(range[0] > 0)) continue;
-        // Twice as long until it no longer fits.
+        // Double the radius until the ellipsoid no longer fits.
         do {
             range[1] *= 2;
             e = make_enlarged(&g, range[1]);

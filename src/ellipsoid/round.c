@@ -99,8 +99,8 @@ sym3 sym3dd_round(const sym3dd *s) {
     sym3 plain = {entry[0], entry[1], entry[2], entry[3], entry[4], entry[5]};
     factor f;
     if (!factor_make_unproven(s, &f) || f.count < 3) return plain;
-    // The units, none finer than of use and twice as coarse as they could be, so that a sum stays representable; and
-    // the errors of rounding to them and of plain rounding.
+    // The units, no finer than useful and up to twice as coarse, so that a sum stays representable; and the errors of
+    // rounding to them and of plain rounding.
     lattice l = {.c = {{0}}};
     vector6 missed = {{{0, 0}}};
     for (int k = 0; k < ENTRIES; k++) {
@@ -115,7 +115,7 @@ sym3 sym3dd_round(const sym3dd *s) {
     }
     double before = dot(&missed, &missed).high;
     if (!(before > 0x1p-84)) return plain;
-    // The nearest plane: the error is reduced by the basis as one more row of it.
+    // The nearest plane: the error is added to the basis as one more row, and reduced.
     reduce(&l);
     for (int k = ENTRIES - 1; k >= 0; k--) subtract_row(&l, ENTRIES, k, nearbyint(project(&l.b[ENTRIES], &l, k).high));
     if (!(dot(&l.b[ENTRIES], &l.b[ENTRIES]).high < before)) return plain;

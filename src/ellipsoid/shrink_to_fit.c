@@ -17,7 +17,8 @@ static sym3 round_scaled(const sym3dd *q, double scale) {
     return sym3dd_round(&s);
 }
 
-// Scales until no triangle is met. 0 if Q is not positive definite after rounding, or would lose half its size.
+// Shrinks the ellipsoid until it crosses no triangle. 0 if Q is not positive definite after rounding, or would lose
+// half its size.
 static int shrink(const ovoid_polytope *polytope, const sym3dd *q, ovoid_ellipsoid *e) {
     double scale = 1;
     factor f;
@@ -32,8 +33,8 @@ static int shrink(const ovoid_polytope *polytope, const sym3dd *q, ovoid_ellipso
     return 0;
 }
 
-// For candidates whose thin axes rounding destroyed: of the ellipsoids whose radii are cut to smaller and smaller
-// bounds, down to a ball, the largest that is proven.
+// For candidates whose thin axes were destroyed by rounding: cuts the radii to smaller and smaller bounds, down to a
+// ball, and takes the largest ellipsoid that is proven.
 static int shorten(const ovoid_polytope *polytope, ovoid_ellipsoid *e) {
     eigen3 axes = sym3_compute_eigen(e->q);
     double best = 0, cut = axes.value[2];

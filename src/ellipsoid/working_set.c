@@ -1,9 +1,9 @@
 // Constraint generation, as cutting-plane methods do it (J. E. Kelley, The cutting-plane method for solving convex
 // programs, 1960): the ellipsoid has nine unknowns and touches a few dozen halfspaces, whatever their number. The
 // halfspaces of the working set are the first in the array. Each round solves for them alone, then tests all others and
-// adds, from each cell of directions, the one that the ellipsoid violates most; the end is when it violates none. Where
-// a round fails (the working set may not even bound a body), all halfspaces are taken. The result is a proposal like
-// that of inscribe.c: the caller proves it.
+// adds, from each cell of directions, the one that the ellipsoid violates most; it ends when none is violated. If a
+// round fails (the working set may not even bound a body), all halfspaces are taken. The result is only a proposal, as
+// in inscribe.c: the caller proves it.
 #include "ellipsoid/working_set.h"
 
 // Cells of directions: 4 x 4 on each side of a cube. Below FEW halfspaces a working set does not pay.
@@ -17,7 +17,7 @@ static int find_cell(vec3 n) {
     return ((x[axis] < 0 ? 3 : 0) + axis) * 16 + row * 4 + column;
 }
 
-// Insertion sort: there are few.
+// Insertion sort, since the lists are short.
 static void sort(uint32_t *list, uint32_t count) {
     for (uint32_t i = 1; i < count; i++) {
         uint32_t x = list[i], k = i;
@@ -27,15 +27,16 @@ static void sort(uint32_t *list, uint32_t count) {
 }
 
 typedef struct working_set {
-    constraint_set all; // the working set first
-    uint32_t count;     // of the working set
-    double violation;   // the largest of a halfspace outside of it before the last choice, as take_worst measures it
+    constraint_set all; // those of the working set first
+    uint32_t count;     // the number of them in the working set
+    double violation;   // the largest violation outside of the working set before the last choice, as take_worst
+                        // measures it
 } working_set;
 
 // Moves the chosen halfspaces to the end of the working set.
 static void bring_forward(working_set *w, uint32_t *chosen, uint32_t count) {
     constraint *items = w->all.items;
-    // In ascending order a halfspace is never moved away before its turn.
+    // In ascending order, since then no chosen halfspace is moved before its turn.
     sort(chosen, count);
     for (uint32_t i = 0; i < count; i++, w->count++) {
         constraint c = items[w->count];
@@ -44,8 +45,8 @@ static void bring_forward(working_set *w, uint32_t *chosen, uint32_t count) {
     }
 }
 
-// Adds from each cell the halfspace that the ellipsoid violates most, in units of its own reach, if by more than
-// `least`. Returns how many.
+// Adds from each cell the halfspace that the ellipsoid violates most, if by more than `least`; in units of the
+// ellipsoid's own reach. Returns their number.
 static uint32_t take_worst(working_set *w, const inscribed *s, double least) {
     double worst[CELLS];
     uint32_t which[CELLS], chosen[CELLS], taken = 0;
@@ -65,7 +66,7 @@ static uint32_t take_worst(working_set *w, const inscribed *s, double least) {
     return taken;
 }
 
-// Sets what the caller reads of the halfspaces outside of the working set.
+// Sets what the caller reads for halfspaces outside of the working set.
 static void finish(working_set *w, const inscribed *s) {
     for (uint32_t i = w->count; i < w->all.count; i++) {
         constraint *c = &w->all.items[i];

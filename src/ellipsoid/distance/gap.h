@@ -1,4 +1,4 @@
-// What the proximity functions of ellipsoids share: the proven gap of two supports, and a common change of scale.
+// The functions that all proximity functions of ellipsoids use: the proven gap of two supports, and scaling of a pair.
 #ifndef OVOID_ELLIPSOID_DISTANCE_GAP_H
 #define OVOID_ELLIPSOID_DISTANCE_GAP_H
 

@@ -3,23 +3,23 @@
 // Problem. With Qa = Ea Ea', Qb = Eb Eb' and d = cb - ca: minimise |d - Ea p - Eb q| over |p| <= 1, |q| <= 1. The
 // multipliers la, lb >= 0 of the two balls give w = M^-1 d, M = I + Qa/la + Qb/lb, p = Ea' w / la, q = Eb' w / lb; the
 // dual function of (la, lb) is concave, and its maximum is where |p| = |q| = 1, or a multiplier is zero and its point
-// interior (a disc's). Two numbers instead of a direction and two points: flat bodies put no kink in the way, as they
-// do in the support functions.
+// interior (a disc's). These are two unknowns instead of a direction and two points, and flat bodies make the dual
+// function no less smooth, as they do the support functions.
 //
 // Steps. Newton's method on 1/|p| = 1, 1/|q| = 1, which are close to linear in la, lb (as with one ball: J. J. More and
 // D. C. Sorensen, Computing a trust region step, 1983); where the dual function does not rise, Newton's method on that
 // function itself, shortened until it does. The start is on the ray of the pencil (pencil.h), along which the dual
 // function rises from zero if and only if the ellipsoids are apart; so no step can fall back to zero.
 //
-// Rounding. First the plain way: M is formed and factored. For thin bodies across the direction la or lb is small, M
-// loses its identity and p its digits; then the search is run again with least squares (rows.h) on nine rows, once for
-// w in the rows I, Ea'/sqrt(la), Eb'/sqrt(lb), once for p and q in the rows [Ea Eb] and the roots of the multipliers.
-// Their errors are small against each row for itself: the answer belongs to ellipsoids whose axes are off by roundings
-// of their own lengths.
+// Rounding. First M is formed and factored. For thin bodies across the direction la or lb is small, the identity in M
+// is lost and so are the digits of p. Then the search is run again with least squares (rows.h) on nine rows, once for w
+// in the rows I, Ea'/sqrt(la), Eb'/sqrt(lb), once for p and q in the rows [Ea Eb] and the roots of the multipliers. The
+// errors of least squares are small relative to each row: the answer is that of ellipsoids whose axes are off by
+// roundings of their own lengths.
 //
 // Guarantee. Each round has a bracket: feasible points, and the support gap along w. It stops when that is narrower
 // than 2^-46 of the pair's size, when it closes no more, or after 200 rounds. The best points and the best direction
-// are returned; the lower bound is evaluated anew with every rounding bounded (gap.h). Cost: 4 to 8 rounds, 1 to 2
+// are returned; the lower bound is computed again with every rounding bounded (gap.h). Cost: 4 to 8 rounds, 1 to 2
 // microseconds in all; 5 to 10 for flat bodies.
 #include "base/environment.h"
 #include "ellipsoid/distance/gap.h"
@@ -59,7 +59,7 @@ typedef struct multipliers {
     double aa, ab, ba, bb; ///< Newton's matrix for relative changes of la and lb
 } multipliers;
 
-/// The plain way: M is formed and factored.
+/// The usual evaluation: M is formed and factored.
 static int evaluate_plain(const search *s, multipliers *m) {
     sym3 g = sym3_add(sym3_scale(s->pair->qa, 1 / m->la), sym3_scale(s->pair->qb, 1 / m->lb));
     ldl3 f;
@@ -88,8 +88,8 @@ static void fill_dual_rows(double rows[3][ROWS_WIDTH], const root3 *e, double l)
     }
 }
 
-/// The careful way, by least squares. The matrix N = [Ea Eb]'[Ea Eb] + diag(la, lb) = R' R of p and q gives Newton's
-/// matrix without cancellation, since d|p|^2 / dla = -2 [p; 0]' N^-1 [p; 0].
+/// The evaluation by least squares, for thin bodies. The matrix N = [Ea Eb]'[Ea Eb] + diag(la, lb) = R' R of p and q
+/// gives Newton's matrix without cancellation, since d|p|^2 / dla = -2 [p; 0]' N^-1 [p; 0].
 static void evaluate_careful(const search *s, multipliers *m) {
     double dual[9][ROWS_WIDTH] = {{1, 0, 0, s->pair->d.x}, {0, 1, 0, s->pair->d.y}, {0, 0, 1, s->pair->d.z}};
     fill_dual_rows(dual + 3, &s->a, m->la);
@@ -124,7 +124,7 @@ static void evaluate_careful(const search *s, multipliers *m) {
         pq += yp[k] * yq[k];
         qq += yq[k] * yq[k];
     }
-    // A body of one point: nothing depends on its multiplier.
+    // If p or q is zero, the body is a point, and nothing depends on its multiplier.
     double ma = vec3_norm_squared(m->p), mb = vec3_norm_squared(m->q);
     m->aa = ma > 0 ? m->la * pp / ma : 1;
     m->ab = ma > 0 ? m->lb * pq / ma : 0;
@@ -132,7 +132,7 @@ static void evaluate_careful(const search *s, multipliers *m) {
     m->bb = mb > 0 ? m->lb * qq / mb : 1;
 }
 
-/// Below this a multiplier moves no bound.
+/// A multiplier below this changes no bound.
 static double least_multiplier(const search *s) { return 1e-15 * fmax(s->lower, CLOSED); }
 
 static multipliers evaluate(const search *s, double la, double lb) {
@@ -154,7 +154,7 @@ static double support_gap(const search *s, vec3 n) {
            vec3_norm(root3_map_transposed(&s->b, n));
 }
 
-/// Takes the bracket of the multipliers where it is better; 1 if it was.
+/// Keeps the bracket of the multipliers if it is better; 1 if it was.
 static int take_bracket(search *s, const multipliers *m) {
     int is_better = 0;
     vec3 n = vec3_unit(m->w);
@@ -184,21 +184,21 @@ typedef struct change {
     double a, b;
 } change;
 
-/// The change of one multiplier where that of the other is given.
+/// The change of one multiplier if that of the other is given.
 static double solve_one(double own, double cross, double right, double other, double least) {
     double e = (right - cross * other) / own;
     return own > 0 && isfinite(e) ? fmin(fmax(e, least), LARGEST_CHANGE) : 0;
 }
 
-/// The quadratic that Newton's step is the maximum of.
+/// The quadratic function that Newton's step maximises.
 static double model_value(const multipliers *m, change right, change e) {
     double wa = m->la * m->ma * m->ma, wb = m->lb * m->mb * m->mb;
     return wa * e.a * (right.a - 0.5 * (m->aa * e.a + m->ab * e.b)) +
            wb * e.b * (right.b - 0.5 * (m->ba * e.a + m->bb * e.b));
 }
 
-/// Relative changes for a right-hand side, none that leads below the least multiplier or LEAST_FACTOR of the present
-/// one.
+/// The relative changes for a right-hand side. None leads below the least multiplier, or below LEAST_FACTOR of the
+/// present one.
 static change find_change(const search *s, const multipliers *m, change right) {
     double least = least_multiplier(s);
     double least_a = fmin(fmax(LEAST_FACTOR, least / m->la), 1) - 1;
@@ -208,7 +208,7 @@ static change find_change(const search *s, const multipliers *m, change right) {
     if (!(det > 0) || !isfinite(e.a) || !isfinite(e.b))
         return (change){fmin(fmax(right.a, least_a), LARGEST_CHANGE), fmin(fmax(right.b, least_b), LARGEST_CHANGE)};
     if (e.a >= least_a && e.b >= least_b) return e;
-    // The quadratic's maximum is on one of the two sides.
+    // The maximum of the quadratic within these limits is on one of the two.
     change on_a = {least_a, solve_one(m->bb, m->ba, right.b, least_a, least_b)};
     change on_b = {solve_one(m->aa, m->ab, right.a, least_b, least_a), least_b};
     if (!(e.a < least_a)) return on_b;
@@ -223,13 +223,13 @@ static int is_better(const multipliers *next, const multipliers *m) {
     return next->dual > m->dual - noise || (before < 1e-3 && 2 * after < before);
 }
 
-/// One step up the dual function.
+/// One step that raises the dual function.
 static multipliers step(const search *s, const multipliers *m) {
     change e = find_change(s, m, (change){m->ma - 1, m->mb - 1});
     multipliers next = evaluate(s, m->la * (1 + e.a), m->lb * (1 + e.b));
     if (is_better(&next, m)) return next;
 
-    // Newton's own step for the dual function, which points up, and shorter ones.
+    // Newton's step for the dual function itself, which raises it, and fractions of this step.
     e = find_change(s, m, (change){0.5 - 0.5 / (m->ma * m->ma), 0.5 - 0.5 / (m->mb * m->mb)});
     for (int part = 0; part < 12; part++, e.a *= 0.25, e.b *= 0.25) {
         next = evaluate(s, m->la * (1 + e.a), m->lb * (1 + e.b));
@@ -238,8 +238,8 @@ static multipliers step(const search *s, const multipliers *m) {
     return next;
 }
 
-/// Where doubles leave the pencil no answer (flat pairs): the ratio at which the dual function rises from zero, by
-/// halving on |p| - |q|, which falls with it.
+/// If the pencil gives no answer in doubles (flat pairs): the ratio at which the dual function rises from zero, by
+/// bisection of |p| - |q|, which falls as the ratio grows.
 static double find_ratio(const search *s, double scale) {
     double low = 0, high = 1;
     for (int round = 0; round < 50; round++) {
@@ -288,7 +288,8 @@ static void search_run(search *s, multipliers *m, uint32_t rounds) {
     }
 }
 
-/// The result for ellipsoids that share a point: no direction separates them, so that of the centres is as good as any.
+/// The result for ellipsoids that share a point. No direction separates them, so any will do: that of the centres is
+/// taken.
 static ovoid_nearest make_overlapping(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b, vec3 point) {
     ovoid_nearest r = {.point_a = point, .point_b = point, .overlap = 1};
     r.normal = vec3_unit(vec3_sub(b->center, a->center));
@@ -319,7 +320,7 @@ static ovoid_nearest compute_nearest(const ovoid_ellipsoid *a, const ovoid_ellip
     ovoid_nearest r = make_answer(a, b, &s);
     if (r.distance - r.lower <= 4 * CLOSED * p.unit) return r;
 
-    // Again, with care.
+    // Search again by least squares.
     search t = {.pair = &p, .a = root3_make(p.qa, 1), .b = root3_make(p.qb, 1), .normal = s.normal};
     t.is_careful = 1;
     t.lower = -INFINITY;
@@ -339,8 +340,9 @@ static double compute_residue(const multipliers *m) {
     return a + b;
 }
 
-/// The bracket closes with the square of the direction's error; Newton's steps go on while the residue falls, which is
-/// as this error. For any multipliers w = d - Ea p - Eb q, so that w is the direction of the points.
+/// The bracket closes with the square of the direction's error. The residue falls in proportion to this error, so
+/// Newton's steps go on while it falls. For any multipliers w = d - Ea p - Eb q, so w is the direction between the
+/// points.
 static void polish(search *s, multipliers *m) {
     for (int round = 0; round < ROUNDS_PLAIN; round++) {
         change e = find_change(s, m, (change){m->ma - 1, m->mb - 1});
