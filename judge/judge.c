@@ -85,7 +85,7 @@ static ovoid_code verify_status(const judge *context, const posed *s, const ovoi
     return judge_verify_touching(context, answer, s->size + s->allowed, s->a.reach + s->b.reach, error);
 }
 
-// The normal is unit to 1e-12 and parallel to the proof's direction to 1e-12; nothing is required where there is no
+// The normal is unit to 1e-12 and parallel to the proof's direction to 1e-12; nothing is required if there is no
 // lower bound.
 static ovoid_code verify_normal(pool *p, const ovoid_answer *answer, ovoid_error *error) {
     if (answer->lower == -INFINITY) return OVOID_OK;

@@ -19,7 +19,7 @@ bodies bodies_create_boxes(uint32_t count);
 /// Splitting: body 0 is the box, 1 to 10 are cylinders, 11 to 20 complex cylinders, 21 to 30 spheres.
 bodies bodies_create_paper(void);
 /// The first `count` solids of a file of point clouds (a 32-bit count n, then n times three 32-bit floats, repeated).
-/// count 0: no such file.
+/// count 0: the file does not exist.
 bodies bodies_create_from_clouds(const char *path, uint32_t count);
 /// Adds the shape to a list that has room for it, and takes it over; 0 if it is NULL or memory runs out.
 int bodies_add_shape(bodies *all, ovoid_shape *shape);

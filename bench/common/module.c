@@ -11,7 +11,7 @@ module_function module_load(const char *path, const char *name) {
         (void)fprintf(stderr, "bench: %s\n", dlerror());
         return NULL;
     }
-    // C has no conversion of an object pointer to a function pointer; POSIX promises that the bytes will do.
+    // C has no conversion of an object pointer to a function pointer; POSIX guarantees that copying the bytes works.
     void *symbol = dlsym(module, name);
     module_function function = NULL;
     memcpy(&function, &symbol, sizeof function);

@@ -5,7 +5,7 @@
 
 /// A function of a module; the caller casts it to its type.
 typedef void (*module_function)(void);
-/// The function `name` that the module in the file exports; NULL, with a line on stderr, where there is none.
+/// The function `name` that the module in the file exports; NULL, with a line on stderr, if there is none.
 module_function module_load(const char *path, const char *name);
 
 #endif

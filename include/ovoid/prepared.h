@@ -17,8 +17,8 @@ extern "C" {
 #endif
 
 /**
- * The largest number of vertices of a body whose vertices are rotated beforehand; of larger bodies only the rotation is
- * prepared.
+ * The largest number of vertices of a body whose vertices are rotated when it is prepared; for larger bodies only the
+ * rotation matrix is prepared.
  */
 #define OVOID_PREPARED_VERTICES 32
 

@@ -84,7 +84,7 @@ typedef enum ovoid_proof_kind {
  * bounds.
  *
  * Lower bound: for every unit n, d >= min over B of n.x - max over A of n.x - radii; normal + normal_low is that n
- * (nearly unit: divide by its norm). Zero where there is no lower bound.
+ * (nearly unit: divide by its norm). Zero if there is no lower bound.
  * Upper bound: as `kind` says. POINTS: sum weight_a[i] x(a[i]) / sum weight_a[i] is the point of A, and the same of B
  * gives that of B. HULL: four differences are the corners of a tetrahedron; of five or six, 0 and 1 are the tips of a
  * double pyramid over the closed ring 2, 3, ..., with triangles (0, r, next r) and (1, next r, r); upper is minus the

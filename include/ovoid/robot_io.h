@@ -253,7 +253,7 @@ typedef struct ovoid_problem {
 
 /**
  * Finds the problems of a folder and the folders in it, three deep, in the order of their names: files sceneX.yaml and
- * requestX.yaml (or .yml) beside each other. A request without a scene is an error (FILE); EMPTY where there are none.
+ * requestX.yaml (or .yml) beside each other. A request without a scene is an error (FILE); EMPTY if there are none.
  */
 OVOID_API ovoid_problems *ovoid_problems_find(const char *folder, ovoid_error *error);
 /** Frees them; NULL is allowed. */

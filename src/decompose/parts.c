@@ -266,7 +266,7 @@ static void set_corners_around(vec3 corners[AROUND]) {
     for (int i = 0; i < AROUND; i++) corners[i] = vec3_scale(corners[i], scale);
 }
 
-// The hull of the part's vertices moved by all corners is the sum of both bodies. The radius is increased beforehand by
+// The hull of the part's vertices moved by all corners is the sum of both bodies. The radius is increased first, by
 // the rounding of sums and corners.
 static ovoid_shape *enlarge(const ovoid_shape *shape, double radius, const ovoid_allocator *memory,
                             ovoid_error *error) {

@@ -2,7 +2,7 @@
 // W.-K. Su, J.-S. Liu, I-F. Chen, Enhancing Collision Detection Method Based on Enclosed Ellipsoid by Facial Areas
 // Splitting, section 2.3, steps (b), (c) and (d). Each phase is a bisection against the facets' planes, 2^-40 fine;
 // then the result is shrunk by what its proof needs (shrink_to_fit.c). The paper writes M = Q^-1; here its formulas
-// stand in Q, and no square root is needed. A phase never returns less than it was given: where there is no room, it
+// stand in Q, and no square root is needed. A phase never returns less than it was given: if there is no room, it
 // returns its input. A flat body is treated within its plane, against its edges, and a segment against its ends;
 // nothing is proven of these. Cost: 40 to 250 evaluations of all facets a phase.
 #include "base/environment.h"

@@ -18,7 +18,7 @@ enum { SHAPES = 6, LINE_SIZE = 1 << 17 };
 static ovoid_shape *shapes[SHAPES];
 static judge *the_judge;
 
-/// What is known of the pair at hand.
+/// What is known about the present pair.
 typedef struct known {
     ovoid_pair pair;
     judge_truth truth;
@@ -203,7 +203,7 @@ typedef struct number {
     char field[24];
 } number;
 
-// The next number at or behind `at`; 0 where there is none. *field keeps the last key, "p." before it in the proof.
+// The next number at or behind `at`; 0 if there is none. *field keeps the last key, "p." before it in the proof.
 static int find_number(const char *line, size_t at, number *n, int *in_proof) {
     for (; line[at]; at++) {
         if (line[at] == '"') {

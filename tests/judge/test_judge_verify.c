@@ -136,7 +136,7 @@ static void check_strange(const ovoid_pair *p, const ovoid_answer *x) {
     CHECK_EQ(ovoid_answer_is_within(&y, first.lower), 0);
 }
 
-/// Touching is said of brackets within the tolerance only, however early the search was stopped.
+/// However early a search is stopped, TOUCHING is only reported if the bracket is within the tolerance.
 static void check_stopped(const ovoid_pair *p) {
     double tolerance = 1e-4 * size_of(p);
     for (uint32_t most = 1; most <= 3; most++) {

@@ -3,7 +3,7 @@
 // built so, its distance by construction; and of small bodies brute force over all features. No tolerance is involved
 // but the judge's for witness points (their rounding). trials/families.c has the families.
 // Without options: the first rounds of seed 1, so that every run sees the same pairs.
-//   --seconds S   as many rounds as that takes; a line each minute; Ctrl-C ends after the round at hand
+//   --seconds S   as many rounds as that takes; a line each minute; Ctrl-C ends after the present round
 //   --state FILE  what was done so far, read at the start and written each minute and at the end: the run goes on.
 //                 Failures are appended to FILE.failures at once
 //   --seed N; --rounds N; --family NAME (only this); --trial SEED with a family: one trial again
@@ -139,7 +139,7 @@ static int read_tally(FILE *f, tally *t) {
     return 1;
 }
 
-// 1 where there is no state yet or all of it was read.
+// 1 if there is no state yet, or all of it was read.
 static int read_state(soak *s) {
     FILE *f = s->state ? fopen(s->state, "r") : NULL;
     if (!f) return 1;

@@ -140,7 +140,7 @@ template <class T> class span {
     constexpr T *data() const noexcept { return data_; }
     /** Number of items. */
     constexpr std::size_t size() const noexcept { return size_; }
-    /** True where there are none. */
+    /** True if there are none. */
     constexpr bool empty() const noexcept { return size_ == 0; }
     /** For range-for. */
     constexpr T *begin() const noexcept { return data_; }

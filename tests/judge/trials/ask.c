@@ -73,7 +73,7 @@ double pair_unresolved(const ovoid_pair *pair) {
 
 // --- judging one answer
 
-// The pair at hand, with what its answers have in common.
+// The present pair, with what its answers have in common.
 typedef struct hearing {
     tally *t;
     const ovoid_pair *pair;

@@ -24,7 +24,7 @@ extern const char *trial_failures;
 /// Which proof a warm query is given: any of several kinds, or always the one handed in.
 typedef enum warm_choice { WARM_ANY, WARM_GIVEN } warm_choice;
 
-/// What is known of a pair beforehand.
+/// What is known about a pair before its queries.
 typedef struct trial_hints {
     const ovoid_proof *earlier; ///< a proof of another pose or of another pair, or NULL
     warm_choice warm;

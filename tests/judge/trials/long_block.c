@@ -25,7 +25,7 @@ typedef struct work {
     ovoid_cover cover;
 } work;
 
-// The pair at hand. low and high: what is known of d from the answers of this frame.
+// The present pair. low and high: bounds of d from the answers of this frame.
 typedef struct scene {
     ovoid_pair pair;
     const item *a, *b;
@@ -270,7 +270,7 @@ static scene choose_bodies(const work *w, uint64_t *r) {
     return (scene){.a = a, .b = f->place == PLACE_SAME ? a : b};
 }
 
-// Places the pair anew; where the distance is known, it is the first bracket of the frame.
+// Gives the pair a new pose. If the distance is known, it is the first bracket of the frame.
 static void place_frame(const long_family *f, scene *s, uint64_t *r) {
     double d = place_pair(f, s->a, s->b, &s->pair, r);
     begin_frame(s);

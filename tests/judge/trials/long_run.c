@@ -3,9 +3,9 @@
 //   --queries N (1e9)    stop when so many are done in all, earlier runs included
 //   --seconds S (0)      stop after so many; 0: never
 //   --threads T (1), --sample N (1000: one answer of so many goes before the judge), --seed N (1)
-//   --state FILE         read at the start where it is there, written each minute and at the end: the run goes on
+//   --state FILE         read at the start if it exists, written each minute and at the end: the run goes on
 //   --family NAME, --block N   this block again, and nothing else; open and wide answers are shown too
-// Ctrl-C ends the run after the blocks at hand, and saves. Failures go to the output and, at once, to FILE.failures.
+// Ctrl-C ends the run after the present blocks, and saves. Failures go to the output and, at once, to FILE.failures.
 #include "long_run.h"
 #include "options.h"
 
@@ -107,7 +107,7 @@ static int read_counts(FILE *f, counts *c) {
     return fgetc(f) == '\n';
 }
 
-// 1 where there is no state yet or all of it was read.
+// 1 if there is no state yet, or all of it was read.
 static int read_state(long_run *run) {
     FILE *f = run->state ? fopen(run->state, "r") : NULL;
     if (!f) return 1;

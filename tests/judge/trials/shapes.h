@@ -5,7 +5,7 @@
 
 #include "ovoid/ovoid.h"
 
-/// The seed of the trial at hand, for messages. One for each thread.
+/// The seed of the present trial, for messages. One for each thread.
 extern _Thread_local uint64_t trial_seed;
 
 /// Random numbers, on top of check.h's.
