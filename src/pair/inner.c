@@ -56,11 +56,11 @@ double inner_compute_upper_in_world(const pair_frame *f, vec3 *x) {
     vec3 c = f->a->inner.center, d = frame_world_difference(f, c, f->b->inner.center);
     double reach = a->reach + b->reach;
     if (!(a->least > 0) || !(b->least > 0) || !(vec3_norm_squared(d) < reach * reach)) return 0;
-    vec3 way = mat3_mul_transposed_vec3(f->world, d);
+    vec3 segment = mat3_mul_transposed_vec3(f->world, d);
     int is_common;
-    double share = find_share(norm_of(a, way), norm_of(b, mat3_mul_transposed_vec3(f->world_b, d)), &is_common);
+    double share = find_share(norm_of(a, segment), norm_of(b, mat3_mul_transposed_vec3(f->world_b, d)), &is_common);
     if (!is_common) return 0;
-    *x = vec3_add_scaled(c, way, share);
+    *x = vec3_add_scaled(c, segment, share);
     return inner_compute_upper_at(f, *x);
 }
 

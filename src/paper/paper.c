@@ -74,9 +74,9 @@ static void find_upper(ovoid_paper_bounds *r, const pair_frame *f, const ovoid_n
     p2 = frame_b(f, p2);
 
     // The criterion. Exits that have passed each other along the way from X* to Y* say "collides" as well.
-    vec3 way = vec3_sub(q2, q1);
-    double gap = vec3_norm(way), p1q1 = vec3_norm(vec3_sub(q1, p1)), p2q2 = vec3_norm(vec3_sub(q2, p2));
-    int has_passed = inner->overlap || !(vec3_dot(way, vec3_sub(inner->point_b, inner->point_a)) > 0);
+    vec3 offset = vec3_sub(q2, q1);
+    double gap = vec3_norm(offset), p1q1 = vec3_norm(vec3_sub(q1, p1)), p2q2 = vec3_norm(vec3_sub(q2, p2));
+    int has_passed = inner->overlap || !(vec3_dot(offset, vec3_sub(inner->point_b, inner->point_a)) > 0);
     r->collides = has_passed || !(gap > fmin(fmin(p1q1, p2q2), s->threshold));
     r->upper = fmax((inner->overlap ? 0 : gap) - f->upper_radii, 0);
     r->q1 = frame_point_to_world(f, q1);

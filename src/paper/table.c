@@ -106,9 +106,9 @@ static index_list cull_by_samples(const filler *f, index_list list, const cone *
     for (int s = 0; s < samples; s++)
         for (int t = 0; t < samples; t++) {
             uint32_t w = find_winner(f, list, cone_sample(c, s / (samples - 1.0), t / (samples - 1.0)));
-            int known = 0;
-            while (known < winner_count && winners[known] != w) known++;
-            if (known == winner_count) winners[winner_count++] = w;
+            int slot = 0;
+            while (slot < winner_count && winners[slot] != w) slot++;
+            if (slot == winner_count) winners[winner_count++] = w;
         }
     fill_values(f, list, c);
     for (uint32_t j = 0; j < list.count; j++) {

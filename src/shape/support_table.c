@@ -122,10 +122,10 @@ static void cull(const builder *b, const contest *c, const list *from, list *to)
 
 /// Adds the extreme point at a direction of the cell, unless it is there already.
 static void enter_winner(contest *c, const list *from, vec3 n, uint32_t *winners) {
-    uint32_t w = simd_find_support(from->x, from->y, from->z, padded(from->count), n.x, n.y, n.z).index, known = 0;
-    while (known < c->count && winners[known] != w) known++;
-    if (known < c->count) return;
-    winners[known] = w;
+    uint32_t w = simd_find_support(from->x, from->y, from->z, padded(from->count), n.x, n.y, n.z).index, slot = 0;
+    while (slot < c->count && winners[slot] != w) slot++;
+    if (slot < c->count) return;
+    winners[slot] = w;
     enter(c, from, w);
 }
 

@@ -27,9 +27,9 @@ typedef struct casting {
 } casting;
 
 // Cuts the range of times to those at which the centre is inside the enlarged slab; 0 if none is left.
-static int enter_slab(double low, double high, double from, double way, double range[2]) {
-    if (!(fabs(way) > 0)) return from >= low && from <= high;
-    double a = (low - from) / way, b = (high - from) / way;
+static int enter_slab(double low, double high, double from, double displacement, double range[2]) {
+    if (!(fabs(displacement) > 0)) return from >= low && from <= high;
+    double a = (low - from) / displacement, b = (high - from) / displacement;
     double first = a < b ? a : b, last = a < b ? b : a;
     range[0] = max2(range[0], first - WIDER * fabs(first));
     range[1] = min2(range[1], last + WIDER * fabs(last));
@@ -158,15 +158,15 @@ static ovoid_code cast_body(const ovoid_world *w, const ovoid_world_sweep *sweep
                             ovoid_error *error) {
     OVOID_ASSERT(w && sweep && out);
     const ovoid_world_body *probe = &sweep->probe;
-    vec3 way = sweep->displacement;
+    vec3 displacement = sweep->displacement;
     ovoid_code code = world_validate_body(&probe->body, -1, error);
     if (code != OVOID_OK) return code;
-    if (!is_length(way))
+    if (!is_length(displacement))
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "the displacement is NaN, infinite or too large");
     body_sphere ball = body_compute_sphere(&probe->body);
     box bounds = body_compute_box(&probe->body, &ball);
     vec3 middle = vec3_scale(vec3_add(bounds.min, bounds.max), 0.5);
-    casting c = {.w = w, .origin = middle, .direction = way, .length = 1, .body = probe->body, .out = out};
+    casting c = {.w = w, .origin = middle, .direction = displacement, .length = 1, .body = probe->body, .out = out};
     c.grow = vec3_scale(vec3_sub(bounds.max, bounds.min), 0.5 * (1 + WIDER));
     double slack = 4 * WIDER * vec3_max_abs(middle);
     c.grow = vec3_add(c.grow, (vec3){slack, slack, slack});

@@ -33,9 +33,9 @@ typedef struct ray_search {
 } ray_search;
 
 // Cuts the range of times to those at which a coordinate is between two bounds; 0 if none is left.
-static int enter_slab(double low, double high, double from, double way, double range[2]) {
-    if (!(fabs(way) > 0)) return from >= low && from <= high;
-    double a = (low - from) / way, b = (high - from) / way;
+static int enter_slab(double low, double high, double from, double displacement, double range[2]) {
+    if (!(fabs(displacement) > 0)) return from >= low && from <= high;
+    double a = (low - from) / displacement, b = (high - from) / displacement;
     double first = min2(a, b), last = max2(a, b);
     range[0] = max2(range[0], first - WIDER * fabs(first));
     range[1] = min2(range[1], last + WIDER * fabs(last));
@@ -128,8 +128,8 @@ static void take_crossings(ray_search *state) {
         double first = state->crossing[i].lower, next = state->ray->length;
         for (uint32_t k = i + 1; k < state->count && !(next < state->ray->length); k++)
             if (state->crossing[k].lower > first + 0x1p-30 * size / scale) next = state->crossing[k].lower;
-        for (double way = 0x1p-42 * size / scale; way <= 0x1p-10 * size / scale; way *= 4) {
-            double time = first + way;
+        for (double step = 0x1p-42 * size / scale; step <= 0x1p-10 * size / scale; step *= 4) {
+            double time = first + step;
             if (!(time < next)) break;
             if (!holds(state, time, &at)) continue;
             double lower = state->hit.lower;
@@ -158,11 +158,11 @@ part_hit solid_cast_ray(const ovoid_body *body, const ovoid_ray *ray) {
     return state.hit;
 }
 
-part_hit solid_cast_body(const ovoid_body *body, const ovoid_body *moved, vec3 way) {
+part_hit solid_cast_body(const ovoid_body *body, const ovoid_body *moved, vec3 displacement) {
     const ovoid_motion_options options = {.tolerance = 1e-12, .end = 1};
     const ovoid_motion still = ovoid_motion_make_still(body->pose);
     const ovoid_moving_body a = {body->shape, body->compound, still, body->solid};
-    const ovoid_motion motion = ovoid_motion_make_velocity(moved->pose, way, (vec3){0, 0, 0}, 1);
+    const ovoid_motion motion = ovoid_motion_make_velocity(moved->pose, displacement, (vec3){0, 0, 0}, 1);
     const ovoid_moving_body b = {moved->shape, moved->compound, motion, moved->solid};
     ovoid_body_impact impact = ovoid_body_impact_find(&(ovoid_moving_body_pair){a, b, 0}, &options);
     const ovoid_impact *i = &impact.impact;

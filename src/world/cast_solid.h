@@ -17,7 +17,7 @@ typedef struct part_hit {
 /// The place where a ray first meets a solid; the part is the triangle. The ray must be valid.
 part_hit solid_cast_ray(const ovoid_body *body, const ovoid_ray *ray);
 
-/// When a body that moves along `way`, without rotation, first meets another; at least one of them is a solid.
-part_hit solid_cast_body(const ovoid_body *body, const ovoid_body *moved, vec3 way);
+/// When a body that moves by `displacement`, without rotation, first meets another; at least one of them is a solid.
+part_hit solid_cast_body(const ovoid_body *body, const ovoid_body *moved, vec3 displacement);
 
 #endif

@@ -49,8 +49,8 @@ static void find_room(const ovoid_world *w, uint32_t i) {
     float even = make_float(w->enlargement * (b->reach + b->radius));
     double steps = find_steps(i, b->boxes++);
     for (int k = 0; k < 3; k++) {
-        b->low[k] = w->enlargement > 0 ? even : compute_room(b, -(double)b->way[k], steps);
-        b->high[k] = w->enlargement > 0 ? even : compute_room(b, (double)b->way[k], steps);
+        b->low[k] = w->enlargement > 0 ? even : compute_room(b, -(double)b->displacement[k], steps);
+        b->high[k] = w->enlargement > 0 ? even : compute_room(b, (double)b->displacement[k], steps);
     }
 }
 
@@ -70,9 +70,9 @@ box world_compute_box(ovoid_world *w, uint32_t i) {
 
 // 1 if no point of the body left its enlarged box along an axis: the way of r plus the turns bounds the motion of each
 // point.
-static int is_along(double way, double turn, float low, float high) {
-    double slack = turn + 0x1p-48 * (fabs(way) + turn);
-    return way + slack <= (double)high && slack - way <= (double)low;
+static int is_along(double displacement, double turn, float low, float high) {
+    double slack = turn + 0x1p-48 * (fabs(displacement) + turn);
+    return displacement + slack <= (double)high && slack - displacement <= (double)low;
 }
 
 static int is_in_box(const world_body *b, const body_place *p) {
@@ -143,12 +143,12 @@ static int place_body(ovoid_world *w, uint32_t i, const ovoid_pose *pose) {
     if (is_same_pose(&b->body.pose, pose)) return 0;
     body_sphere ball = body_get_sphere(b);
     double center_error, chord = compute_chord(b->body.pose.rotation, pose->rotation);
-    vec3 at = body_compute_center(&ball, pose, &center_error), way = vec3_sub(at, p->at);
+    vec3 at = body_compute_center(&ball, pose, &center_error), displacement = vec3_sub(at, p->at);
     double turn = (chord * b->reach + (b->center_error + center_error)) * SLACK;
     double travel = p->travel + turn;
-    b->way[0] = (float)way.x;
-    b->way[1] = (float)way.y;
-    b->way[2] = (float)way.z;
+    b->displacement[0] = (float)displacement.x;
+    b->displacement[1] = (float)displacement.y;
+    b->displacement[2] = (float)displacement.z;
     b->turn = (float)turn;
     *p = (body_place){at, travel + travel * 0x1p-51};
     b->center_error = center_error;

@@ -27,15 +27,15 @@ enum { MARK_BOX = 1, MARK_FRESH = 2, MARK_MOVED = 4, MARK_NAMED = 8, MARK_LEFT =
 
 typedef struct world_body {
     ovoid_body body;
-    vec3 local;            ///< r in the body's local frame
-    double reach;          ///< no point of the body without its radius is farther from r
-    double radius;         ///< its rounding radius, with what its allowance adds
-    double size;           ///< bounds all lengths in its local frame
-    double center_error;   ///< error of r at the present pose, length
-    body_place placed;     ///< its place when its box was made,
-    float low[3], high[3]; ///< and how far it may move from there, against and along each axis
-    float way[3], turn;    ///< displacement and rotation of the last move: only a forecast
-    box seen;              ///< MARK_BOX: the box from which the list of pairs was made; empty where MARK_FRESH
+    vec3 local;                  ///< r in the body's local frame
+    double reach;                ///< no point of the body without its radius is farther from r
+    double radius;               ///< its rounding radius, with what its allowance adds
+    double size;                 ///< bounds all lengths in its local frame
+    double center_error;         ///< error of r at the present pose, length
+    body_place placed;           ///< its place when its box was computed
+    float low[3], high[3];       ///< how far it may move from that place, against and along each axis
+    float displacement[3], turn; ///< of the last move: only a forecast of the next one
+    box seen;                    ///< MARK_BOX: the box from which the list of pairs was made; empty if MARK_FRESH
     uint64_t user;
     ovoid_groups groups;
     uint32_t next;  ///< of a free index: the next one; else the number of the body's ignored pairs

@@ -44,9 +44,9 @@ typedef struct search {
     root3 a, b;
     int is_careful;
     double lower, upper;
-    vec3 normal;        ///< of the best lower bound
-    vec3 offset_a, way; ///< of the best upper bound: the point of a from its centre, and on to that of b
-    vec3 p, q;          ///< of the best upper bound: the points in the unit balls
+    vec3 normal;               ///< of the best lower bound
+    vec3 offset_a, difference; ///< of the best upper bound: the point of a from its centre, and from it to that of b
+    vec3 p, q;                 ///< of the best upper bound: the points in the unit balls
     uint32_t rounds;
 } search;
 
@@ -166,12 +166,12 @@ static int take_bracket(search *s, const multipliers *m) {
     }
     vec3 p = vec3_scale(m->p, 1 / fmax(1, m->ma)), q = vec3_scale(m->q, 1 / fmax(1, m->mb));
     vec3 x = root3_map(&s->a, p), y = root3_map(&s->b, q);
-    vec3 way = vec3_sub(vec3_sub(s->pair->d, x), y);
-    double upper = vec3_norm(way);
+    vec3 difference = vec3_sub(vec3_sub(s->pair->d, x), y);
+    double upper = vec3_norm(difference);
     if (upper < s->upper) {
         s->upper = upper;
         s->offset_a = x;
-        s->way = way;
+        s->difference = difference;
         s->p = p;
         s->q = q;
         is_better = 1;
@@ -301,7 +301,7 @@ static ovoid_nearest make_overlapping(const ovoid_ellipsoid *a, const ovoid_elli
 static ovoid_nearest make_answer(const ovoid_ellipsoid *a, const ovoid_ellipsoid *b, const search *s) {
     ovoid_nearest r = {.normal = s->normal, .iterations = s->rounds};
     r.point_a = vec3_add_scaled(a->center, s->offset_a, s->pair->unit);
-    r.point_b = vec3_add_scaled(r.point_a, s->way, s->pair->unit);
+    r.point_b = vec3_add_scaled(r.point_a, s->difference, s->pair->unit);
     r.distance = vec3_norm(vec3_sub(r.point_b, r.point_a));
     r.lower = fmin(ellipsoids_compute_gap(a, b, r.normal), r.distance);
     return r;

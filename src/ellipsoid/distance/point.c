@@ -59,12 +59,12 @@ static ovoid_nearest compute_nearest_to_point(const ovoid_ellipsoid *ellipsoid, 
     double t = find_root(square, y, &r.iterations);
     vec3 x = {y.x * find_share(square[0], t, square[0]), y.y * find_share(square[1], t, square[1]),
               y.z * find_share(square[2], t, square[2])};
-    vec3 way = {y.x * find_share(t, t, square[0]), y.y * find_share(t, t, square[1]),
-                y.z * find_share(t, t, square[2])};
-    if (!(t > 0)) way = vec3_sub(y, x);
+    vec3 difference = {y.x * find_share(t, t, square[0]), y.y * find_share(t, t, square[1]),
+                       y.z * find_share(t, t, square[2])};
+    if (!(t > 0)) difference = vec3_sub(y, x);
 
-    r.overlap = !(vec3_norm_squared(way) > 0);
-    vec3 n = r.overlap ? find_outward(square, y) : vec3_unit(way);
+    r.overlap = !(vec3_norm_squared(difference) > 0);
+    vec3 n = r.overlap ? find_outward(square, y) : vec3_unit(difference);
     r.normal = vec3_unit(mat3_mul_transposed_vec3(axes.v, n));
     r.point_a = point;
     if (!r.overlap) r.point_a = vec3_add_scaled(ellipsoid->center, mat3_mul_transposed_vec3(axes.v, x), p.unit);
