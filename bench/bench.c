@@ -119,7 +119,7 @@ static int run_table(const settings *how) {
     return good && unproven == 0;
 }
 
-/// "8,16": 0 if it is not such a list, or longer than `most`.
+/// Reads a list like "8,16"; 0 if it is not one, or longer than `most`.
 static int read_list(const char *text, uint32_t *items, uint32_t most, uint32_t *count) {
     *count = 0;
     while (*text) {

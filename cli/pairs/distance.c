@@ -36,7 +36,7 @@ static const cli_option options[] = {
     {0},
 };
 
-/// Where the report is written, and the unit of its lengths, with a blank before it; "" for none.
+/// The file of the report, and the unit of its lengths with a blank before it, or "".
 typedef struct report {
     FILE *file;
     char unit[8];

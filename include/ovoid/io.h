@@ -202,7 +202,7 @@ OVOID_API ovoid_named_shape ovoid_shapes_get(const ovoid_shapes *shapes, size_t 
  *     "capsule": {"radius", "length"}, the length of its segment
  *     "cylinder" or "cone": {"radius", "length", "sides"}, 32 sides by default
  *     "points": [[x, y, z], ...]
- *     "compound": [part, ...], each like an object, without a name, not itself such a list
+ *     "compound": [part, ...], each like an object, without a name and not a compound itself
  *
  * Optional: "pose": {"xyz", and "quat_wxyz" or "rpy"}; "radius", a rounding radius around the body; for meshes and
  * points "scale", and "unit", from which they are converted to that of the scene (to metres where it names none); for

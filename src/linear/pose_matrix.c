@@ -7,7 +7,7 @@
 // diagonal entry is the safe one (S. W. Shepperd, Quaternion from rotation matrix, 1978; F. L. Markley, Unit quaternion
 // from rotation matrix, 2008). That column is multiplied by K + 1 three more times, the power method.
 //
-// Error, with u = 2^-53 and t = OVOID_ROTATION_TOLERANCE. Where no entry of M'M - 1 is above t, |M - R| <= 1.5 t (1 +
+// Error, with u = 2^-53 and t = OVOID_ROTATION_TOLERANCE. If no entry of M'M - 1 is above t, |M - R| <= 1.5 t (1 +
 // t) in the operator norm for the nearest rotation R, so K + 1 is off 4 q q' by at most 2 sqrt(3) 1.5 t < 5.3 t: the
 // power method gains a factor 5.3 t / 3.9 a step and starts within 2.7 t, hence ends within 7e-20. Rounding of K + 1: 9
 // u an entry of the diagonal, 2 u beside it, together below 20 u, which turns the eigenvector by 20 u / 3.9. The last

@@ -67,7 +67,7 @@ thickness surface_compute_thickness(const surface *s, const double *grid, uint32
 
 // ---- joining triangles ----
 
-// What is known of a triangle before triangles are joined.
+// What is known about a triangle before triangles are joined.
 enum { TRIANGLE_PLAIN = 0, TRIANGLE_NEAR = 1, TRIANGLE_SLIVER = 2 };
 
 typedef struct joiner {

@@ -69,7 +69,7 @@ typedef struct builder {
     array facets, free;     // facet, uint32_t
     array visible, horizon; // uint32_t, edge
     uint32_t first, last;   // of the queue of facets with points above
-    uint32_t top, few;      // of the stack of such facets with at most `few` points
+    uint32_t top, few;      // of the stack of facets with at most `few` points above
     uint32_t stamp;
     vec3 size; // of the points' box, rounded up
 } builder;

@@ -217,7 +217,7 @@ class areas : public detail::owner<detail::pointer<ovoid_areas>, ovoid_areas, ov
     }
     /** The size of the tables. */
     ovoid_area_counts counts() const noexcept { return ovoid_areas_get_counts(get()); }
-    /** Where the ray from the ellipsoid's centre leaves. */
+    /** The point at which the ray from the ellipsoid's centre leaves the polyhedron. */
     ovoid_exit find_exit(const vec3 &direction, const vec3 &toward, ovoid_area_rule rule) const noexcept {
         return ovoid_areas_find_exit(get(), direction, toward, rule);
     }
