@@ -109,7 +109,9 @@ static void set_insides(compiler *state) {
             items[i].inside = robot_get_inside(c->robot, items[i].side.element);
             continue;
         }
-        if (shape_inside_find(items[i].shape, items[i].solid, point, next) != OVOID_OK) state->has_memory = 0;
+        if (shape_inside_find(items[i].shape, items[i].solid, point, next) != OVOID_OK ||
+            !outer_balls_find(items[i].shape, &c->allocator, &next->outer))
+            state->has_memory = 0;
         items[i].inside = next++;
     }
     ovoid_shape_destroy(point);

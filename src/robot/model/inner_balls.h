@@ -8,6 +8,7 @@
 #define OVOID_ROBOT_MODEL_INNER_BALLS_H
 
 #include "ovoid/body.h"
+#include "robot/model/outer_balls.h"
 #include "shape/block.h"
 #include "simd/robot/robot8.h"
 
@@ -17,16 +18,19 @@ static inline ovoid_shape *shape_create_point(const ovoid_allocator *memory) {
     return ovoid_shape_create_from_points(origin, 1, &(ovoid_shape_options){.allocator = memory}, NULL);
 }
 
-/// What is known to lie inside a shape, or inside the solid that it is the hull of, in its user's frame.
+/// What is known to lie inside a shape, or inside the solid that it is the hull of, and what holds it, in its user's
+/// frame.
 typedef struct shape_inside {
     inner_balls balls; ///< radius and allowance counted; none: radii that nothing meets
     inner_region region;
     double most, least; ///< radii of the balls
     double size;        ///< the lengths that centres are made of, summed
     double gap;         ///< ovoid_solid_compute_hull_gap of a solid; 0: the shape is the body
+    outer_balls outer;  ///< of an element or an attached body; an obstacle has none
 } shape_inside;
 /// solid: NULL, or the body; nothing is inside a surface. point: a shape that is a point at its frame's origin. Cost:
-/// some hundred passes over the facets, and some tens of distances from the solid's surface. MEMORY, or OK.
+/// some hundred passes over the facets, and some tens of distances from the solid's surface. All but `outer` is set.
+/// MEMORY, or OK.
 ovoid_code shape_inside_find(const ovoid_shape *shape, const ovoid_solid *solid, const ovoid_shape *point,
                              shape_inside *inside);
 

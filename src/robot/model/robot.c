@@ -202,6 +202,8 @@ static ovoid_code find_insides(ovoid_robot *r, ovoid_error *error) {
         if (i > 0 && compare_uses(&uses[i], &uses[i - 1]) == 0) continue;
         shape_inside *inside = &r->insides[r->element_inside[uses[i].element]];
         code = shape_inside_find(uses[i].shape, uses[i].solid, point, inside);
+        if (code == OVOID_OK && !outer_balls_find(uses[i].shape, &r->allocator, &inside->outer))
+            code = OVOID_ERROR_MEMORY;
     }
     allocator_release(&r->allocator, uses);
     ovoid_shape_destroy(point);
