@@ -63,7 +63,8 @@ typedef struct ovoid_robot_path_options {
     ovoid_watch watch; /**< asked before each state. If it stops the call: as if `states` were used up */
     int any_hit; /**< 1: any hit ends the search: some states are checked before anything is proven. Then hit_at need
                     not be the first hit, and free_until is what was proven so far, often 0. The answer whether the path
-                    is free is the same as without it, and sooner if it is not */
+                    is free is the same as without it, and sooner if it is not. Without `steps`, covers prove most of
+                    it: sooner in both cases, if the bodies move far (docs/robot-path.md) */
 } ovoid_robot_path_options;
 
 /** A query of a path. */
@@ -83,8 +84,9 @@ typedef struct ovoid_robot_path_answer {
         refused; /**< REFUSED: the number of the refused state, or of the state at which the refused segment begins */
     ovoid_robot_answer
         hit; /**< HIT: of the state at hit_at; UNDECIDED: the pair, and its bracket where it was last measured */
-    uint32_t states;   /**< states checked */
-    size_t step_count; /**< steps that prove free_until; if more than the capacity, the others were not written */
+    uint32_t states;   /**< states checked one by one; covers check none */
+    size_t step_count; /**< steps that prove free_until; if more than the capacity, the others were not written. With
+                          any_hit and without `steps`: 0, because covers write none */
 } ovoid_robot_path_answer;
 
 /**
@@ -93,7 +95,7 @@ typedef struct ovoid_robot_path_answer {
  * includes rounding, and is of second order along one normal. A segment along which a floating joint turns is refused
  * (ARGUMENT), as interpolated quaternion numbers are not a motion. Errors: ARGUMENT (options, no states, too many),
  * MEMORY; then *answer is UNDECIDED. The checker keeps the search's memory: only the first path after a change of the
- * cell allocates. Cost: some tens of states a segment.
+ * cell allocates, and the first one with any_hit and without steps. Cost: some tens of states a segment.
  */
 OVOID_API ovoid_code ovoid_robot_path_find_hit(ovoid_robot_checker *checker, const ovoid_robot_path_query *query,
                                                ovoid_robot_path_answer *answer, ovoid_error *error);

@@ -25,8 +25,7 @@ static double get_place(uint32_t i) {
     return place;
 }
 
-// Is the checker's pair within the margin at t of the exact path too?
-static int is_hit_on_path(const path_any_hit *search, double t, uint32_t number, ovoid_robot_answer *hit) {
+int path_is_pair_hit_at(const path_any_hit *search, double t, uint32_t number, ovoid_robot_answer *hit) {
     path_work *w = search->w;
     pair_parts of = pair_take_apart(w->cell, number);
     path_compute_frames(w, search->q0, search->q1, t, &search->state);
@@ -46,23 +45,23 @@ static int is_hit_on_path(const path_any_hit *search, double t, uint32_t number,
     return upper <= margin;
 }
 
-double path_find_any_hit(const path_any_hit *search, uint32_t *states, ovoid_robot_answer *hit) {
+int path_is_any_hit_at(const path_any_hit *search, double t, ovoid_robot_answer *hit) {
     const ovoid_robot *r = search->w->cell->robot;
     ovoid_robot_query_options options = *search->options;
+    ovoid_robot_answer answer;
     // Between two states that are within their limits rounding may leave them.
     options.limit_slack = INFINITY;
+    for (uint32_t k = 0; k < r->variable_count; k++)
+        search->w->state[k] = t == 1 ? search->q1[k] : search->q0[k] + t * (search->q1[k] - search->q0[k]);
+    return collide_state(search->checker, search->w->state, &options, &answer) && answer.status == OVOID_ROBOT_HIT &&
+           path_is_pair_hit_at(search, t, checker_get_last_number(search->checker), hit);
+}
+
+double path_find_any_hit(const path_any_hit *search, uint32_t *states, ovoid_robot_answer *hit) {
     uint32_t count = count_states(search->w);
     for (uint32_t i = 0; i < count; i++) {
-        double t = get_place(i);
-        uint32_t number;
-        ovoid_robot_answer answer;
-        for (uint32_t k = 0; k < r->variable_count; k++)
-            search->w->state[k] = t == 1 ? search->q1[k] : search->q0[k] + t * (search->q1[k] - search->q0[k]);
         ++*states;
-        if (!collide_state(search->checker, search->w->state, &options, &answer) || answer.status != OVOID_ROBOT_HIT)
-            continue;
-        number = checker_get_last_number(search->checker);
-        if (is_hit_on_path(search, t, number, hit)) return t;
+        if (path_is_any_hit_at(search, get_place(i), hit)) return get_place(i);
     }
     return INFINITY;
 }

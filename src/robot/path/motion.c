@@ -26,8 +26,7 @@ static int allocate_block(const path_work *w, void **block, const block_part *pa
     return 1;
 }
 
-// The step that makes each frame; NONE for the root's.
-static void find_makers(const path_work *w, uint32_t *maker) {
+void path_work_find_makers(const path_work *w, uint32_t *maker) {
     for (uint32_t i = 0; i < w->cell->frame_count; i++) maker[i] = OVOID_ROBOT_NONE;
     for (uint32_t i = 0; i < w->step_count; i++) maker[w->steps[i].child] = i;
 }
@@ -97,7 +96,7 @@ static int make_work(path_work *w, uint32_t *maker) {
     const ovoid_robot_cell *c = w->cell;
     if (!allocate_steps(w)) return 0;
     set_steps(w);
-    find_makers(w, maker);
+    path_work_find_makers(w, maker);
     if (!allocate_rest(w, maker)) return 0;
     // The padding is turned like the rest.
     memset(w->values, 0, w->padded * sizeof *w->values);

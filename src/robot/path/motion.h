@@ -65,6 +65,8 @@ typedef struct path_work {
 ovoid_code path_work_create(path_work *w, const ovoid_robot_cell *cell, const ovoid_allocator *allocator,
                             ovoid_error *error);
 void path_work_destroy(path_work *w);
+/// The step that makes each frame; NONE for the root's.
+void path_work_find_makers(const path_work *w, uint32_t *maker);
 
 /// The segment from q0 to q1: speeds and errors. The codes of a refused state, and ARGUMENT: a floating joint moves.
 ovoid_code path_set_segment(path_work *w, const double *q0, const double *q1, double limit_slack, ovoid_error *error);
@@ -170,6 +172,10 @@ typedef struct path_any_hit {
     const double *q0, *q1;
     path_state state; ///< memory
 } path_any_hit;
+/// 1 where the pair of that number is within the margin at t of the exact path; *hit says how far it is apart.
+int path_is_pair_hit_at(const path_any_hit *search, double t, uint32_t number, ovoid_robot_answer *hit);
+/// 1 where the state at t hits; *hit says what.
+int path_is_any_hit_at(const path_any_hit *search, double t, ovoid_robot_answer *hit);
 /// The time of a hit, 0 to 1, or infinity: none was found. *states grows by the states looked at.
 double path_find_any_hit(const path_any_hit *search, uint32_t *states, ovoid_robot_answer *hit);
 

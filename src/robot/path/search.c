@@ -1,7 +1,7 @@
 // Is a path free? Intervals are halved, the earlier half first, until each pair of bodies is proven apart over each of
 // them, or the first hit is between two times that are near each other. What an interval dismisses its halves do not
 // look at again.
-#include "robot/path/motion.h"
+#include "robot/path/cover.h"
 
 #include "base/compiler.h"
 #include "base/environment.h"
@@ -16,8 +16,10 @@ enum { LEVELS = 31 }; // so begin, end and middle of an interval are exact numbe
 // What is between the bits of the masks: eights of parts for each item, then eights of pairs of items.
 struct path_memory {
     path_work w;
+    path_cover cover;
     uint32_t groups;
     size_t mask_count, state_size;
+    uint8_t *queried; // the masks of all pairs that are queried
     uint8_t *masks;   // of each level
     uint8_t *is_open; // of each item: it has open pairs
     char *states;     // the middle's of each level, then those of the segment's ends, and of a state ahead
@@ -25,7 +27,7 @@ struct path_memory {
 
 typedef struct path_search {
     path_work *w;
-    const path_memory *memory;
+    path_memory *memory;
     ovoid_robot_checker *checker;
     const ovoid_robot_path_options *options;
     ovoid_robot_path_answer *answer;
@@ -351,18 +353,13 @@ static int visit(path_search *s, uint32_t level, double begin, double end, const
 
 // ---- a path
 
-// All pairs that are queried, at level 0.
-static void open_all(path_search *s) {
-    const ovoid_robot_cell *c = s->w->cell;
+// The pairs that the options leave of all that are queried.
+static void open_all(const path_search *s, uint8_t *masks) {
     const ovoid_robot_query_options *o = &s->options->query;
-    uint8_t *masks = get_masks(s, 0);
-    memset(masks, 0, s->memory->mask_count);
-    for (uint32_t item = 0; !o->without_obstacles && item < c->items.count; item++)
-        for (uint32_t part = 0; part < c->parts.count; part++)
-            masks[item * s->memory->groups + part / ROBOT8] |=
-                (uint8_t)(path_is_queried(s->w, item, part) << part % ROBOT8);
-    for (uint32_t k = 0; !o->without_self && k < c->pairs.count; k++)
-        masks[c->items.count * s->memory->groups + k / ROBOT8] |= (uint8_t)(1u << k % ROBOT8);
+    size_t parts = s->w->cell->items.count * s->memory->groups;
+    memcpy(masks, s->memory->queried, s->memory->mask_count);
+    if (o->without_obstacles) memset(masks, 0, parts);
+    if (o->without_self) memset(masks + parts, 0, s->memory->mask_count - parts);
 }
 
 static ovoid_code set_segment(path_search *s, size_t index, const ovoid_robot_path *path, ovoid_error *refused) {
@@ -394,24 +391,83 @@ static int find_any_hit(path_search *s, const ovoid_robot_path *path, size_t seg
     return 0;
 }
 
-static int run_segment(path_search *s, size_t index, const ovoid_robot_path *path, ovoid_error *refused) {
+static int refuse_segment(path_search *s, size_t index, ovoid_code code, const ovoid_error *refused) {
     ovoid_robot_path_answer *a = s->answer;
-    ovoid_code code = set_segment(s, index, path, refused);
-    if (code != OVOID_OK) {
-        a->status = OVOID_ROBOT_REFUSED;
-        a->hit.status = OVOID_ROBOT_REFUSED;
-        a->hit.code = code;
-        a->hit.variable = (uint32_t)refused->place;
-        a->refused = index;
+    a->status = OVOID_ROBOT_REFUSED;
+    a->hit.status = OVOID_ROBOT_REFUSED;
+    a->hit.code = code;
+    a->hit.variable = (uint32_t)refused->place;
+    a->refused = index;
+    return 0;
+}
+
+// Searches an interval of the segment for what is open at level 0.
+static int run_open(path_search *s, double begin, double end) {
+    path_state at_begin = get_state(s, LEVELS), at_end = get_state(s, LEVELS + 1);
+    s->is_still = path_is_still(s->w);
+    path_compute_state(s->w, s->q0, s->q1, begin, &at_begin);
+    path_compute_state(s->w, s->q0, s->q1, end, &at_end);
+    return visit(s, 0, begin, end, &at_begin, &at_end);
+}
+
+static void end_segment(path_search *s, size_t index, const ovoid_robot_path *path) {
+    s->answer->free_until = index + 1 < path->count ? s->segment + 1 : s->segment;
+}
+
+static int run_segment(path_search *s, size_t index, const ovoid_robot_path *path) {
+    ovoid_error refused;
+    ovoid_code code = set_segment(s, index, path, &refused);
+    if (code != OVOID_OK) return refuse_segment(s, index, code, &refused);
+    open_all(s, get_masks(s, 0));
+    if (!run_open(s, 0, 1)) return 0;
+    end_segment(s, index, path);
+    return 1;
+}
+
+// ---- a path by covers
+
+static int uses_covers(const ovoid_robot_path_options *o) { return o->any_hit && !o->steps; }
+
+// Covers first; what they leave is searched. 0: the path is not free, or not shown to be.
+static int run_covered(path_search *s, size_t index, const ovoid_robot_path *path) {
+    ovoid_error refused;
+    path_cover *cover = &s->memory->cover;
+    s->set_segment = 0;
+    ovoid_code code = set_segment(s, index, path, &refused);
+    if (code != OVOID_OK) return refuse_segment(s, index, code, &refused);
+    uint8_t *queried = get_masks(s, 0), *left = get_masks(s, 1);
+    open_all(s, queried);
+    path_any_hit hits = {s->w, s->checker, &s->options->query, s->q0, s->q1, get_state(s, LEVELS + 2)};
+    path_cover_set_segment(cover, &(cover_segment){.q0 = s->q0,
+                                                   .q1 = s->q1,
+                                                   .margin = s->margin,
+                                                   .queried = queried,
+                                                   .left = left,
+                                                   .mask_groups = s->memory->groups,
+                                                   .mask_count = s->memory->mask_count,
+                                                   .hits = &hits});
+    int is_free = path_cover_refine(cover, path_cover_look(cover));
+    if (cover->hit_at < INFINITY) {
+        s->answer->states++;
+        end_with(s, 0, cover->hit_at, &cover->hit);
         return 0;
     }
-    s->is_still = path_is_still(s->w);
-    path_state begin = get_state(s, LEVELS), end = get_state(s, LEVELS + 1);
-    path_compute_state(s->w, s->q0, s->q1, 0, &begin);
-    path_compute_state(s->w, s->q0, s->q1, 1, &end);
-    open_all(s);
-    if (!visit(s, 0, 0, 1, &begin, &end)) return 0;
-    a->free_until = index + 1 < path->count ? s->segment + 1 : s->segment;
+    if (!is_free) {
+        memcpy(queried, left, s->memory->mask_count);
+        if (!run_open(s, cover->begin, cover->end)) return 0;
+    }
+    end_segment(s, index, path);
+    return 1;
+}
+
+// 1: the path was decided, and all but free_until of a hit is as without covers.
+static int run_all_covered(path_search *s, const ovoid_robot_path *path, size_t segments) {
+    for (size_t i = 0; i < segments; i++) {
+        if (watch_is_stopped(&s->options->watch) || s->answer->states >= s->states_most) return 0;
+        if (run_covered(s, i, path)) continue;
+        if (s->answer->status == OVOID_ROBOT_UNDECIDED) return 0;
+        break;
+    }
     return 1;
 }
 
@@ -432,17 +488,30 @@ static void destroy_memory(path_memory *m) {
     ovoid_allocator memory = m->w.allocator;
     allocator_release(&memory, m->masks);
     allocator_release(&memory, m->states);
+    path_cover_destroy(&m->cover);
     path_work_destroy(&m->w);
     allocator_release(&memory, m);
+}
+
+static void find_queried(path_memory *m, const ovoid_robot_cell *c) {
+    memset(m->queried, 0, m->mask_count);
+    for (uint32_t item = 0; item < c->items.count; item++)
+        for (uint32_t part = 0; part < c->parts.count; part++)
+            m->queried[item * m->groups + part / ROBOT8] |=
+                (uint8_t)(path_is_queried(&m->w, item, part) << part % ROBOT8);
+    for (uint32_t k = 0; k < c->pairs.count; k++)
+        m->queried[c->items.count * m->groups + k / ROBOT8] |= (uint8_t)(1u << k % ROBOT8);
 }
 
 static int allocate(path_memory *m, const ovoid_robot_cell *c) {
     m->groups = (uint32_t)c->boxes.count;
     m->mask_count = c->items.count * m->groups + (c->pairs.count + ROBOT8 - 1) / ROBOT8;
     m->state_size = path_get_state_size(c);
-    m->masks = allocator_allocate(&m->w.allocator, m->mask_count * (LEVELS + 1) + c->items.count + 1, 1);
+    m->masks = allocator_allocate(&m->w.allocator, m->mask_count * (LEVELS + 2) + c->items.count + 1, 1);
     m->states = allocator_allocate(&m->w.allocator, LEVELS + 3, m->state_size);
-    m->is_open = m->masks ? m->masks + m->mask_count * (LEVELS + 1) : NULL;
+    m->queried = m->masks ? m->masks + m->mask_count * (LEVELS + 1) : NULL;
+    m->is_open = m->masks ? m->queried + m->mask_count : NULL;
+    if (m->masks) find_queried(m, c);
     return m->masks && m->states;
 }
 
@@ -466,6 +535,12 @@ static ovoid_code get_memory(ovoid_robot_checker *checker, ovoid_error *error) {
     return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for a path");
 }
 
+// The memory of covers, made for the first path that they prove.
+static ovoid_code get_cover(path_memory *m, ovoid_error *error) {
+    if (m->cover.block || path_cover_create(&m->cover, &m->w)) return OVOID_OK;
+    return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for the balls around a robot");
+}
+
 // The answer's hit as its check finds it again. What is within rounding of the margin may be none then.
 static void settle_hit(path_search *s, const ovoid_robot_path *path) {
     ovoid_robot_path_answer *a = s->answer;
@@ -482,13 +557,19 @@ static void settle_hit(path_search *s, const ovoid_robot_path *path) {
 }
 
 static void search(path_search *s, const ovoid_robot_path *path) {
-    ovoid_error refused;
     size_t segments = path->count > 1 ? path->count - 1 : 1;
+    const ovoid_robot_path_answer empty = *s->answer;
     s->answer->status = OVOID_ROBOT_FREE;
     int has_pairs = cell_has_pairs(s->w->cell, &s->options->query);
+    if (uses_covers(s->options) && has_pairs) {
+        if (run_all_covered(s, path, segments)) return;
+        *s->answer = empty;
+        s->answer->status = OVOID_ROBOT_FREE;
+        s->set_segment = 0;
+    }
     if (s->options->any_hit && has_pairs && find_any_hit(s, path, segments)) return;
     for (size_t i = 0; i < segments; i++)
-        if (!run_segment(s, i, path, &refused)) return;
+        if (!run_segment(s, i, path)) return;
     if (has_pairs) return;
     s->answer->status = OVOID_ROBOT_UNDECIDED;
     s->answer->free_until = 0;
@@ -504,6 +585,7 @@ static ovoid_code find_hit(ovoid_robot_checker *checker, const ovoid_robot_path_
     ovoid_code code = validate_options(path, options, error);
     if (code == OVOID_OK) code = checker_renew(checker, error);
     if (code == OVOID_OK) code = get_memory(checker, error);
+    if (code == OVOID_OK && uses_covers(options)) code = get_cover(checker->path, error);
     if (code != OVOID_OK) return code;
     path_search s = {.w = &checker->path->w,
                      .memory = checker->path,
@@ -515,6 +597,8 @@ static ovoid_code find_hit(ovoid_robot_checker *checker, const ovoid_robot_path_
                      .states_most = options->states ? options->states : 100000};
     search(&s, path);
     settle_hit(&s, path);
+    // What covers prove has no steps; so that the count does not depend on what proved more, it is of those asked for.
+    if (uses_covers(options)) answer->step_count = 0;
     return OVOID_OK;
 }
 

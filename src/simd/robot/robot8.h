@@ -4,6 +4,7 @@
 #define OVOID_SIMD_ROBOT_ROBOT8_H
 
 #include "linear/rotation.h"
+#include "simd/robot/cover8.h"
 #include "simd/support.h"
 
 enum { ROBOT8 = 8 };
@@ -96,6 +97,26 @@ typedef struct robot8_kernels {
     /// The greatest (r + s)^2 - distance^2, by the sum's sign, of a ball of the first body and all of the second's, r
     /// and s their radii: of the first ball of which it is above zero, or of all balls that meet `around`.
     double (*balls_in_balls)(const inner_balls *a, const inner_region *around, const inner_balls *b);
+    /// The rates of the frames that move, times half of each lane's interval; those of still ones are zero before.
+    void (*rates)(const rate_chain *chain, const double half[ROBOT8], rate8 *rates);
+    /// The motion of a point of a link, to the second order.
+    void (*move)(const moving8 *link, const double center[3], motion8 *motion);
+    /// The box around a moving point in all lanes; of numbers only.
+    void (*enclose)(const motion8 *motion, double low[3], double high[3]);
+    /// For each box one bit for each lane in which a ball around the moving point is not proven to stay away. reach:
+    /// its radius, what the point leaves its second order by, and what rounding does to it.
+    void (*near_moving)(const cover_boxes *boxes, const motion8 *motion, const double reach[ROBOT8],
+                        unsigned char *near);
+    /// The same for two balls; reach: both radii, and what both leave.
+    unsigned (*near_points)(const motion8 *a, const motion8 *b, const double reach[ROBOT8]);
+    /// The same for a point of a body, both seen from the body's frame.
+    unsigned (*near_point)(const motion8 *motion, const motion8 *point, const moving8 *body,
+                           const double reach[ROBOT8]);
+    /// The same for the body between slabs.
+    unsigned (*near_slabs)(const motion8 *motion, const moving8 *body, const body_slabs *slabs,
+                           const double reach[ROBOT8]);
+    /// The same for the vertices of a body along a normal; reach: what both bodies stand out of their vertices.
+    unsigned (*near_hull)(const moving_hull *hull, const double reach[ROBOT8]);
 } robot8_kernels;
 
 /// The kernels of the widest instruction set of this machine.

@@ -3,11 +3,11 @@
 
 #include "simd/robot/robot8_kernel.h"
 
+#include "simd/robot/cover8_kernel.h"
+
 #include <stddef.h>
 
-static const robot8_kernels scalar = {run_chain,           run_place,         run_half_turns,        run_near_boxes,
-                                      run_near_boxes8,     run_near_spheres,  run_near_linked_boxes, run_place_balls,
-                                      run_balls_in_region, run_balls_in_balls};
+static const robot8_kernels scalar = ROBOT8_KERNELS;
 
 const robot8_kernels *robot8_get_kernels_of(simd_isa isa) {
     switch (isa) {
