@@ -10,8 +10,8 @@ int epa_lanes_serve(const search *s) {
     return size > 0x1p-100 && size < 0x1p100;
 }
 
-static simd_difference find(const void *bodies, double x, double y, double z) {
-    frame_support w = probe_measure(bodies, (vec3){-x, -y, -z});
+static simd_difference find(const void *bodies, vec3 n) {
+    frame_support w = probe_measure(bodies, vec3_neg(n));
     return (simd_difference){w.gap, w.w.x, w.w.y, w.w.z, w.a, w.b};
 }
 
@@ -28,8 +28,7 @@ epa8_end epa_lanes_grow(epa8 *lanes, const prober *p, const simplex *points, dou
     epa8_end end = epa8_grow(lanes, &query);
     if (end == EPA8_FLAT) return end;
     double lower = s->lower;
-    const double *n = lanes->best_n;
-    search_take_gap(s, (vec3){-n[0], -n[1], -n[2]}, lanes->best_gap);
+    search_take_gap(s, vec3_neg(lanes->best_n), lanes->best_gap);
     if (s->lower > lower) s->stage = OVOID_STAGE_EPA;
     // The support that ends the growth is not counted; epa.c does not count it either.
     s->iterations += lanes->points - EPA8_START;

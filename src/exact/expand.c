@@ -57,7 +57,7 @@ static void set_ring(expansion *p, uint16_t apex) {
             vec3 e = vec3_sub(p->w[p->f[p->ring[at]].v[1]], w);
             c->edge[0][i] = e.x, c->edge[1][i] = e.y, c->edge[2][i] = e.z;
         }
-        simd_compute_cone(c, count, w.x, w.y, w.z);
+        simd_compute_cone(c, count, w);
         for (uint32_t i = 0; i < count; i++) {
             uint16_t g = p->ring[first + i];
             take_lane(p, &p->f[g], i);

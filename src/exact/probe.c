@@ -14,25 +14,24 @@ void prober_make(prober *p, search *s, int is_steady) {
     if (!p->is_posed) return;
     mat3 r = f->rotation;
     vec3 t = f->translation;
-    double *x = p->posed, *y = x + count, *z = y + count;
+    double *to[3] = {p->posed, p->posed + count, p->posed + 2 * (size_t)count};
     simd_pose_points(&p->b, (const double[]){r.r0.x, r.r0.y, r.r0.z, r.r1.x, r.r1.y, r.r1.z, r.r2.x, r.r2.y, r.r2.z},
-                     (const double[]){t.x, t.y, t.z}, x, y, z);
-    p->b = (simd_points){x, y, z, count};
+                     (const double[]){t.x, t.y, t.z}, to);
+    p->b = (simd_points){to[0], to[1], to[2], count};
 }
 
 // For many supports of small bodies: reading all vertices in order touches less memory than the cells of a table.
 static frame_support find_small(const prober *p, vec3 n) {
     const pair_frame *f = p->s->frame;
     vec3 in_b = vec3_neg(mat3_mul_transposed_vec3(f->rotation, n));
-    double up[3] = {n.x, n.y, n.z}, down[3] = {in_b.x, in_b.y, in_b.z};
-    simd_pair ends = simd_find_pair(&p->a, up, &p->b, down);
+    simd_pair ends = simd_find_pair(&p->a, n, &p->b, in_b);
     double gap = (vec3_dot(n, f->translation) - ends.low.value) - ends.high.value;
     return (frame_support){ends.high.index, ends.low.index, gap, frame_difference(f, ends.high.index, ends.low.index)};
 }
 
 frame_support probe_measure(const prober *p, vec3 n) {
     if (p->is_posed) {
-        simd_difference d = simd_find_difference(&p->a, &p->b, n.x, n.y, n.z);
+        simd_difference d = simd_find_difference(&p->a, &p->b, n);
         return (frame_support){d.a, d.b, d.gap, {d.x, d.y, d.z}};
     }
     return p->is_small ? find_small(p, n) : frame_find_support(p->s->frame, n);

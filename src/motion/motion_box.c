@@ -24,14 +24,12 @@ static void find_extents(const motion_body *b, double time, extent low, extent h
     mat3 r = quat_to_mat3(pose.rotation);
     vec3 at = vec3_add(pose.position, mat3_mul_vec3(r, shape->origin));
     const vec3 rows[3] = {r.r0, r.r1, r.r2};
+    simd_points points = shape_get_points(shape);
     double error = shift + 64 * ROUNDING * (b->reach + shape->lower_radius + 2 * vec3_max_abs(pose.position)) +
                    OVOID_LENGTH_MIN + shape->lower_radius;
     for (int i = 0; i < 3; i++) {
-        vec3 m = rows[i];
-        support_result up =
-            simd_find_support(shape_x(shape), shape_y(shape), shape_z(shape), shape->padded_count, m.x, m.y, m.z);
-        support_result down =
-            simd_find_support(shape_x(shape), shape_y(shape), shape_z(shape), shape->padded_count, -m.x, -m.y, -m.z);
+        support_result up = simd_find_support(&points, rows[i]);
+        support_result down = simd_find_support(&points, vec3_neg(rows[i]));
         high[i] = (get_coordinate(at, i) + up.value) + error;
         low[i] = (get_coordinate(at, i) - down.value) - error;
     }

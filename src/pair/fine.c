@@ -44,7 +44,8 @@ dd3 fine_difference(const fine_frame *f, uint32_t a, uint32_t b) {
 static uint32_t find_extreme(const ovoid_shape *s, dd3 m, dd *largest) {
     vec3 n = dd3_high(m);
     const double *v = shape_vertices(s);
-    support_result top = simd_find_support(shape_x(s), shape_y(s), shape_z(s), s->padded_count, n.x, n.y, n.z);
+    simd_points points = shape_get_points(s);
+    support_result top = simd_find_support(&points, n);
     double near = top.value - 0x1p-49 * s->extent;
     uint32_t best = top.index;
     *largest = dd3_dot_vec3(m, vec3_at(v, best));

@@ -127,8 +127,7 @@ simd_pair shapes_find_pair(const ovoid_shape *a, const ovoid_shape *b, vec3 in_a
         return (simd_pair){{x.value, x.index}, {y.value, y.index}};
     }
     simd_points points_a = shape_get_points(a), points_b = shape_get_points(b);
-    double along_a[3] = {in_a.x, in_a.y, in_a.z}, along_b[3] = {in_b.x, in_b.y, in_b.z};
-    return simd_find_pair(&points_a, along_a, &points_b, along_b);
+    return simd_find_pair(&points_a, in_a, &points_b, in_b);
 }
 
 // Used if one of the shapes has a table of supports, which gives the vertices with their indices.
@@ -148,9 +147,9 @@ frame_support frame_find_support(const pair_frame *f, vec3 n) {
 }
 
 double frame_measure_gap(const pair_frame *f, vec3 n) {
-    const ovoid_shape *a = f->a, *b = f->b;
+    simd_points points_a = shape_get_points(f->a), points_b = shape_get_points(f->b);
     vec3 in_b = vec3_neg(mat3_mul_transposed_vec3(f->rotation, n));
-    double high = simd_find_support(shape_x(a), shape_y(a), shape_z(a), a->padded_count, n.x, n.y, n.z).value;
-    double low = simd_find_support(shape_x(b), shape_y(b), shape_z(b), b->padded_count, in_b.x, in_b.y, in_b.z).value;
+    double high = simd_find_support(&points_a, n).value;
+    double low = simd_find_support(&points_b, in_b).value;
     return (vec3_dot(n, f->translation) - low) - high;
 }

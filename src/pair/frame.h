@@ -122,11 +122,6 @@ frame_support frame_find_support(const pair_frame *f, vec3 n);
 /// The gap by a search of all vertices, without the shapes' tables: for verification.
 double frame_measure_gap(const pair_frame *f, vec3 n);
 
-/// A shape's vertices as the kernels read them, in its body frame.
-static inline simd_points shape_get_points(const ovoid_shape *s) {
-    return (simd_points){shape_x(s), shape_y(s), shape_z(s), s->padded_count};
-}
-
 /// The supports of A along in_a and of B along in_b, each in its own body frame.
 simd_pair shapes_find_pair(const ovoid_shape *a, const ovoid_shape *b, vec3 in_a, vec3 in_b);
 static inline simd_pair frame_find_pair(const pair_frame *f, vec3 in_a, vec3 in_b) {

@@ -327,13 +327,15 @@ static void fill(lane_group *e, unsigned count) {
 // Takes all waiting couples through the ellipsoids to their answers.
 static void settle(batch_state *c) {
     unsigned groups = (c->waiting_count + PAIR8 - 1) / PAIR8, last = c->waiting_count % PAIR8;
-    pair8_ellipsoids rows[PAIR8_GROUPS];
-    pair8_found found[PAIR8_GROUPS];
+    pair8_group waiting[PAIR8_GROUPS];
     if (last) fill(&c->waiting[groups - 1], last);
-    for (unsigned i = 0; i < groups; i++) rows[i] = find_ellipsoids(&c->waiting[i]);
-    c->kernels->ellipsoids(rows, &c->numbers, c->lanes, groups, found);
+    for (unsigned i = 0; i < groups; i++) {
+        waiting[i].from = find_ellipsoids(&c->waiting[i]);
+        waiting[i].lanes = c->waiting[i].lanes;
+    }
+    c->kernels->ellipsoids(waiting, groups, &c->numbers);
     for (unsigned i = 0; i < groups; i++)
-        end_group(c, &c->waiting[i], i + 1 == groups && last ? (1u << last) - 1 : PAIR8_ALL, &found[i]);
+        end_group(c, &c->waiting[i], i + 1 == groups && last ? (1u << last) - 1 : PAIR8_ALL, &waiting[i].found);
     c->waiting_count = 0;
 }
 

@@ -18,7 +18,8 @@ static void set_ready(const ovoid_posed_shape *body, ovoid_prepared_shape *to) {
     uint32_t count = to->turned_count = shape->padded_count;
     simd_points points = shape_get_points(shape);
     static const double nowhere[3] = {0, 0, 0};
-    simd_pose_points(&points, to->rotation, nowhere, to->turned, to->turned + count, to->turned + 2 * (size_t)count);
+    simd_pose_points(&points, to->rotation, nowhere,
+                     (double *[]){to->turned, to->turned + count, to->turned + 2 * (size_t)count});
 }
 
 static void make(const ovoid_posed_shape *body, ovoid_prepared_shape *to) {

@@ -88,6 +88,11 @@ static inline const simd_cell *shape_cells(const ovoid_shape *s) {
     return (const simd_cell *)((const char *)s + s->at.cells);
 }
 
+/// A shape's vertices as the kernels read them, in its body frame.
+static inline simd_points shape_get_points(const ovoid_shape *s) {
+    return (simd_points){shape_x(s), shape_y(s), shape_z(s), s->padded_count};
+}
+
 /// The vertex extreme along n: the lowest index among equal values.
 simd_extreme shape_find_extreme(const ovoid_shape *shape, ovoid_vec3 n);
 

@@ -113,16 +113,20 @@ static void keep(const uint8_t *all, const list *from, list *to) {
     pad(to);
 }
 
+static simd_points get_points(const list *l) { return (simd_points){l->x, l->y, l->z, padded(l->count)}; }
+
 /// Copies the points that are not beaten; *to may be the list itself.
 static void cull(const builder *b, const contest *c, const list *from, list *to) {
     simd_cull by = {(const double(*)[3])c->corners, (const double(*)[4])c->limits, c->count};
-    simd_find_unbeaten(&by, from->x, from->y, from->z, padded(from->count), b->bits);
+    simd_points points = get_points(from);
+    simd_find_unbeaten(&by, &points, b->bits);
     keep(b->bits, from, to);
 }
 
 /// Adds the extreme point at a direction of the cell, unless it is there already.
 static void enter_winner(contest *c, const list *from, vec3 n, uint32_t *winners) {
-    uint32_t w = simd_find_support(from->x, from->y, from->z, padded(from->count), n.x, n.y, n.z).index, slot = 0;
+    simd_points points = get_points(from);
+    uint32_t w = simd_find_support(&points, n).index, slot = 0;
     while (slot < c->count && winners[slot] != w) slot++;
     if (slot < c->count) return;
     winners[slot] = w;

@@ -45,7 +45,7 @@ static inline int support_table_find(const support_table *t, const simd_cell *ce
         column = c >= 1;
         cell = &cells[cell->next + 2 * row + column];
     }
-    *found = simd_find_in_cell(cell, &cells[cell->next], cell->count, n.x, n.y, n.z);
+    *found = simd_find_in_cell(cell, &cells[cell->next], cell->count, &n);
     return 1;
 }
 

@@ -32,16 +32,16 @@ static inline void set_candidate(candidates *all, int i, const double n[3], doub
 
 static inline unsigned sign(double x, int i) { return (unsigned)(signbit(x) != 0) << i; }
 
-corner_step simd_step_from_corner_scalar(const corner_lanes *old, unsigned valid, double ax, double ay, double az) {
-    double a[3] = {ax, ay, az}, e[3][3], c[3][3];
+corner_step simd_step_from_corner_scalar(const corner_lanes *old, unsigned valid, vec3 a) {
+    double w[3] = {a.x, a.y, a.z}, e[3][3], c[3][3];
     candidates all;
     unsigned behind = 0, first = 0, next = 0, before = 0;
     for (int i = 0; i < 3; i++) {
-        e[i][0] = old->x[i] - ax;
-        e[i][1] = old->y[i] - ay;
-        e[i][2] = old->z[i] - az;
-        cross(c[i], a, e[i]);
-        before |= sign(dot(a, e[i]), i);
+        e[i][0] = old->x[i] - a.x;
+        e[i][1] = old->y[i] - a.y;
+        e[i][2] = old->z[i] - a.z;
+        cross(c[i], w, e[i]);
+        before |= sign(dot(w, e[i]), i);
         all.edge[i] = dot(e[i], e[i]);
     }
     for (int i = 0; i < 3; i++) {
@@ -49,14 +49,14 @@ corner_step simd_step_from_corner_scalar(const corner_lanes *old, unsigned valid
         int j = (i + 1) % 3;
         cross(n, e[i], e[j]);
         cross(k, e[i], c[i]);
-        double height = dot(n, a);
+        double height = dot(n, w);
         behind |= sign(height, i) ^ sign(dot(n, e[(i + 2) % 3]), i);
         first |= sign(dot(n, c[i]), i) ^ 1u << i;
         next |= sign(dot(n, c[j]), i);
         set_candidate(&all, i, n, signbit(height) ? -1 : 1);
         set_candidate(&all, 4 + i, k, 1);
     }
-    set_candidate(&all, 7, a, 1);
+    set_candidate(&all, 7, w, 1);
     // A face needs both of its old corners; a flat simplex has the origin on no certain side.
     unsigned faces = valid & (valid >> 1 | valid << 2) & 7;
     behind &= valid == 7 ? 7 : 0;
@@ -70,21 +70,20 @@ corner_step simd_step_from_corner_scalar(const corner_lanes *old, unsigned valid
 
 #include "simd/kernels/corner_avx2.h"
 
-__attribute__((target("avx2"))) static corner_step step_avx2(const corner_lanes *old, unsigned valid, double ax,
-                                                             double ay, double az) {
+__attribute__((target("avx2"))) static corner_step step_avx2(const corner_lanes *old, unsigned valid, vec3 a) {
     lanes3 corners = {_mm256_load_pd(old->x), _mm256_load_pd(old->y), _mm256_load_pd(old->z)};
-    return corner_step_avx2(corners, valid, (lanes3){_mm256_set1_pd(ax), _mm256_set1_pd(ay), _mm256_set1_pd(az)});
+    return corner_step_avx2(corners, valid, (lanes3){_mm256_set1_pd(a.x), _mm256_set1_pd(a.y), _mm256_set1_pd(a.z)});
 }
 
-corner_step simd_step_from_corner(const corner_lanes *old, unsigned valid, double ax, double ay, double az) {
-    if (__builtin_cpu_supports("avx2")) return step_avx2(old, valid, ax, ay, az);
-    return simd_step_from_corner_scalar(old, valid, ax, ay, az);
+corner_step simd_step_from_corner(const corner_lanes *old, unsigned valid, vec3 a) {
+    if (__builtin_cpu_supports("avx2")) return step_avx2(old, valid, a);
+    return simd_step_from_corner_scalar(old, valid, a);
 }
 
 #else
 
-corner_step simd_step_from_corner(const corner_lanes *old, unsigned valid, double ax, double ay, double az) {
-    return simd_step_from_corner_scalar(old, valid, ax, ay, az);
+corner_step simd_step_from_corner(const corner_lanes *old, unsigned valid, vec3 a) {
+    return simd_step_from_corner_scalar(old, valid, a);
 }
 
 #endif

@@ -3,6 +3,8 @@
 #ifndef OVOID_SIMD_CORNER_H
 #define OVOID_SIMD_CORNER_H
 
+#include "linear/vec3.h"
+
 /// The old corners, in lanes 0 to 2; lane 3 is not used. All numbers finite.
 typedef struct corner_lanes {
     _Alignas(32) double x[4];
@@ -22,9 +24,9 @@ typedef struct corner_step {
 /// The step from the corners of the lanes in `valid` (a mask, not 0) to the new corner a. The same bits from every
 /// instruction set. Where rounding spoils a sign, another face than the nearest is found: the caller compares the
 /// distance.
-corner_step simd_step_from_corner(const corner_lanes *old, unsigned valid, double ax, double ay, double az);
+corner_step simd_step_from_corner(const corner_lanes *old, unsigned valid, vec3 a);
 
 /// The scalar twin, for tests and machines without vectors.
-corner_step simd_step_from_corner_scalar(const corner_lanes *old, unsigned valid, double ax, double ay, double az);
+corner_step simd_step_from_corner_scalar(const corner_lanes *old, unsigned valid, vec3 a);
 
 #endif

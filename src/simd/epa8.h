@@ -17,7 +17,7 @@ typedef struct epa8_query {
     simd_points a, b; ///< at most 64 points each
     /// Where it is not NULL, it finds the supports in their place: the difference B minus A that is greatest along a
     /// direction of any length, and the gap along its reverse.
-    simd_difference (*find)(const void *bodies, double x, double y, double z);
+    simd_difference (*find)(const void *bodies, vec3 n);
     const void *bodies;
     double claim;  ///< what rounding does to a gap: one above it proves the bodies apart; also the least depth
     double narrow; ///< how far above the nearest face its support may be for the depth to be known
@@ -50,7 +50,7 @@ typedef struct epa8 {
     double gap;        ///< NARROW: along its normal
     uint64_t near[2];  ///< NARROW: the faces that may be the nearest
     double best_gap;   ///< the greatest gap along a face's normal, -best_n
-    double best_n[3];
+    vec3 best_n;
 } epa8;
 
 /// The kernel of one instruction set: grows from the first `points` of w, a, b, one to four. The same bits from each.

@@ -25,7 +25,7 @@ typedef struct gjk8 {
     int wants_bracket;
     unsigned active;        ///< lanes that are at work
     uint32_t blocks[PAIR8]; ///< points of the larger body, in eights
-    small_gjk_body a[PAIR8], b[PAIR8];
+    small_gjk_bodies bodies[PAIR8];
 } gjk8;
 
 /// How lanes of a round ended; the others go on.

@@ -4,10 +4,8 @@
 
 #include <stddef.h>
 
-static simd_pair find_pair_scalar(const simd_points *high, const double h[3], const simd_points *low,
-                                  const double l[3]) {
-    return (simd_pair){simd_find_support_scalar(high->x, high->y, high->z, high->padded_count, h[0], h[1], h[2]),
-                       simd_find_support_scalar(low->x, low->y, low->z, low->padded_count, l[0], l[1], l[2])};
+static simd_pair find_pair_scalar(const simd_points *high, vec3 h, const simd_points *low, vec3 l) {
+    return (simd_pair){simd_find_support_scalar(high, h), simd_find_support_scalar(low, l)};
 }
 
 static inline simd_difference difference_of(const simd_points *a, const simd_points *b, support_result high,
@@ -16,12 +14,10 @@ static inline simd_difference difference_of(const simd_points *a, const simd_poi
     return (simd_difference){-low.value - high.value, b->x[k] - a->x[i], b->y[k] - a->y[i], b->z[k] - a->z[i], i, k};
 }
 
-void simd_pose_points_scalar(const simd_points *from, const double rows[9], const double t[3], double *x, double *y,
-                             double *z) {
-    double *out[3] = {x, y, z};
+void simd_pose_points_scalar(const simd_points *from, const double rows[9], const double t[3], double *const to[3]) {
     for (uint32_t i = 0; i < from->padded_count; i++)
         for (int k = 0; k < 3; k++)
-            out[k][i] =
+            to[k][i] =
                 ((rows[3 * k] * from->x[i] + rows[3 * k + 1] * from->y[i]) + rows[3 * k + 2] * from->z[i]) + t[k];
 }
 
@@ -33,9 +29,8 @@ enum { MOST = 64 };
 
 #define AVX2 __attribute__((target("avx2")))
 
-AVX2 static inline __attribute__((always_inline)) support_result find_avx2(const simd_points *p, double dx, double dy,
-                                                                           double dz) {
-    __m256d value[MOST / 4], ax = _mm256_set1_pd(dx), ay = _mm256_set1_pd(dy), az = _mm256_set1_pd(dz);
+AVX2 static inline __attribute__((always_inline)) support_result find_avx2(const simd_points *p, vec3 n) {
+    __m256d value[MOST / 4], ax = _mm256_set1_pd(n.x), ay = _mm256_set1_pd(n.y), az = _mm256_set1_pd(n.z);
     __m256d even = _mm256_set1_pd(-__builtin_inf()), odd = even;
     uint32_t count = p->padded_count / 4;
     for (uint32_t i = 0; i < count; i += 2) {
@@ -55,45 +50,47 @@ AVX2 static inline __attribute__((always_inline)) support_result find_avx2(const
     return (support_result){_mm256_cvtsd_f64(m) + 0.0, equal ? (uint32_t)__builtin_ctzll(equal) : 0};
 }
 
-AVX2 static simd_pair find_pair_avx2(const simd_points *high, const double h[3], const simd_points *low,
-                                     const double l[3]) {
-    return (simd_pair){find_avx2(high, h[0], h[1], h[2]), find_avx2(low, l[0], l[1], l[2])};
+AVX2 static simd_pair find_pair_avx2(const simd_points *high, vec3 h, const simd_points *low, vec3 l) {
+    return (simd_pair){find_avx2(high, h), find_avx2(low, l)};
 }
 
-AVX2 static simd_difference find_difference_avx2(const simd_points *a, const simd_points *b, double nx, double ny,
-                                                 double nz) {
-    return difference_of(a, b, find_avx2(a, nx, ny, nz), find_avx2(b, -nx, -ny, -nz));
+AVX2 static simd_difference find_difference_avx2(const simd_points *a, const simd_points *b, vec3 n) {
+    return difference_of(a, b, find_avx2(a, n), find_avx2(b, vec3_neg(n)));
 }
 
-AVX2 static void pose_points_avx2(const simd_points *from, const double rows[9], const double t[3], double *x,
-                                  double *y, double *z) {
-    double *out[3] = {x, y, z};
+AVX2 static void pose_points_avx2(const simd_points *from, const double rows[9], const double t[3],
+                                  double *const to[3]) {
     for (uint32_t i = 0; i < from->padded_count; i += 4) {
         __m256d px = _mm256_loadu_pd(from->x + i), py = _mm256_loadu_pd(from->y + i), pz = _mm256_loadu_pd(from->z + i);
         for (int k = 0; k < 3; k++) {
             __m256d sum = _mm256_add_pd(_mm256_mul_pd(_mm256_set1_pd(rows[3 * k]), px),
                                         _mm256_mul_pd(_mm256_set1_pd(rows[3 * k + 1]), py));
             sum = _mm256_add_pd(sum, _mm256_mul_pd(_mm256_set1_pd(rows[3 * k + 2]), pz));
-            _mm256_storeu_pd(out[k] + i, _mm256_add_pd(sum, _mm256_set1_pd(t[k])));
+            _mm256_storeu_pd(to[k] + i, _mm256_add_pd(sum, _mm256_set1_pd(t[k])));
         }
     }
 }
 
 #define AVX512 __attribute__((target("avx512f")))
 
-AVX512 static inline __m512d dot8(const simd_points *p, uint32_t i, __m512d ax, __m512d ay, __m512d az) {
-    return _mm512_add_pd(_mm512_add_pd(_mm512_mul_pd(_mm512_loadu_pd(p->x + 8 * i), ax),
-                                       _mm512_mul_pd(_mm512_loadu_pd(p->y + 8 * i), ay)),
-                         _mm512_mul_pd(_mm512_loadu_pd(p->z + 8 * i), az));
+/// Eight vectors.
+typedef struct vectors8 {
+    __m512d x, y, z;
+} vectors8;
+
+AVX512 static inline __m512d dot8(const simd_points *p, uint32_t i, vectors8 n) {
+    return _mm512_add_pd(_mm512_add_pd(_mm512_mul_pd(_mm512_loadu_pd(p->x + 8 * i), n.x),
+                                       _mm512_mul_pd(_mm512_loadu_pd(p->y + 8 * i), n.y)),
+                         _mm512_mul_pd(_mm512_loadu_pd(p->z + 8 * i), n.z));
 }
 
-AVX512 static inline __attribute__((always_inline)) support_result find_avx512(const simd_points *p, double dx,
-                                                                               double dy, double dz) {
-    __m512d value[MOST / 8], ax = _mm512_set1_pd(dx), ay = _mm512_set1_pd(dy), az = _mm512_set1_pd(dz);
+AVX512 static inline __attribute__((always_inline)) support_result find_avx512(const simd_points *p, vec3 n) {
+    vectors8 along = {_mm512_set1_pd(n.x), _mm512_set1_pd(n.y), _mm512_set1_pd(n.z)};
+    __m512d value[MOST / 8];
     uint32_t count = p->padded_count / 8;
-    __m512d m = value[0] = dot8(p, 0, ax, ay, az);
+    __m512d m = value[0] = dot8(p, 0, along);
     for (uint32_t i = 1; i < count; i++) {
-        value[i] = dot8(p, i, ax, ay, az);
+        value[i] = dot8(p, i, along);
         m = _mm512_max_pd(m, value[i]);
     }
     m = _mm512_max_pd(m, _mm512_shuffle_f64x2(m, m, 0x4e));
@@ -104,48 +101,41 @@ AVX512 static inline __attribute__((always_inline)) support_result find_avx512(c
     return (support_result){_mm512_cvtsd_f64(m) + 0.0, equal ? (uint32_t)__builtin_ctzll(equal) : 0};
 }
 
-AVX512 static simd_pair find_pair_avx512(const simd_points *high, const double h[3], const simd_points *low,
-                                         const double l[3]) {
-    return (simd_pair){find_avx512(high, h[0], h[1], h[2]), find_avx512(low, l[0], l[1], l[2])};
+AVX512 static simd_pair find_pair_avx512(const simd_points *high, vec3 h, const simd_points *low, vec3 l) {
+    return (simd_pair){find_avx512(high, h), find_avx512(low, l)};
 }
 
-AVX512 static simd_difference find_difference_avx512(const simd_points *a, const simd_points *b, double nx, double ny,
-                                                     double nz) {
-    return difference_of(a, b, find_avx512(a, nx, ny, nz), find_avx512(b, -nx, -ny, -nz));
+AVX512 static simd_difference find_difference_avx512(const simd_points *a, const simd_points *b, vec3 n) {
+    return difference_of(a, b, find_avx512(a, n), find_avx512(b, vec3_neg(n)));
 }
 
-static simd_difference find_difference_apart(const simd_points *a, const simd_points *b, double nx, double ny,
-                                             double nz) {
-    return difference_of(a, b, simd_find_support(a->x, a->y, a->z, a->padded_count, nx, ny, nz),
-                         simd_find_support(b->x, b->y, b->z, b->padded_count, -nx, -ny, -nz));
+static simd_difference find_difference_apart(const simd_points *a, const simd_points *b, vec3 n) {
+    return difference_of(a, b, simd_find_support(a, n), simd_find_support(b, vec3_neg(n)));
 }
 
-simd_difference simd_find_difference(const simd_points *a, const simd_points *b, double nx, double ny, double nz) {
-    if (a->padded_count > MOST || b->padded_count > MOST) return find_difference_apart(a, b, nx, ny, nz);
+simd_difference simd_find_difference(const simd_points *a, const simd_points *b, vec3 n) {
+    if (a->padded_count > MOST || b->padded_count > MOST) return find_difference_apart(a, b, n);
     int is_small = a->padded_count <= 16 && b->padded_count <= 16;
-    if (!is_small && __builtin_cpu_supports("avx512f")) return find_difference_avx512(a, b, nx, ny, nz);
-    if (__builtin_cpu_supports("avx2")) return find_difference_avx2(a, b, nx, ny, nz);
-    return find_difference_apart(a, b, nx, ny, nz);
+    if (!is_small && __builtin_cpu_supports("avx512f")) return find_difference_avx512(a, b, n);
+    if (__builtin_cpu_supports("avx2")) return find_difference_avx2(a, b, n);
+    return find_difference_apart(a, b, n);
 }
 
-void simd_pose_points(const simd_points *from, const double rows[9], const double t[3], double *x, double *y,
-                      double *z) {
+void simd_pose_points(const simd_points *from, const double rows[9], const double t[3], double *const to[3]) {
     if (__builtin_cpu_supports("avx2"))
-        pose_points_avx2(from, rows, t, x, y, z);
+        pose_points_avx2(from, rows, t, to);
     else
-        simd_pose_points_scalar(from, rows, t, x, y, z);
+        simd_pose_points_scalar(from, rows, t, to);
 }
 
-simd_pair simd_find_pair(const simd_points *high, const double h[3], const simd_points *low, const double l[3]) {
+simd_pair simd_find_pair(const simd_points *high, vec3 h, const simd_points *low, vec3 l) {
     if (high->padded_count > MOST || low->padded_count > MOST)
-        return (simd_pair){simd_find_support(high->x, high->y, high->z, high->padded_count, h[0], h[1], h[2]),
-                           simd_find_support(low->x, low->y, low->z, low->padded_count, l[0], l[1], l[2])};
+        return (simd_pair){simd_find_support(high, h), simd_find_support(low, l)};
     // Up to 16 points the wider kernel's last step costs more than it saves, as in simd_find_support.
     int is_small = high->padded_count <= 16 && low->padded_count <= 16;
     if (!is_small && __builtin_cpu_supports("avx512f")) return find_pair_avx512(high, h, low, l);
     if (__builtin_cpu_supports("avx2")) return find_pair_avx2(high, h, low, l);
-    return (simd_pair){simd_find_support(high->x, high->y, high->z, high->padded_count, h[0], h[1], h[2]),
-                       simd_find_support(low->x, low->y, low->z, low->padded_count, l[0], l[1], l[2])};
+    return (simd_pair){simd_find_support(high, h), simd_find_support(low, l)};
 }
 
 simd_pair_function *simd_get_pair(simd_isa isa) {
@@ -159,17 +149,15 @@ simd_pair_function *simd_get_pair(simd_isa isa) {
 
 #else
 
-simd_difference simd_find_difference(const simd_points *a, const simd_points *b, double nx, double ny, double nz) {
-    return difference_of(a, b, simd_find_support_scalar(a->x, a->y, a->z, a->padded_count, nx, ny, nz),
-                         simd_find_support_scalar(b->x, b->y, b->z, b->padded_count, -nx, -ny, -nz));
+simd_difference simd_find_difference(const simd_points *a, const simd_points *b, vec3 n) {
+    return difference_of(a, b, simd_find_support_scalar(a, n), simd_find_support_scalar(b, vec3_neg(n)));
 }
 
-void simd_pose_points(const simd_points *from, const double rows[9], const double t[3], double *x, double *y,
-                      double *z) {
-    simd_pose_points_scalar(from, rows, t, x, y, z);
+void simd_pose_points(const simd_points *from, const double rows[9], const double t[3], double *const to[3]) {
+    simd_pose_points_scalar(from, rows, t, to);
 }
 
-simd_pair simd_find_pair(const simd_points *high, const double h[3], const simd_points *low, const double l[3]) {
+simd_pair simd_find_pair(const simd_points *high, vec3 h, const simd_points *low, vec3 l) {
     return find_pair_scalar(high, h, low, l);
 }
 

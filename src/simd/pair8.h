@@ -72,14 +72,20 @@ typedef struct pair8_found {
     unsigned narrow; ///< upper - lower is within the tolerance
 } pair8_found;
 
+/// A lane group on its way through the ellipsoids.
+typedef struct pair8_group {
+    pair8_ellipsoids from;
+    pair8 *lanes;
+    pair8_found found;
+} pair8_group;
+
 /// Kernels of one instruction set.
 typedef struct pair8_kernels {
     /// Places both bodies in the world and computes the bounds of the enclosing spheres: lower, upper.
     pair8_found (*spheres)(const pair8_places *from, const pair8_query *query, pair8 *o);
     /// B in the frame of A, inner and outer ellipsoids: lower and upper where these decide, the direction for the other
     /// lanes. For `count` lane groups, at most PAIR8_GROUPS: together they are faster.
-    void (*ellipsoids)(const pair8_ellipsoids *from, const pair8_query *query, pair8 *o, unsigned count,
-                       pair8_found *found);
+    void (*ellipsoids)(pair8_group *groups, unsigned count, const pair8_query *query);
     /// The bounds of the supports' gap and of their difference w.
     void (*supports)(pair8 *o);
 } pair8_kernels;

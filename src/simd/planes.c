@@ -4,7 +4,7 @@
 
 #include <math.h>
 
-void simd_compute_cone_scalar(simd_cone *c, uint32_t count, double ax, double ay, double az) {
+void simd_compute_cone_scalar(simd_cone *c, uint32_t count, vec3 apex) {
     for (uint32_t i = 0; i < count; i++) {
         double ux = c->edge[0][i], uy = c->edge[1][i], uz = c->edge[2][i];
         double vx = c->edge[0][i + 1], vy = c->edge[1][i + 1], vz = c->edge[2][i + 1];
@@ -14,7 +14,7 @@ void simd_compute_cone_scalar(simd_cone *c, uint32_t count, double ax, double ay
         double scale = 1 / sqrt(area > SIMD_AREA_MIN ? area : 1);
         nx *= scale, ny *= scale, nz *= scale;
         c->n[0][i] = nx, c->n[1][i] = ny, c->n[2][i] = nz;
-        c->offset[i] = (nx * ax + ny * ay) + nz * az;
+        c->offset[i] = (nx * apex.x + ny * apex.y) + nz * apex.z;
         c->area[i] = area;
         c->product[i] = u * v;
         c->sum[i] = u + v;
@@ -61,23 +61,20 @@ AVX2 void compute_four(simd_cone *c, uint32_t i, vectors apex) {
     _mm256_storeu_pd(c->sum + i, _mm256_add_pd(uu, vv));
 }
 
-__attribute__((target("avx2"))) static void compute_cone_avx2(simd_cone *c, uint32_t count, double ax, double ay,
-                                                              double az) {
-    vectors apex = {_mm256_set1_pd(ax), _mm256_set1_pd(ay), _mm256_set1_pd(az)};
-    for (uint32_t i = 0; i < count; i += 4) compute_four(c, i, apex);
+__attribute__((target("avx2"))) static void compute_cone_avx2(simd_cone *c, uint32_t count, vec3 apex) {
+    vectors all = {_mm256_set1_pd(apex.x), _mm256_set1_pd(apex.y), _mm256_set1_pd(apex.z)};
+    for (uint32_t i = 0; i < count; i += 4) compute_four(c, i, all);
 }
 
-void simd_compute_cone(simd_cone *c, uint32_t count, double ax, double ay, double az) {
+void simd_compute_cone(simd_cone *c, uint32_t count, vec3 apex) {
     if (__builtin_cpu_supports("avx2"))
-        compute_cone_avx2(c, count, ax, ay, az);
+        compute_cone_avx2(c, count, apex);
     else
-        simd_compute_cone_scalar(c, count, ax, ay, az);
+        simd_compute_cone_scalar(c, count, apex);
 }
 
 #else
 
-void simd_compute_cone(simd_cone *c, uint32_t count, double ax, double ay, double az) {
-    simd_compute_cone_scalar(c, count, ax, ay, az);
-}
+void simd_compute_cone(simd_cone *c, uint32_t count, vec3 apex) { simd_compute_cone_scalar(c, count, apex); }
 
 #endif

@@ -2,6 +2,8 @@
 #ifndef OVOID_SIMD_PLANES_H
 #define OVOID_SIMD_PLANES_H
 
+#include "linear/vec3.h"
+
 #include <stdint.h>
 
 enum { SIMD_CONE = 16 };
@@ -20,9 +22,9 @@ typedef struct simd_cone {
 
 /// The planes of the first `count` triangles (at most SIMD_CONE), and maybe of the next up to a multiple of four. The
 /// same bits from every instruction set.
-void simd_compute_cone(simd_cone *c, uint32_t count, double ax, double ay, double az);
+void simd_compute_cone(simd_cone *c, uint32_t count, vec3 apex);
 
 /// The scalar twin.
-void simd_compute_cone_scalar(simd_cone *c, uint32_t count, double ax, double ay, double az);
+void simd_compute_cone_scalar(simd_cone *c, uint32_t count, vec3 apex);
 
 #endif

@@ -21,6 +21,17 @@ typedef struct small_gjk_body {
     uint32_t count; ///< in the scalar twin
 } small_gjk_body;
 
+typedef struct small_gjk_bodies {
+    small_gjk_body a, b;
+} small_gjk_bodies;
+
+/// Points before they are brought into the world.
+typedef struct placed_points {
+    simd_points points;
+    const double *rows; ///< of the rotation to the world; not read where the points are turned already
+    const double *at;   ///< their frame's place in the world
+} placed_points;
+
 /// The pair, and when its search ends.
 typedef struct small_gjk_query {
     simd_points a, b;              ///< body frames, padded; at most SMALL_GJK_POINTS each where it is searched

@@ -1,10 +1,10 @@
 // The vertex extreme along a direction, by a search of all vertices: for hulls up to some hundred vertices nothing is
 // faster than reading them in order.
 //
-// Same bits from every instruction set: each value is (x dx + y dy) + z dz with four roundings and no fused operation,
-// and the answer is the lowest index among the largest values. A lane keeps the first of its own largest values (the
-// comparison is strict), and the last step takes the lowest index among the lanes that reached the maximum. Equal
-// values can differ in bits only as +0 and -0, so every kernel adds +0 to its result, which turns -0 into +0.
+// Same bits from every instruction set: each value is (x n.x + y n.y) + z n.z with four roundings and no fused
+// operation, and the answer is the lowest index among the largest values. A lane keeps the first of its own largest
+// values (the comparison is strict), and the last step takes the lowest index among the lanes that reached the maximum.
+// Equal values can differ in bits only as +0 and -0, so every kernel adds +0 to its result, which turns -0 into +0.
 //
 // The set is chosen at each call from what the compiler's runtime read at start (two loads and a test, no state of this
 // library). Two accumulators in each kernel hide the latency of compare and blend.
@@ -12,11 +12,11 @@
 
 #include <stddef.h>
 
-support_result simd_find_support_scalar(const double *x, const double *y, const double *z, uint32_t padded_count,
-                                        double dx, double dy, double dz) {
-    support_result best = {(x[0] * dx + y[0] * dy) + z[0] * dz, 0};
-    for (uint32_t i = 1; i < padded_count; i++) {
-        double value = (x[i] * dx + y[i] * dy) + z[i] * dz;
+support_result simd_find_support_scalar(const simd_points *p, vec3 n) {
+    const double *x = p->x, *y = p->y, *z = p->z;
+    support_result best = {(x[0] * n.x + y[0] * n.y) + z[0] * n.z, 0};
+    for (uint32_t i = 1; i < p->padded_count; i++) {
+        double value = (x[i] * n.x + y[i] * n.y) + z[i] * n.z;
         if (value > best.value) best = (support_result){value, i};
     }
     best.value += 0.0;
@@ -54,20 +54,27 @@ static inline lanes2 step2(lanes2 best, __m128d value, __m128i index) {
     return best;
 }
 
-static inline __m128d dot2(const double *x, const double *y, const double *z, __m128d dx, __m128d dy, __m128d dz) {
-    return _mm_add_pd(_mm_add_pd(_mm_mul_pd(_mm_loadu_pd(x), dx), _mm_mul_pd(_mm_loadu_pd(y), dy)),
-                      _mm_mul_pd(_mm_loadu_pd(z), dz));
+/// A direction, the same in all lanes.
+typedef struct direction2 {
+    __m128d x, y, z;
+} direction2;
+
+static inline direction2 spread2(vec3 n) { return (direction2){_mm_set1_pd(n.x), _mm_set1_pd(n.y), _mm_set1_pd(n.z)}; }
+
+/// The values of two points from the i-th on.
+static inline __m128d dot2(const simd_points *p, size_t i, direction2 n) {
+    return _mm_add_pd(_mm_add_pd(_mm_mul_pd(_mm_loadu_pd(p->x + i), n.x), _mm_mul_pd(_mm_loadu_pd(p->y + i), n.y)),
+                      _mm_mul_pd(_mm_loadu_pd(p->z + i), n.z));
 }
 
-static support_result find_support_sse2(const double *x, const double *y, const double *z, uint32_t padded_count,
-                                        double dx, double dy, double dz) {
-    __m128d ax = _mm_set1_pd(dx), ay = _mm_set1_pd(dy), az = _mm_set1_pd(dz);
+static support_result find_support_sse2(const simd_points *p, vec3 along) {
+    direction2 n = spread2(along);
     __m128i index = _mm_set_epi64x(1, 0), two = _mm_set1_epi64x(2);
-    lanes2 even = {dot2(x, y, z, ax, ay, az), index}, odd = even;
-    for (uint32_t i = 0; i < padded_count; i += 4) {
-        even = step2(even, dot2(x + i, y + i, z + i, ax, ay, az), index);
+    lanes2 even = {dot2(p, 0, n), index}, odd = even;
+    for (size_t i = 0; i < p->padded_count; i += 4) {
+        even = step2(even, dot2(p, i, n), index);
         index = _mm_add_epi64(index, two);
-        odd = step2(odd, dot2(x + i + 2, y + i + 2, z + i + 2, ax, ay, az), index);
+        odd = step2(odd, dot2(p, i + 2, n), index);
         index = _mm_add_epi64(index, two);
     }
 
@@ -98,23 +105,33 @@ AVX2 static inline lanes4 step4(lanes4 best, __m256d value, __m256i index) {
     return best;
 }
 
-AVX2 static inline __m256d dot4(const double *x, const double *y, const double *z, __m256d dx, __m256d dy, __m256d dz) {
-    return _mm256_add_pd(_mm256_add_pd(_mm256_mul_pd(_mm256_loadu_pd(x), dx), _mm256_mul_pd(_mm256_loadu_pd(y), dy)),
-                         _mm256_mul_pd(_mm256_loadu_pd(z), dz));
+/// A direction, the same in all lanes.
+typedef struct direction4 {
+    __m256d x, y, z;
+} direction4;
+
+AVX2 static inline direction4 spread4(vec3 n) {
+    return (direction4){_mm256_set1_pd(n.x), _mm256_set1_pd(n.y), _mm256_set1_pd(n.z)};
 }
 
-AVX2 static support_result find_support_avx2(const double *x, const double *y, const double *z, uint32_t padded_count,
-                                             double dx, double dy, double dz) {
-    __m256d ax = _mm256_set1_pd(dx), ay = _mm256_set1_pd(dy), az = _mm256_set1_pd(dz);
+/// The values of four points from the i-th on.
+AVX2 static inline __m256d dot4(const simd_points *p, size_t i, direction4 n) {
+    return _mm256_add_pd(
+        _mm256_add_pd(_mm256_mul_pd(_mm256_loadu_pd(p->x + i), n.x), _mm256_mul_pd(_mm256_loadu_pd(p->y + i), n.y)),
+        _mm256_mul_pd(_mm256_loadu_pd(p->z + i), n.z));
+}
+
+AVX2 static support_result find_support_avx2(const simd_points *p, vec3 along) {
+    direction4 n = spread4(along);
     __m256i index = _mm256_set_epi64x(3, 2, 1, 0), four = _mm256_set1_epi64x(4);
-    lanes4 even = {dot4(x, y, z, ax, ay, az), index};
+    lanes4 even = {dot4(p, 0, n), index};
     index = _mm256_add_epi64(index, four);
-    lanes4 odd = {dot4(x + 4, y + 4, z + 4, ax, ay, az), index};
-    for (uint32_t i = 8; i < padded_count; i += 8) {
+    lanes4 odd = {dot4(p, 4, n), index};
+    for (size_t i = 8; i < p->padded_count; i += 8) {
         index = _mm256_add_epi64(index, four);
-        even = step4(even, dot4(x + i, y + i, z + i, ax, ay, az), index);
+        even = step4(even, dot4(p, i, n), index);
         index = _mm256_add_epi64(index, four);
-        odd = step4(odd, dot4(x + i + 4, y + i + 4, z + i + 4, ax, ay, az), index);
+        odd = step4(odd, dot4(p, i + 4, n), index);
     }
 
     __m256d m = _mm256_max_pd(even.value, odd.value);
@@ -143,25 +160,34 @@ AVX512 static inline lanes8 step8(lanes8 best, __m512d value, __m512i index) {
     return best;
 }
 
-AVX512 static inline __m512d dot8(const double *x, const double *y, const double *z, __m512d dx, __m512d dy,
-                                  __m512d dz) {
-    return _mm512_add_pd(_mm512_add_pd(_mm512_mul_pd(_mm512_loadu_pd(x), dx), _mm512_mul_pd(_mm512_loadu_pd(y), dy)),
-                         _mm512_mul_pd(_mm512_loadu_pd(z), dz));
+/// A direction, the same in all lanes.
+typedef struct direction8 {
+    __m512d x, y, z;
+} direction8;
+
+AVX512 static inline direction8 spread8(vec3 n) {
+    return (direction8){_mm512_set1_pd(n.x), _mm512_set1_pd(n.y), _mm512_set1_pd(n.z)};
 }
 
-AVX512 static support_result find_support_avx512(const double *x, const double *y, const double *z,
-                                                 uint32_t padded_count, double dx, double dy, double dz) {
-    __m512d ax = _mm512_set1_pd(dx), ay = _mm512_set1_pd(dy), az = _mm512_set1_pd(dz);
+/// The values of eight points from the i-th on.
+AVX512 static inline __m512d dot8(const simd_points *p, size_t i, direction8 n) {
+    return _mm512_add_pd(
+        _mm512_add_pd(_mm512_mul_pd(_mm512_loadu_pd(p->x + i), n.x), _mm512_mul_pd(_mm512_loadu_pd(p->y + i), n.y)),
+        _mm512_mul_pd(_mm512_loadu_pd(p->z + i), n.z));
+}
+
+AVX512 static support_result find_support_avx512(const simd_points *p, vec3 along) {
+    direction8 n = spread8(along);
     __m512i index = _mm512_set_epi64(7, 6, 5, 4, 3, 2, 1, 0), eight = _mm512_set1_epi64(8);
-    lanes8 even = {dot8(x, y, z, ax, ay, az), index}, odd = even;
-    uint32_t i = 8;
-    for (; i + 8 < padded_count; i += 16) {
+    lanes8 even = {dot8(p, 0, n), index}, odd = even;
+    size_t i = 8;
+    for (; i + 8 < p->padded_count; i += 16) {
         index = _mm512_add_epi64(index, eight);
-        odd = step8(odd, dot8(x + i, y + i, z + i, ax, ay, az), index);
+        odd = step8(odd, dot8(p, i, n), index);
         index = _mm512_add_epi64(index, eight);
-        even = step8(even, dot8(x + i + 8, y + i + 8, z + i + 8, ax, ay, az), index);
+        even = step8(even, dot8(p, i + 8, n), index);
     }
-    if (i < padded_count) odd = step8(odd, dot8(x + i, y + i, z + i, ax, ay, az), _mm512_add_epi64(index, eight));
+    if (i < p->padded_count) odd = step8(odd, dot8(p, i, n), _mm512_add_epi64(index, eight));
 
     __m512d m = _mm512_max_pd(even.value, odd.value);
     m = _mm512_max_pd(m, _mm512_shuffle_f64x2(m, m, 0x4e));
@@ -175,13 +201,11 @@ AVX512 static support_result find_support_avx512(const double *x, const double *
     return (support_result){_mm512_cvtsd_f64(m) + 0.0, find_lowest(indices, mask)};
 }
 
-support_result simd_find_support(const double *x, const double *y, const double *z, uint32_t padded_count, double dx,
-                                 double dy, double dz) {
+support_result simd_find_support(const simd_points *points, vec3 n) {
     // Up to 16 points the wider kernel's longer last step costs more than it saves (measured).
-    if (padded_count > 16 && __builtin_cpu_supports("avx512f"))
-        return find_support_avx512(x, y, z, padded_count, dx, dy, dz);
-    if (__builtin_cpu_supports("avx2")) return find_support_avx2(x, y, z, padded_count, dx, dy, dz);
-    return find_support_sse2(x, y, z, padded_count, dx, dy, dz);
+    if (points->padded_count > 16 && __builtin_cpu_supports("avx512f")) return find_support_avx512(points, n);
+    if (__builtin_cpu_supports("avx2")) return find_support_avx2(points, n);
+    return find_support_sse2(points, n);
 }
 
 simd_support_function *simd_get_support(simd_isa isa) {
@@ -197,10 +221,7 @@ simd_support_function *simd_get_support(simd_isa isa) {
 
 #else
 
-support_result simd_find_support(const double *x, const double *y, const double *z, uint32_t padded_count, double dx,
-                                 double dy, double dz) {
-    return simd_find_support_scalar(x, y, z, padded_count, dx, dy, dz);
-}
+support_result simd_find_support(const simd_points *points, vec3 n) { return simd_find_support_scalar(points, n); }
 
 simd_support_function *simd_get_support(simd_isa isa) { return isa == SIMD_SCALAR ? simd_find_support_scalar : NULL; }
 

@@ -2,28 +2,32 @@
 #ifndef OVOID_SIMD_SUPPORT_H
 #define OVOID_SIMD_SUPPORT_H
 
+#include "linear/vec3.h"
+
 #include <stdint.h>
+
+/// Points as structure of arrays: padded_count (a multiple of 8, not 0) finite entries; padding repeats point 0.
+typedef struct simd_points {
+    const double *x, *y, *z;
+    uint32_t padded_count;
+} simd_points;
 
 /// The vertex extreme along a direction.
 typedef struct support_result {
-    double value;   ///< (x dx + y dy) + z dz of that vertex, rounded in this order; zero is always +0
+    double value;   ///< (x n.x + y n.y) + z n.z of that vertex, rounded in this order; zero is always +0
     uint32_t index; ///< lowest index among equal values
 } support_result;
 
-/// The extreme vertex of points as structure of arrays, padded_count (a multiple of 8, not 0) finite entries; padding
-/// repeats point 0. The same bits from every instruction set. Cost: padded_count / lanes steps.
-support_result simd_find_support(const double *x, const double *y, const double *z, uint32_t padded_count, double dx,
-                                 double dy, double dz);
+/// The vertex extreme along n. The same bits from every instruction set. Cost: padded_count / lanes steps.
+support_result simd_find_support(const simd_points *points, vec3 n);
 
 /// The scalar twin, always compiled, for tests and machines without vectors.
-support_result simd_find_support_scalar(const double *x, const double *y, const double *z, uint32_t padded_count,
-                                        double dx, double dy, double dz);
+support_result simd_find_support_scalar(const simd_points *points, vec3 n);
 
 /// The instruction sets that have a kernel.
 typedef enum simd_isa { SIMD_SCALAR, SIMD_SSE2, SIMD_AVX2, SIMD_AVX512, SIMD_ISA_COUNT } simd_isa;
 
-typedef support_result simd_support_function(const double *x, const double *y, const double *z, uint32_t padded_count,
-                                             double dx, double dy, double dz);
+typedef support_result simd_support_function(const simd_points *points, vec3 n);
 
 /// The kernel of one instruction set, for tests and measurements; NULL where this machine or build lacks it.
 simd_support_function *simd_get_support(simd_isa isa);

@@ -1,34 +1,33 @@
-// Products are (x dx + y dy) + z dz as in support.c, so that a value has the same bits wherever it is computed, and the
-// lowest index among equal values wins: entries are ascending, and a later one has to be greater.
+// Products are (x n.x + y n.y) + z n.z as in support.c, so that a value has the same bits wherever it is computed, and
+// the lowest index among equal values wins: entries are ascending, and a later one has to be greater.
 #include "simd/support_cell.h"
 
 static inline simd_extreme take(const simd_cell *c, unsigned lane, double value) {
     return (simd_extreme){value + 0.0, c->x[lane], c->y[lane], c->z[lane], c->index[lane]};
 }
 
-static simd_extreme find_scalar(const simd_cell *c, double dx, double dy, double dz) {
+static simd_extreme find_scalar(const simd_cell *c, vec3 n) {
     unsigned lane = 0;
-    double best = (c->x[0] * dx + c->y[0] * dy) + c->z[0] * dz;
+    double best = (c->x[0] * n.x + c->y[0] * n.y) + c->z[0] * n.z;
     for (unsigned i = 1; i < SIMD_CELL; i++) {
-        double value = (c->x[i] * dx + c->y[i] * dy) + c->z[i] * dz;
+        double value = (c->x[i] * n.x + c->y[i] * n.y) + c->z[i] * n.z;
         if (value > best) best = value, lane = i;
     }
     return take(c, lane, best);
 }
 
-simd_extreme simd_find_in_cell_scalar(const simd_cell *first, const simd_cell *more, uint32_t count, double dx,
-                                      double dy, double dz) {
-    simd_extreme best = find_scalar(first, dx, dy, dz);
+simd_extreme simd_find_in_cell_scalar(const simd_cell *first, const simd_cell *more, uint32_t count, const vec3 *n) {
+    simd_extreme best = find_scalar(first, *n);
     for (; count > SIMD_CELL; count = count > 2 * SIMD_CELL ? count - SIMD_CELL : 0) {
-        simd_extreme other = find_scalar(more++, dx, dy, dz);
+        simd_extreme other = find_scalar(more++, *n);
         if (other.value > best.value) best = other;
     }
     return best;
 }
 
-void simd_find_unbeaten_scalar(const simd_cull *by, const double *x, const double *y, const double *z,
-                               uint32_t padded_count, uint8_t *bits) {
-    for (uint32_t i = 0; i < padded_count; i++) {
+void simd_find_unbeaten_scalar(const simd_cull *by, const simd_points *points, uint8_t *bits) {
+    const double *x = points->x, *y = points->y, *z = points->z;
+    for (uint32_t i = 0; i < points->padded_count; i++) {
         double v[4];
         for (int k = 0; k < 4; k++)
             v[k] = (x[i] * by->corners[k][0] + y[i] * by->corners[k][1]) + z[i] * by->corners[k][2];
@@ -49,13 +48,23 @@ void simd_find_unbeaten_scalar(const simd_cull *by, const double *x, const doubl
 
 #define AVX2 __attribute__((target("avx2")))
 
-AVX2 static inline __m256d dot4(const double *x, const double *y, const double *z, __m256d dx, __m256d dy, __m256d dz) {
-    return _mm256_add_pd(_mm256_add_pd(_mm256_mul_pd(_mm256_loadu_pd(x), dx), _mm256_mul_pd(_mm256_loadu_pd(y), dy)),
-                         _mm256_mul_pd(_mm256_loadu_pd(z), dz));
+/// Four vectors.
+typedef struct vectors4 {
+    __m256d x, y, z;
+} vectors4;
+
+AVX2 static inline vectors4 load4(const double *x, const double *y, const double *z) {
+    return (vectors4){_mm256_loadu_pd(x), _mm256_loadu_pd(y), _mm256_loadu_pd(z)};
+}
+AVX2 static inline vectors4 spread4(vec3 n) {
+    return (vectors4){_mm256_set1_pd(n.x), _mm256_set1_pd(n.y), _mm256_set1_pd(n.z)};
+}
+AVX2 static inline __m256d dot4(vectors4 a, vectors4 b) {
+    return _mm256_add_pd(_mm256_add_pd(_mm256_mul_pd(a.x, b.x), _mm256_mul_pd(a.y, b.y)), _mm256_mul_pd(a.z, b.z));
 }
 
-AVX2 static inline simd_extreme find_avx2(const simd_cell *c, __m256d dx, __m256d dy, __m256d dz) {
-    __m256d low = dot4(c->x, c->y, c->z, dx, dy, dz), high = dot4(c->x + 4, c->y + 4, c->z + 4, dx, dy, dz);
+AVX2 static inline simd_extreme find_avx2(const simd_cell *c, vectors4 n) {
+    __m256d low = dot4(load4(c->x, c->y, c->z), n), high = dot4(load4(c->x + 4, c->y + 4, c->z + 4), n);
     __m256d m = _mm256_max_pd(low, high);
     m = _mm256_max_pd(m, _mm256_permute2f128_pd(m, m, 1));
     m = _mm256_max_pd(m, _mm256_permute_pd(m, 5));
@@ -64,25 +73,25 @@ AVX2 static inline simd_extreme find_avx2(const simd_cell *c, __m256d dx, __m256
     return take(c, (unsigned)__builtin_ctz(equal) & 7, _mm256_cvtsd_f64(m));
 }
 
-AVX2 static simd_extreme find_in_cell_avx2(const simd_cell *first, const simd_cell *more, uint32_t count, double dx,
-                                           double dy, double dz) {
-    __m256d ax = _mm256_set1_pd(dx), ay = _mm256_set1_pd(dy), az = _mm256_set1_pd(dz);
-    simd_extreme best = find_avx2(first, ax, ay, az);
+AVX2 static simd_extreme find_in_cell_avx2(const simd_cell *first, const simd_cell *more, uint32_t count,
+                                           const vec3 *n) {
+    vectors4 along = spread4(*n);
+    simd_extreme best = find_avx2(first, along);
     for (; count > SIMD_CELL; count = count > 2 * SIMD_CELL ? count - SIMD_CELL : 0) {
-        simd_extreme other = find_avx2(more++, ax, ay, az);
+        simd_extreme other = find_avx2(more++, along);
         if (other.value > best.value) best = other;
     }
     return best;
 }
 
-AVX2 static void find_unbeaten_avx2(const simd_cull *by, const double *x, const double *y, const double *z,
-                                    uint32_t padded_count, uint8_t *bits) {
-    __m256d d[4][3];
-    for (int k = 0; k < 4; k++)
-        for (int i = 0; i < 3; i++) d[k][i] = _mm256_set1_pd(by->corners[k][i]);
-    for (uint32_t i = 0; i < padded_count; i += 4) {
+AVX2 static void find_unbeaten_avx2(const simd_cull *by, const simd_points *points, uint8_t *bits) {
+    const double *x = points->x, *y = points->y, *z = points->z;
+    vectors4 d[4];
+    for (int k = 0; k < 4; k++) d[k] = spread4(vec3_at(by->corners[k], 0));
+    for (uint32_t i = 0; i < points->padded_count; i += 4) {
         __m256d v[4], beaten = _mm256_setzero_pd();
-        for (int k = 0; k < 4; k++) v[k] = dot4(x + i, y + i, z + i, d[k][0], d[k][1], d[k][2]);
+        vectors4 p = load4(x + i, y + i, z + i);
+        for (int k = 0; k < 4; k++) v[k] = dot4(p, d[k]);
         for (uint32_t w = 0; w < by->limit_count; w++) {
             const double *limit = by->limits[w];
             __m256d a = _mm256_and_pd(_mm256_cmp_pd(v[0], _mm256_set1_pd(limit[0]), _CMP_LT_OQ),
@@ -98,21 +107,30 @@ AVX2 static void find_unbeaten_avx2(const simd_cull *by, const double *x, const 
 
 #define AVX512 __attribute__((target("avx512f")))
 
-AVX512 static inline __m512d dot8(const double *x, const double *y, const double *z, __m512d dx, __m512d dy,
-                                  __m512d dz) {
-    return _mm512_add_pd(_mm512_add_pd(_mm512_mul_pd(_mm512_loadu_pd(x), dx), _mm512_mul_pd(_mm512_loadu_pd(y), dy)),
-                         _mm512_mul_pd(_mm512_loadu_pd(z), dz));
+/// Eight vectors.
+typedef struct vectors8 {
+    __m512d x, y, z;
+} vectors8;
+
+AVX512 static inline vectors8 load8(const double *x, const double *y, const double *z) {
+    return (vectors8){_mm512_loadu_pd(x), _mm512_loadu_pd(y), _mm512_loadu_pd(z)};
+}
+AVX512 static inline vectors8 spread8(vec3 n) {
+    return (vectors8){_mm512_set1_pd(n.x), _mm512_set1_pd(n.y), _mm512_set1_pd(n.z)};
+}
+AVX512 static inline __m512d dot8(vectors8 a, vectors8 b) {
+    return _mm512_add_pd(_mm512_add_pd(_mm512_mul_pd(a.x, b.x), _mm512_mul_pd(a.y, b.y)), _mm512_mul_pd(a.z, b.z));
 }
 
-AVX512 static void find_unbeaten_avx512(const simd_cull *by, const double *x, const double *y, const double *z,
-                                        uint32_t padded_count, uint8_t *bits) {
-    __m512d d[4][3];
-    for (int k = 0; k < 4; k++)
-        for (int i = 0; i < 3; i++) d[k][i] = _mm512_set1_pd(by->corners[k][i]);
-    for (uint32_t i = 0; i < padded_count; i += 8) {
+AVX512 static void find_unbeaten_avx512(const simd_cull *by, const simd_points *points, uint8_t *bits) {
+    const double *x = points->x, *y = points->y, *z = points->z;
+    vectors8 d[4];
+    for (int k = 0; k < 4; k++) d[k] = spread8(vec3_at(by->corners[k], 0));
+    for (uint32_t i = 0; i < points->padded_count; i += 8) {
         __m512d v[4];
         unsigned beaten = 0;
-        for (int k = 0; k < 4; k++) v[k] = dot8(x + i, y + i, z + i, d[k][0], d[k][1], d[k][2]);
+        vectors8 p = load8(x + i, y + i, z + i);
+        for (int k = 0; k < 4; k++) v[k] = dot8(p, d[k]);
         for (uint32_t w = 0; w < by->limit_count; w++) {
             const double *limit = by->limits[w];
             __mmask8 all = _mm512_cmp_pd_mask(v[0], _mm512_set1_pd(limit[0]), _CMP_LT_OQ);
@@ -125,32 +143,28 @@ AVX512 static void find_unbeaten_avx512(const simd_cull *by, const double *x, co
     }
 }
 
-simd_extreme simd_find_in_cell(const simd_cell *first, const simd_cell *more, uint32_t count, double dx, double dy,
-                               double dz) {
-    if (__builtin_cpu_supports("avx2")) return find_in_cell_avx2(first, more, count, dx, dy, dz);
-    return simd_find_in_cell_scalar(first, more, count, dx, dy, dz);
+simd_extreme simd_find_in_cell(const simd_cell *first, const simd_cell *more, uint32_t count, const vec3 *n) {
+    if (__builtin_cpu_supports("avx2")) return find_in_cell_avx2(first, more, count, n);
+    return simd_find_in_cell_scalar(first, more, count, n);
 }
 
-void simd_find_unbeaten(const simd_cull *by, const double *x, const double *y, const double *z, uint32_t padded_count,
-                        uint8_t *bits) {
+void simd_find_unbeaten(const simd_cull *by, const simd_points *points, uint8_t *bits) {
     if (__builtin_cpu_supports("avx512f"))
-        find_unbeaten_avx512(by, x, y, z, padded_count, bits);
+        find_unbeaten_avx512(by, points, bits);
     else if (__builtin_cpu_supports("avx2"))
-        find_unbeaten_avx2(by, x, y, z, padded_count, bits);
+        find_unbeaten_avx2(by, points, bits);
     else
-        simd_find_unbeaten_scalar(by, x, y, z, padded_count, bits);
+        simd_find_unbeaten_scalar(by, points, bits);
 }
 
 #else
 
-simd_extreme simd_find_in_cell(const simd_cell *first, const simd_cell *more, uint32_t count, double dx, double dy,
-                               double dz) {
-    return simd_find_in_cell_scalar(first, more, count, dx, dy, dz);
+simd_extreme simd_find_in_cell(const simd_cell *first, const simd_cell *more, uint32_t count, const vec3 *n) {
+    return simd_find_in_cell_scalar(first, more, count, n);
 }
 
-void simd_find_unbeaten(const simd_cull *by, const double *x, const double *y, const double *z, uint32_t padded_count,
-                        uint8_t *bits) {
-    simd_find_unbeaten_scalar(by, x, y, z, padded_count, bits);
+void simd_find_unbeaten(const simd_cull *by, const simd_points *points, uint8_t *bits) {
+    simd_find_unbeaten_scalar(by, points, bits);
 }
 
 #endif

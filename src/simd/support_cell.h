@@ -3,7 +3,7 @@
 #ifndef OVOID_SIMD_SUPPORT_CELL_H
 #define OVOID_SIMD_SUPPORT_CELL_H
 
-#include <stdint.h>
+#include "simd/support.h"
 
 enum { SIMD_CELL = 8 };
 
@@ -24,11 +24,10 @@ typedef struct simd_extreme {
 } simd_extreme;
 
 /// The vertex of a list of `count` that is extreme along a direction. The first block is at `first`, the others from
-/// `more` on. The same bits as simd_find_support over the vertices listed.
-simd_extreme simd_find_in_cell(const simd_cell *first, const simd_cell *more, uint32_t count, double dx, double dy,
-                               double dz);
-simd_extreme simd_find_in_cell_scalar(const simd_cell *first, const simd_cell *more, uint32_t count, double dx,
-                                      double dy, double dz);
+/// `more` on; the direction comes by its address, as a copy costs a part of so short a search. The same bits as
+/// simd_find_support over the vertices listed.
+simd_extreme simd_find_in_cell(const simd_cell *first, const simd_cell *more, uint32_t count, const vec3 *n);
+simd_extreme simd_find_in_cell_scalar(const simd_cell *first, const simd_cell *more, uint32_t count, const vec3 *n);
 
 /// A point is beaten where for one of the limits all four of its products with the corners are smaller.
 typedef struct simd_cull {
@@ -37,10 +36,8 @@ typedef struct simd_cull {
     uint32_t limit_count;
 } simd_cull;
 
-/// Sets one bit for each of padded_count points (a multiple of 8): 1 where the point is not beaten.
-void simd_find_unbeaten(const simd_cull *by, const double *x, const double *y, const double *z, uint32_t padded_count,
-                        uint8_t *bits);
-void simd_find_unbeaten_scalar(const simd_cull *by, const double *x, const double *y, const double *z,
-                               uint32_t padded_count, uint8_t *bits);
+/// Sets one bit for each of the points, padding too: 1 where the point is not beaten.
+void simd_find_unbeaten(const simd_cull *by, const simd_points *points, uint8_t *bits);
+void simd_find_unbeaten_scalar(const simd_cull *by, const simd_points *points, uint8_t *bits);
 
 #endif

@@ -39,9 +39,8 @@ vec3 body_compute_center(const body_sphere *ball, const ovoid_pose *pose, double
 // The extent of a shape along a row of R, from r: max and min over the vertices v of row.(v - c). Dots are off by 42 u
 // |v| and 3 u |v|, v and c below the extent: the pad of 128 u is above it.
 static void find_extent(const ovoid_shape *s, vec3 row, double *low, double *high) {
-    simd_points points = {shape_x(s), shape_y(s), shape_z(s), s->padded_count};
-    double up[3] = {row.x, row.y, row.z}, down[3] = {-row.x, -row.y, -row.z};
-    simd_pair ends = simd_find_pair(&points, up, &points, down);
+    simd_points points = shape_get_points(s);
+    simd_pair ends = simd_find_pair(&points, row, &points, vec3_neg(row));
     double c = vec3_dot(row, s->center);
     *high = ends.high.value - c;
     *low = -ends.low.value - c;

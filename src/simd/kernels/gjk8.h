@@ -25,25 +25,25 @@ SMALL_GJK_INLINE void put_support(gjk8 *g, unsigned k, const met *m) {
 }
 
 LANES_TARGET static void measure_lane(gjk8 *g, unsigned k) {
-    const small_gjk_body *a = &g->a[k], *b = &g->b[k];
-    double x = g->n[0].lane[k], y = g->n[1].lane[k], z = g->n[2].lane[k];
+    const small_gjk_bodies *bodies = &g->bodies[k];
+    vec3 n = {g->n[0].lane[k], g->n[1].lane[k], g->n[2].lane[k]};
     met m;
     switch (g->blocks[k]) {
-    case 1: measure(&m, a, b, 1, x, y, z); break;
-    case 2: measure(&m, a, b, 2, x, y, z); break;
-    case 3: measure(&m, a, b, 3, x, y, z); break;
-    default: measure(&m, a, b, 4, x, y, z); break;
+    case 1: measure(&m, bodies, 1, n); break;
+    case 2: measure(&m, bodies, 2, n); break;
+    case 3: measure(&m, bodies, 3, n); break;
+    default: measure(&m, bodies, 4, n); break;
     }
     put_support(g, k, &m);
 }
 
 LANES_TARGET static void run_begin(gjk8 *g, unsigned k, const small_gjk_query *q) {
-    small_gjk_body *a = &g->a[k], *b = &g->b[k];
+    small_gjk_bodies *bodies = &g->bodies[k];
     switch (g->blocks[k] = find_blocks(q)) {
-    case 1: pose_bodies(q, a, b, 1); break;
-    case 2: pose_bodies(q, a, b, 2); break;
-    case 3: pose_bodies(q, a, b, 3); break;
-    default: pose_bodies(q, a, b, 4); break;
+    case 1: pose_bodies(q, bodies, 1); break;
+    case 2: pose_bodies(q, bodies, 2); break;
+    case 3: pose_bodies(q, bodies, 3); break;
+    default: pose_bodies(q, bodies, 4); break;
     }
     double x = q->start[0], y = q->start[1], z = q->start[2];
     g->start[0].lane[k] = g->n[0].lane[k] = x;
@@ -80,7 +80,14 @@ typedef struct lane_step {
     lane3 n;
     lane least;
     lane_mask keeps[3], inside;
+    lane_mask goes; // the lanes that take it: known when its gain is
 } lane_step;
+
+// A new corner: its difference and which points it is of.
+typedef struct lane_corner {
+    lane3 w;
+    lane id;
+} lane_corner;
 
 LANES_INLINE lane_step step_lanes(const gjk8 *g, int at, const lane_mask valid[3], lane3 w) {
     lane3 e[3], c[3], n[3];
@@ -102,8 +109,11 @@ LANES_INLINE lane_step step_lanes(const gjk8 *g, int at, const lane_mask valid[3
         next[i] = lane_and(both, lane_sign(lane3_dot(n[i], c[j])));
         face[i] = lane_and(lane_and(first[i], next[i]), lane_not(behind[i]));
     }
-    lane_step s = {
-        w, lane_set(-1), {lane_none(), lane_none(), lane_none()}, lane_and(lane_and(behind[0], behind[1]), behind[2])};
+    lane_step s = {w,
+                   lane_set(-1),
+                   {lane_none(), lane_none(), lane_none()},
+                   lane_and(lane_and(behind[0], behind[1]), behind[2]),
+                   lane_none()};
     // One of them, the first of the faces, else of the edges, else the new corner: the last one written.
     for (int i = 2; i >= 0; i--) {
         edge[i] = lane_and(before[i], lane_not(lane_or(first[i], next[(i + 2) % 3])));
@@ -122,18 +132,18 @@ LANES_INLINE lane_step step_lanes(const gjk8 *g, int at, const lane_mask valid[3
     return s;
 }
 
-// The new corner takes the place of the first that does not stay.
-LANES_INLINE void replace_corner(gjk8 *g, int at, const lane_step *s, lane_mask some, lane3 w, lane id) {
-    lane_mask taken = lane_not(some);
+// In the lanes that take the step the new corner takes the place of the first that does not stay.
+LANES_INLINE void replace_corner(gjk8 *g, int at, const lane_step *s, const lane_corner *corner) {
+    lane_mask taken = lane_not(s->goes);
     for (int i = 0; i < 3; i++) {
         lane_mask here = lane_and(lane_not(taken), lane_not(s->keeps[i]));
         taken = lane_or(taken, here);
-        put_some(&g->old[i].x, at, here, w.x);
-        put_some(&g->old[i].y, at, here, w.y);
-        put_some(&g->old[i].z, at, here, w.z);
-        put_some(&g->old[i].id, at, here, id);
+        put_some(&g->old[i].x, at, here, corner->w.x);
+        put_some(&g->old[i].y, at, here, corner->w.y);
+        put_some(&g->old[i].z, at, here, corner->w.z);
+        put_some(&g->old[i].id, at, here, corner->id);
         lane_mask stays = lane_or(here, s->keeps[i]);
-        put_some(&g->is_valid[i], at, some, lane_select(stays, lane_set(1), lane_set(0)));
+        put_some(&g->is_valid[i], at, s->goes, lane_select(stays, lane_set(1), lane_set(0)));
     }
 }
 
@@ -177,7 +187,8 @@ LANES_INLINE gjk8_ends advance_lanes(gjk8 *g, int at) {
     lane_mask gains = lane_or(first, lane_less(high * high * square, height * height * norm));
     gains = lane_and(gains, lane_and(lane_greater(norm, lane_set(1e-150)), lane_less(norm, lane_set(1e150))));
     goes = lane_and(lane_and(goes, lane_not(inside)), lane_and(gains, lane_greater(norm, s.least)));
-    replace_corner(g, at, &s, goes, w, id);
+    s.goes = goes;
+    replace_corner(g, at, &s, &(lane_corner){w, id});
     put_some(&g->n[0], at, goes, s.n.x);
     put_some(&g->n[1], at, goes, s.n.y);
     put_some(&g->n[2], at, goes, s.n.z);

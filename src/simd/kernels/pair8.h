@@ -74,9 +74,13 @@ typedef struct body_columns {
     lane_column first[4]; ///< vertex 0, what is behind it
 } body_columns;
 
+typedef struct pair_columns {
+    body_columns a, b;
+} pair_columns;
+
 // frame_place, reject_by_spheres and the bounds of rejection_make_answer.
-LANES_INLINE pair8_found compute_spheres(const body_columns *a, const body_columns *b, const pair8_query *query,
-                                         pair8 *o, int at) {
+LANES_INLINE pair8_found compute_spheres(const pair_columns *from, const pair8_query *query, pair8 *o, int at) {
+    const body_columns *a = &from->a, *b = &from->b;
     lane3 origin = get3(a->pose + 1, at), origin_b = get3(b->pose + 1, at);
     lane_mask good = lane_and(is_in_reach(origin, query->length_most), is_in_reach(origin_b, query->length_most));
     lane9 world = make_rotation(a->pose + 4, at, &good), world_b = make_rotation(b->pose + 4, at, &good);
@@ -127,15 +131,15 @@ static void add_found(pair8_found *all, pair8_found some, int at) {
 }
 
 LANES_TARGET static pair8_found run_spheres(const pair8_places *from, const pair8_query *query, pair8 *o) {
-    body_columns a, b;
-    read_columns(from->body_a, 0, 8, a.pose);
-    read_columns(from->body_b, 0, 8, b.pose);
-    read_columns(from->shape_a, 0, 6, a.head);
-    read_columns(from->shape_b, 0, 6, b.head);
-    read_columns(from->shape_a, 8, 4, a.first);
-    read_columns(from->shape_b, 8, 4, b.first);
+    pair_columns c;
+    read_columns(from->body_a, 0, 8, c.a.pose);
+    read_columns(from->body_b, 0, 8, c.b.pose);
+    read_columns(from->shape_a, 0, 6, c.a.head);
+    read_columns(from->shape_b, 0, 6, c.b.head);
+    read_columns(from->shape_a, 8, 4, c.a.first);
+    read_columns(from->shape_b, 8, 4, c.b.first);
     pair8_found all = {0, 0, 0, 0};
-    for (int at = 0; at < PAIR8; at += LANES) add_found(&all, compute_spheres(&a, &b, query, o, at), at);
+    for (int at = 0; at < PAIR8; at += LANES) add_found(&all, compute_spheres(&c, query, o, at), at);
     return all;
 }
 
@@ -151,8 +155,10 @@ typedef struct related {
     lane radii, claim;
 } related;
 
-// What the steps hand on.
+// A lane group, and what its steps hand on.
 typedef struct ellipsoid_work {
+    pair8 *o;
+    const pair8_query *query;
     lane_column qa[6], qb[6], d[3], gap; ///< the outer ellipsoids, B's turned into the frame; between their centres
     lane_column inner_upper;
     lane_column good;     ///< 1 in lanes that stayed in the common case so far, else 0
@@ -170,9 +176,10 @@ LANES_INLINE void put_mask(lane_column *c, int at, lane_mask m) {
     put(c, at, lane_select(m, lane_set(1), lane_set(0)));
 }
 
-// frame_relate, and the outer ellipsoids in the frame. columns: outer centre and Q of A, then of B.
-LANES_INLINE void relate(const lane_column *a, const lane_column *b, const pair8_query *query, pair8 *o,
-                         ellipsoid_work *w, int at) {
+// frame_relate, and the outer ellipsoids in the frame. a, b: outer centre and Q of A, of B.
+LANES_INLINE void relate(ellipsoid_work *w, const lane_column *a, const lane_column *b, int at) {
+    const pair8_query *query = w->query;
+    pair8 *o = w->o;
     lane9 world = get9(o->world_a, at);
     related f = {lane9_mul_transposed(world, get9(o->world_b, at)), lane9_mul3_transposed(world, get3(o->offset, at)),
                  get(&o->radii, at), lane_set(query->claim) * get(&o->size, at) + lane_set(2 * query->hidden)};
@@ -201,29 +208,36 @@ typedef struct inner_columns {
     lane_column center[4], w[8];
 } inner_columns;
 
-// inner_find_common and inner_compute_upper: the lanes with a proven common point x; its upper bound.
-LANES_INLINE lane_mask find_common(const inner_columns *a, const inner_columns *b, const related *f, int at, lane3 *x,
-                                   lane *upper) {
+// A common point of the inner ellipsoids, its upper bound, and the lanes in which it is proven.
+typedef struct common_point {
+    lane_mask is_proven;
+    lane3 x;
+    lane upper;
+} common_point;
+
+// inner_find_common and inner_compute_upper.
+LANES_INLINE common_point find_common(const inner_columns *a, const inner_columns *b, const related *f, int at) {
     lane zero = lane_set(0), least_a = get(a->w + 6, at), least_b = get(b->w + 6, at);
     lane reach = get(a->w + 7, at) + get(b->w + 7, at);
     lane3 center = get3(a->center, at), center_b = get3(b->center, at), d = lane3_sub(get_b(f, center_b), center);
     lane_mask near = lane_and(lane_greater(least_a, zero), lane_greater(least_b, zero));
     near = lane_and(near, lane_less(lane3_dot(d, d), reach * reach));
-    if (!lane_bits(near)) return near;
+    if (!lane_bits(near)) return (common_point){near, {zero, zero, zero}, zero};
 
     // The point on the line of centres, or the centre itself.
     lane ka = norm_of(a->w, d, at), kb = norm_of(b->w, lane9_mul3_transposed(f->rotation, d), at);
     lane_mask between = lane_less(ka * kb, lane_set(0.999) * (ka + kb));
     lane_mask same = lane_not(lane_greater(ka, zero));
-    *x = lane3_select(between, lane3_add_scaled(center, d, kb / (ka + kb)), center);
+    lane3 x = lane3_select(between, lane3_add_scaled(center, d, kb / (ka + kb)), center);
 
     // How far inside both?
-    lane3 in_b = lane9_mul3_transposed(f->rotation, lane3_sub(*x, f->translation));
+    lane3 in_b = lane9_mul3_transposed(f->rotation, lane3_sub(x, f->translation));
     lane one = lane_set(1), most = lane_set(1 - 1e-5);
-    lane na = norm_in(a->w, center, *x, at), nb = norm_in(b->w, center_b, in_b, at) + f->claim / least_b;
-    *upper = lane_set(-0.999) * ((one - na) * least_a + (one - nb) * least_b) - f->radii;
+    lane na = norm_in(a->w, center, x, at), nb = norm_in(b->w, center_b, in_b, at) + f->claim / least_b;
+    lane upper = lane_set(-0.999) * ((one - na) * least_a + (one - nb) * least_b) - f->radii;
     lane_mask inside = lane_and(lane_less(na, most), lane_less(nb, most));
-    return lane_and(lane_and(near, lane_or(between, same)), lane_and(inside, lane_less(*upper, zero)));
+    lane_mask is_proven = lane_and(lane_and(near, lane_or(between, same)), lane_and(inside, lane_less(upper, zero)));
+    return (common_point){is_proven, x, upper};
 }
 
 // The gap of the enclosing spheres along the line of centres (take_spheres in answer.c).
@@ -233,16 +247,15 @@ LANES_INLINE lane compute_sphere_gap(const pair8 *o, const related *f, int at, l
 }
 
 // Inner ellipsoids: a common point; the lower bound is that of the spheres.
-LANES_INLINE unsigned compute_inner(const inner_columns *a, const inner_columns *b, pair8 *o, ellipsoid_work *w,
-                                    int at) {
+LANES_INLINE unsigned compute_inner(ellipsoid_work *w, const inner_columns *a, const inner_columns *b, int at) {
+    pair8 *o = w->o;
     related f = get_related(o, at);
-    lane zero = lane_set(0), upper = zero;
-    lane3 x = {zero, zero, zero};
-    lane_mask good = lane_at_least(zero, zero), inner = find_common(a, b, &f, at, &x, &upper);
+    common_point common = find_common(a, b, &f, at);
+    lane_mask good = lane_at_least(lane_set(0), lane_set(0)), inner = common.is_proven;
     if (lane_bits(inner)) {
         put(&o->lower, at, compute_sphere_gap(o, &f, at, &good));
-        put(&w->inner_upper, at, upper);
-        put3(o->inner, at, x);
+        put(&w->inner_upper, at, common.upper);
+        put3(o->inner, at, common.x);
     }
     put_mask(&w->good, at, lane_or(good, lane_not(inner)));
     put_mask(&w->is_inner, at, inner);
@@ -256,7 +269,8 @@ LANES_INLINE lane compute_spread(lane6 q, lane3 n) {
 
 // ellipsoids_find_direction in two steps: first the line of centres (or find_line in answer.c), then one round of it
 // (improve_direction). The mask loses the lanes that are scaled there, or leave its loop early.
-LANES_INLINE void start_direction(pair8 *o, ellipsoid_work *w, int at) {
+LANES_INLINE void start_direction(ellipsoid_work *w, int at) {
+    pair8 *o = w->o;
     related f = get_related(o, at);
     lane_mask line = get_mask(&o->line, at);
     lane3 d = get3(w->d, at), centers = lane3_sub(get_b(&f, get3(o->center_b, at)), get3(o->center_a, at));
@@ -269,7 +283,8 @@ LANES_INLINE void start_direction(pair8 *o, ellipsoid_work *w, int at) {
     put_mask(&w->good, at, lane_and(get_mask(&w->good, at), lane_or(good, get_mask(&w->is_inner, at))));
 }
 
-LANES_INLINE void improve_direction(pair8 *o, ellipsoid_work *w, int is_last, int at) {
+LANES_INLINE void improve_direction(ellipsoid_work *w, int is_last, int at) {
+    pair8 *o = w->o;
     lane3 n = get3(o->n, at), d = get3(w->d, at);
     lane6 qa = get6(w->qa, at), qb = get6(w->qb, at);
     lane zero = lane_set(0), sa = lane_sqrt(compute_spread(qa, n)), sb = lane_sqrt(compute_spread(qb, n));
@@ -291,7 +306,8 @@ LANES_INLINE void improve_direction(pair8 *o, ellipsoid_work *w, int is_last, in
 }
 
 // Outer ellipsoids; the upper bound is that of any two vertices.
-LANES_INLINE pair8_found compute_outer(pair8 *o, const ellipsoid_work *w, const pair8_query *query, int at) {
+LANES_INLINE pair8_found compute_outer(const ellipsoid_work *w, int at) {
+    pair8 *o = w->o;
     related f = get_related(o, at);
     put3(o->low, at, lane3_neg(lane9_mul3_transposed(f.rotation, get3(o->n, at))));
     lane3 any = lane3_sub(get_b(&f, get3(o->first_b, at)), get3(o->first_a, at));
@@ -302,18 +318,17 @@ LANES_INLINE pair8_found compute_outer(pair8 *o, const ellipsoid_work *w, const 
     put(&o->upper, at, upper);
     // Lanes that took the line of centres have not measured the outer ellipsoids.
     lane_mask passed = lane_or(inner, get_mask(&o->line, at));
-    lane_mask apart = lane_and(lane_and(good, lane_not(passed)), lane_greater(lower, lane_set(query->far)));
+    lane_mask apart = lane_and(lane_and(good, lane_not(passed)), lane_greater(lower, lane_set(w->query->far)));
     return (pair8_found){lane_bits(lane_not(good)), lane_bits(inner), lane_bits(apart),
                          lane_bits(lane_at_most(upper - lower, get(&o->tolerance, at)))};
 }
 
-LANES_TARGET static void start_ellipsoids(const pair8_ellipsoids *from, const pair8_query *query, pair8 *o,
-                                          ellipsoid_work *w) {
+LANES_TARGET static void start_ellipsoids(const pair8_ellipsoids *from, ellipsoid_work *w) {
     lane_column outer_a[10], outer_b[10];
     inner_columns a, b;
     read_columns(from->outer_a, 0, 10, outer_a);
     read_columns(from->outer_b, 0, 10, outer_b);
-    for (int at = 0; at < PAIR8; at += LANES) relate(outer_a, outer_b, query, o, w, at);
+    for (int at = 0; at < PAIR8; at += LANES) relate(w, outer_a, outer_b, at);
     // The tenth number is the first one of the inner centre, which follows.
     read_columns(from->outer_a, 9, 4, a.center);
     read_columns(from->outer_b, 9, 4, b.center);
@@ -321,24 +336,26 @@ LANES_TARGET static void start_ellipsoids(const pair8_ellipsoids *from, const pa
     read_columns(from->inner_b, 0, 8, b.w);
     unsigned inner = 0, line = 0;
     for (int at = 0; at < PAIR8; at += LANES) {
-        inner |= compute_inner(&a, &b, o, w, at) << at;
-        line |= lane_bits(get_mask(&o->line, at)) << at;
+        inner |= compute_inner(w, &a, &b, at) << at;
+        line |= lane_bits(get_mask(&w->o->line, at)) << at;
     }
-    for (int at = 0; at < PAIR8 && inner != PAIR8_ALL; at += LANES) start_direction(o, w, at);
+    for (int at = 0; at < PAIR8 && inner != PAIR8_ALL; at += LANES) start_direction(w, at);
     w->is_searching = (inner | line) != PAIR8_ALL;
 }
 
-LANES_TARGET static void run_ellipsoids(const pair8_ellipsoids *from, const pair8_query *query, pair8 *o,
-                                        unsigned count, pair8_found *found) {
+LANES_TARGET static void run_ellipsoids(pair8_group *groups, unsigned count, const pair8_query *query) {
     ellipsoid_work w[PAIR8_GROUPS];
-    for (unsigned i = 0; i < count; i++) start_ellipsoids(&from[i], query, &o[i], &w[i]);
+    for (unsigned i = 0; i < count; i++) {
+        w[i].o = groups[i].lanes;
+        w[i].query = query;
+        start_ellipsoids(&groups[i].from, &w[i]);
+    }
     for (int round = 0; round < 3; round++)
         for (unsigned i = 0; i < count; i++)
-            for (int at = 0; at < PAIR8 && w[i].is_searching; at += LANES)
-                improve_direction(&o[i], &w[i], round == 2, at);
+            for (int at = 0; at < PAIR8 && w[i].is_searching; at += LANES) improve_direction(&w[i], round == 2, at);
     for (unsigned i = 0; i < count; i++) {
-        found[i] = (pair8_found){0, 0, 0, 0};
-        for (int at = 0; at < PAIR8; at += LANES) add_found(&found[i], compute_outer(&o[i], &w[i], query, at), at);
+        groups[i].found = (pair8_found){0, 0, 0, 0};
+        for (int at = 0; at < PAIR8; at += LANES) add_found(&groups[i].found, compute_outer(&w[i], at), at);
     }
 }
 

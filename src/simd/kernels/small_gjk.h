@@ -1,6 +1,6 @@
 // The loop of small_gjk.h. Who includes it has defined
 //   SMALL_GJK_INLINE         the attributes of its functions
-//   pose_points(p, from, rows, t, blocks), move_points(p, from, t, blocks), measure(m, a, b, blocks, x, y, z)
+//   pose_points(p, from, blocks), move_points(p, from, blocks), measure(m, bodies, blocks, n)
 //   met                      a support: gap, point indices a and b, and the difference as the step takes it
 //   met_get(m, w)            that difference as numbers
 //   corners                  up to four such differences
@@ -20,8 +20,17 @@ typedef struct walk {
     corners at;
     uint32_t a[4], b[4];
     unsigned valid;
-    double x, y, z, height, square;
+    vec3 n;
+    double height, square;
 } walk;
+
+// A search: what is asked, what is found, where it is, and the latest support.
+typedef struct small_search {
+    const small_gjk_query *q;
+    small_gjk_result *r;
+    walk k;
+    met m;
+} small_search;
 
 SMALL_GJK_INLINE void put_corner(walk *k, unsigned i, const met *m) {
     corners_put(&k->at, i, m);
@@ -60,18 +69,16 @@ SMALL_GJK_INLINE step_end take_step(walk *k, const met *m) {
     unsigned place = (unsigned)__builtin_ctz(~next.kept);
     put_corner(k, place, m);
     k->valid = next.kept | 1u << place;
-    k->x = next.x;
-    k->y = next.y;
-    k->z = next.z;
+    k->n = (vec3){next.x, next.y, next.z};
     k->height = height;
     k->square = next.square;
     return STEP_ON;
 }
 
-SMALL_GJK_INLINE void write_direction(small_gjk_result *r, double x, double y, double z, double square, double gap) {
-    r->n[0] = x;
-    r->n[1] = y;
-    r->n[2] = z;
+SMALL_GJK_INLINE void write_direction(small_gjk_result *r, vec3 n, double square, double gap) {
+    r->n[0] = n.x;
+    r->n[1] = n.y;
+    r->n[2] = n.z;
     r->square = square;
     r->gap = gap;
 }
@@ -110,11 +117,15 @@ SMALL_GJK_INLINE int is_near(const small_gjk_query *q, const walk *k, const met 
 }
 
 // What a support along the walk's heading says, and the step to it: 1 where that ends the search.
-SMALL_GJK_INLINE int look(const small_gjk_query *q, walk *k, const met *m, double scale, small_gjk_result *r) {
+SMALL_GJK_INLINE int look(small_search *s, double scale) {
+    const small_gjk_query *q = s->q;
+    small_gjk_result *r = s->r;
+    walk *k = &s->k;
+    const met *m = &s->m;
     double lower = find_lower(q, m, scale), upper = find_upper(q, k, scale);
     int is_apart = lower > q->far;
     if (is_apart || is_answered(q, lower, upper)) {
-        write_direction(r, k->x, k->y, k->z, k->square, m->gap);
+        write_direction(r, k->n, k->square, m->gap);
         r->end = is_apart ? SMALL_GJK_APART : SMALL_GJK_NEAR;
         return 1;
     }
@@ -125,32 +136,34 @@ SMALL_GJK_INLINE int look(const small_gjk_query *q, walk *k, const met *m, doubl
     return end != STEP_ON;
 }
 
-SMALL_GJK_INLINE void search(const small_gjk_query *q, const small_gjk_body *a, const small_gjk_body *b,
-                             uint32_t blocks, walk *k, met *m, small_gjk_result *r) {
+SMALL_GJK_INLINE void search(small_search *s, const small_gjk_bodies *bodies, uint32_t blocks) {
+    const small_gjk_query *q = s->q;
+    small_gjk_result *r = s->r;
+    const walk *k = &s->k;
     r->end = SMALL_GJK_OPEN;
     for (r->iterations = 0;; r->iterations++) {
         double scale = 1 / sqrt(k->square);
         if (!(k->height * scale > q->claim) || r->iterations >= q->iterations) return;
-        measure(m, a, b, blocks, k->x, k->y, k->z);
-        if (look(q, k, m, scale, r)) return;
+        measure(&s->m, bodies, blocks, k->n);
+        if (look(s, scale)) return;
     }
 }
 
-SMALL_GJK_INLINE void pose_body(small_gjk_body *p, const simd_points *from, const double *turned, const double rows[9],
-                                const double t[3], uint32_t blocks) {
+// turned: the points turned to the world's axes, or NULL.
+SMALL_GJK_INLINE void pose_body(small_gjk_body *p, const placed_points *from, const double *turned, uint32_t blocks) {
     if (!turned) {
-        pose_points(p, from, rows, t, blocks);
+        pose_points(p, from, blocks);
         return;
     }
-    uint32_t count = from->padded_count;
-    simd_points at = {turned, turned + count, turned + 2 * (size_t)count, count};
-    move_points(p, &at, t, blocks);
+    uint32_t count = from->points.padded_count;
+    simd_points points = {turned, turned + count, turned + 2 * (size_t)count, count};
+    move_points(p, &(placed_points){points, NULL, from->at}, blocks);
 }
 
-SMALL_GJK_INLINE void pose_bodies(const small_gjk_query *q, small_gjk_body *a, small_gjk_body *b, uint32_t blocks) {
+SMALL_GJK_INLINE void pose_bodies(const small_gjk_query *q, small_gjk_bodies *bodies, uint32_t blocks) {
     static const double nowhere[3] = {0, 0, 0};
-    pose_body(a, &q->a, q->turned_a, q->rows_a, nowhere, blocks);
-    pose_body(b, &q->b, q->turned_b, q->rows_b, q->offset, blocks);
+    pose_body(&bodies->a, &(placed_points){q->a, q->rows_a, nowhere}, q->turned_a, blocks);
+    pose_body(&bodies->b, &(placed_points){q->b, q->rows_b, q->offset}, q->turned_b, blocks);
 }
 
 // Points of the larger body, in eights: 1 to 4.
@@ -160,18 +173,20 @@ SMALL_GJK_INLINE uint32_t find_blocks(const small_gjk_query *q) {
 }
 
 // Poses the bodies, and measures along the first direction. 1: the search has ended.
-SMALL_GJK_INLINE int begin(const small_gjk_query *q, small_gjk_body *a, small_gjk_body *b, uint32_t blocks, walk *k,
-                           met *m, small_gjk_result *r) {
-    pose_bodies(q, a, b, blocks);
-    double x = q->start[0], y = q->start[1], z = q->start[2], square = (x * x + y * y) + z * z, w[3];
-    measure(m, a, b, blocks, x, y, z);
-    write_direction(r, x, y, z, square, m->gap);
+SMALL_GJK_INLINE int begin(small_search *s, small_gjk_bodies *bodies, uint32_t blocks) {
+    const small_gjk_query *q = s->q;
+    small_gjk_result *r = s->r;
+    walk *k = &s->k;
+    met *m = &s->m;
+    pose_bodies(q, bodies, blocks);
+    vec3 n = vec3_at(q->start, 0);
+    double square = vec3_dot(n, n), w[3];
+    measure(m, bodies, blocks, n);
+    write_direction(r, n, square, m->gap);
     r->iterations = 0;
     met_get(m, w);
-    k->x = w[0];
-    k->y = w[1];
-    k->z = w[2];
-    k->height = k->square = (w[0] * w[0] + w[1] * w[1]) + w[2] * w[2];
+    k->n = vec3_at(w, 0);
+    k->height = k->square = vec3_dot(k->n, k->n);
     // The points of rounded bodies lie along their difference's own direction, which is measured next.
     double lower = m->gap * (1 / sqrt(square)) - q->lower_radii - q->claim;
     int is_apart = lower > q->far, is_round = q->lower_radii > 0;
@@ -184,18 +199,19 @@ SMALL_GJK_INLINE int begin(const small_gjk_query *q, small_gjk_body *a, small_gj
 }
 
 SMALL_GJK_INLINE void run(const small_gjk_query *q, uint32_t blocks, small_gjk_result *r) {
-    small_gjk_body a, b;
-    met m;
-    walk k;
-    if (begin(q, &a, &b, blocks, &k, &m, r)) return;
-    corners_fill(&k.at, &m);
-    for (int i = 0; i < 4; i++) k.a[i] = m.a, k.b[i] = m.b;
-    k.valid = 1;
-    search(q, &a, &b, blocks, &k, &m, r);
+    small_gjk_bodies bodies;
+    small_search s;
+    s.q = q;
+    s.r = r;
+    if (begin(&s, &bodies, blocks)) return;
+    corners_fill(&s.k.at, &s.m);
+    for (int i = 0; i < 4; i++) s.k.a[i] = s.m.a, s.k.b[i] = s.m.b;
+    s.k.valid = 1;
+    search(&s, &bodies, blocks);
     if (r->end == SMALL_GJK_APART)
-        end_at_support(r, &m);
+        end_at_support(r, &s.m);
     else
-        write_walk(r, &k);
+        write_walk(r, &s.k);
 }
 
 SMALL_GJK_INLINE void run_class(const small_gjk_query *q, small_gjk_result *r) {

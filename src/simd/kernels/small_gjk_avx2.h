@@ -36,10 +36,10 @@ SMALL_GJK_INLINE lanes3 load_points(const simd_points *from, uint32_t i) {
     return (lanes3){_mm256_loadu_pd(from->x + at), _mm256_loadu_pd(from->y + at), _mm256_loadu_pd(from->z + at)};
 }
 
-SMALL_GJK_INLINE void pose_points(small_gjk_body *p, const simd_points *from, const double rows[9], const double t[3],
-                                  uint32_t blocks) {
+SMALL_GJK_INLINE void pose_points(small_gjk_body *p, const placed_points *from, uint32_t blocks) {
+    const double *rows = from->rows, *t = from->at;
     for (uint32_t i = 0; i < 8 * blocks; i += 4) {
-        lanes3 v = load_points(from, i);
+        lanes3 v = load_points(&from->points, i);
         _mm256_store_pd(p->x + i, turn(rows, v, t[0]));
         _mm256_store_pd(p->y + i, turn(rows + 3, v, t[1]));
         _mm256_store_pd(p->z + i, turn(rows + 6, v, t[2]));
@@ -47,10 +47,11 @@ SMALL_GJK_INLINE void pose_points(small_gjk_body *p, const simd_points *from, co
 }
 
 // Moves points that are turned already; the bits are those of posing them.
-SMALL_GJK_INLINE void move_points(small_gjk_body *p, const simd_points *from, const double t[3], uint32_t blocks) {
+SMALL_GJK_INLINE void move_points(small_gjk_body *p, const placed_points *from, uint32_t blocks) {
+    const double *t = from->at;
     lanes3 by = {_mm256_set1_pd(t[0]), _mm256_set1_pd(t[1]), _mm256_set1_pd(t[2])};
     for (uint32_t i = 0; i < 8 * blocks; i += 4) {
-        lanes3 v = load_points(from, i);
+        lanes3 v = load_points(&from->points, i);
         _mm256_store_pd(p->x + i, _mm256_add_pd(v.x, by.x));
         _mm256_store_pd(p->y + i, _mm256_add_pd(v.y, by.y));
         _mm256_store_pd(p->z + i, _mm256_add_pd(v.z, by.z));
@@ -61,8 +62,8 @@ SMALL_GJK_INLINE __m256d better(__m256d a, __m256d b, int is_least) {
     return is_least ? _mm256_min_pd(a, b) : _mm256_max_pd(a, b);
 }
 
-// The lowest index among the largest, or least, of the values of 8 blocks points, and that value.
-SMALL_GJK_INLINE uint32_t find_best(const __m256d *v, uint32_t blocks, int is_least, double *value) {
+// The largest, or least, of the values of 8 blocks points, and the lowest index among those that have it.
+SMALL_GJK_INLINE support_result find_best(const __m256d *v, uint32_t blocks, int is_least) {
     __m256d m[SMALL_GJK_POINTS / 4];
     uint32_t count = 2 * blocks;
     for (uint32_t i = 0; i < count; i++) m[i] = v[i];
@@ -72,39 +73,34 @@ SMALL_GJK_INLINE uint32_t find_best(const __m256d *v, uint32_t blocks, int is_le
     __m256d best = blocks > 1 ? better(m[0], m[1], is_least) : m[0];
     best = better(best, _mm256_permute2f128_pd(best, best, 1), is_least);
     best = better(best, _mm256_permute_pd(best, 5), is_least);
-    *value = _mm256_cvtsd_f64(best);
     uint32_t equal = 0;
     for (uint32_t i = 0; i < count; i++) equal |= mask4(_mm256_cmp_pd(v[i], best, _CMP_EQ_OQ)) << 4 * i;
-    return equal ? (uint32_t)__builtin_ctz(equal) : 0;
+    return (support_result){_mm256_cvtsd_f64(best), equal ? (uint32_t)__builtin_ctz(equal) : 0};
 }
 
 // The lowest index among the points that are extreme along n, and their value.
-SMALL_GJK_INLINE uint32_t find_extreme(const small_gjk_body *p, lanes3 n, uint32_t blocks, int is_least,
-                                       double *value) {
+SMALL_GJK_INLINE support_result find_extreme(const small_gjk_body *p, lanes3 n, uint32_t blocks, int is_least) {
     __m256d v[SMALL_GJK_POINTS / 4];
     for (uint32_t i = 0; i < 2 * blocks; i++)
         v[i] =
             dot4((lanes3){_mm256_load_pd(p->x + 4 * i), _mm256_load_pd(p->y + 4 * i), _mm256_load_pd(p->z + 4 * i)}, n);
-    return find_best(v, blocks, is_least, value);
+    return find_best(v, blocks, is_least);
 }
 
 // The extreme point of a body whose points are in its own frame.
-SMALL_GJK_INLINE uint32_t find_extreme_point(const simd_points *p, const double n[3], uint32_t blocks, int is_least,
-                                             double *value) {
-    lanes3 along = {_mm256_set1_pd(n[0]), _mm256_set1_pd(n[1]), _mm256_set1_pd(n[2])};
+SMALL_GJK_INLINE support_result find_extreme_point(const simd_points *p, vec3 n, uint32_t blocks, int is_least) {
+    lanes3 along = {_mm256_set1_pd(n.x), _mm256_set1_pd(n.y), _mm256_set1_pd(n.z)};
     __m256d v[SMALL_GJK_POINTS / 4];
     for (uint32_t i = 0; i < 2 * blocks; i++) v[i] = dot4(load_points(p, 4 * i), along);
-    return find_best(v, blocks, is_least, value);
+    return find_best(v, blocks, is_least);
 }
 
-SMALL_GJK_INLINE void measure(met *m, const small_gjk_body *a, const small_gjk_body *b, uint32_t blocks, double x,
-                              double y, double z) {
-    lanes3 n = {_mm256_set1_pd(x), _mm256_set1_pd(y), _mm256_set1_pd(z)};
-    double high, low;
-    uint32_t i = find_extreme(a, n, blocks, 0, &high), k = find_extreme(b, n, blocks, 1, &low);
-    m->a = i;
-    m->b = k;
-    m->gap = low - high;
+SMALL_GJK_INLINE void measure(met *m, const small_gjk_bodies *bodies, uint32_t blocks, vec3 along) {
+    const small_gjk_body *a = &bodies->a, *b = &bodies->b;
+    lanes3 n = {_mm256_set1_pd(along.x), _mm256_set1_pd(along.y), _mm256_set1_pd(along.z)};
+    support_result high = find_extreme(a, n, blocks, 0), low = find_extreme(b, n, blocks, 1);
+    uint32_t i = m->a = high.index, k = m->b = low.index;
+    m->gap = low.value - high.value;
     m->w.x = _mm256_sub_pd(_mm256_set1_pd(b->x[k]), _mm256_set1_pd(a->x[i]));
     m->w.y = _mm256_sub_pd(_mm256_set1_pd(b->y[k]), _mm256_set1_pd(a->y[i]));
     m->w.z = _mm256_sub_pd(_mm256_set1_pd(b->z[k]), _mm256_set1_pd(a->z[i]));

@@ -1,11 +1,10 @@
 // The search of small_gjk.h from what an earlier one left. Who includes it has included kernels/small_gjk.h and defined
 //   met_set(m, w)            the difference of a support, from numbers
 //   corners_meet(c, q, a, b) the differences of four points b and a, posed
-//   find_extreme_point(p, n, blocks, is_least, value)   the point of a body that is extreme along n, in its own frame
+//   find_extreme_point(p, n, blocks, is_least)   the point of a body that is extreme along n, in its own frame
 #ifndef OVOID_SIMD_KERNELS_SMALL_GJK_KEPT_H
 #define OVOID_SIMD_KERNELS_SMALL_GJK_KEPT_H
 
-#include "linear/vec3.h"
 #include "simd/kernels/small_gjk.h"
 
 SMALL_GJK_INLINE double turn_row(const double row[3], const simd_points *p, uint32_t i) {
@@ -20,18 +19,21 @@ SMALL_GJK_INLINE void meet_points(const small_gjk_query *q, met *m) {
     met_set(m, w);
 }
 
+// A direction of the world in the frame of a body.
+SMALL_GJK_INLINE vec3 turn_back(const double rows[9], vec3 n) {
+    double in_body[3];
+    for (int c = 0; c < 3; c++) in_body[c] = (rows[c] * n.x + rows[3 + c] * n.y) + rows[6 + c] * n.z;
+    return vec3_at(in_body, 0);
+}
+
 // The gap along a direction before the bodies are posed: the direction is turned into their frames. Of the support only
 // its points are known: meet_points.
-SMALL_GJK_INLINE void measure_unposed(met *m, const small_gjk_query *q, uint32_t blocks, double x, double y, double z) {
-    const double *ra = q->rows_a, *rb = q->rows_b, *o = q->offset;
-    double in_a[3], in_b[3], high, low;
-    for (int c = 0; c < 3; c++) {
-        in_a[c] = (ra[c] * x + ra[3 + c] * y) + ra[6 + c] * z;
-        in_b[c] = (rb[c] * x + rb[3 + c] * y) + rb[6 + c] * z;
-    }
-    m->a = find_extreme_point(&q->a, in_a, blocks, 0, &high);
-    m->b = find_extreme_point(&q->b, in_b, blocks, 1, &low);
-    m->gap = (((o[0] * x + o[1] * y) + o[2] * z) + low) - high;
+SMALL_GJK_INLINE void measure_unposed(met *m, const small_gjk_query *q, uint32_t blocks, vec3 n) {
+    support_result high = find_extreme_point(&q->a, turn_back(q->rows_a, n), blocks, 0);
+    support_result low = find_extreme_point(&q->b, turn_back(q->rows_b, n), blocks, 1);
+    m->a = high.index;
+    m->b = low.index;
+    m->gap = (vec3_dot(vec3_at(q->offset, 0), n) + low.value) - high.value;
 }
 
 // The point of one to three corners that is nearest to the origin, where it lies between all of them.
@@ -122,13 +124,11 @@ SMALL_GJK_INLINE void meet_kept(const small_gjk_query *q, const small_gjk_kept *
 
 // The walk at the nearest point of the kept corners. 1: it lies between them, as before; 0: not all hold
 // it; -1: no certain one.
-SMALL_GJK_INLINE int begin_at_kept(const small_gjk_query *q, const small_gjk_kept *kept, walk *k, kept_point *p,
-                                   small_gjk_result *r) {
-    meet_kept(q, kept, k, r);
-    if (!find_between(&r->at, kept->count, p)) return step_at_kept(kept->count, k) ? 0 : -1;
-    k->x = p->n.x;
-    k->y = p->n.y;
-    k->z = p->n.z;
+SMALL_GJK_INLINE int begin_at_kept(small_search *s, const small_gjk_kept *kept, kept_point *p) {
+    walk *k = &s->k;
+    meet_kept(s->q, kept, k, s->r);
+    if (!find_between(&s->r->at, kept->count, p)) return step_at_kept(kept->count, k) ? 0 : -1;
+    k->n = p->n;
     k->height = p->height;
     k->square = p->square;
     return 1;
@@ -152,32 +152,33 @@ SMALL_GJK_INLINE void end_at_kept(small_gjk_result *r, const walk *k, const kept
 
 SMALL_GJK_INLINE void run_kept(const small_gjk_query *q, const small_gjk_kept *kept, uint32_t blocks,
                                small_gjk_result *r) {
-    small_gjk_body a, b;
-    met m;
-    walk k;
+    small_gjk_bodies bodies;
+    small_search s;
     kept_point p;
+    s.q = q;
+    s.r = r;
     r->iterations = 0;
     r->end = SMALL_GJK_OPEN;
-    int is_between = begin_at_kept(q, kept, &k, &p, r);
+    int is_between = begin_at_kept(&s, kept, &p);
     if (is_between < 0) return;
-    double scale = 1 / sqrt(k.square);
-    if (!(k.height * scale > q->claim)) return;
-    measure_unposed(&m, q, blocks, k.x, k.y, k.z);
-    write_direction(r, k.x, k.y, k.z, k.square, m.gap);
-    if (is_between && is_near(q, &k, &m, scale)) {
-        end_at_kept(r, &k, &p);
+    double scale = 1 / sqrt(s.k.square);
+    if (!(s.k.height * scale > q->claim)) return;
+    measure_unposed(&s.m, q, blocks, s.k.n);
+    write_direction(r, s.k.n, s.k.square, s.m.gap);
+    if (is_between && is_near(q, &s.k, &s.m, scale)) {
+        end_at_kept(r, &s.k, &p);
         return;
     }
-    meet_points(q, &m);
-    if (!look(q, &k, &m, scale, r)) {
-        pose_bodies(q, &a, &b, blocks);
-        search(q, &a, &b, blocks, &k, &m, r);
+    meet_points(q, &s.m);
+    if (!look(&s, scale)) {
+        pose_bodies(q, &bodies, blocks);
+        search(&s, &bodies, blocks);
         r->iterations++;
     }
     if (r->end == SMALL_GJK_APART)
-        end_at_support(r, &m);
+        end_at_support(r, &s.m);
     else
-        write_walk(r, &k);
+        write_walk(r, &s.k);
 }
 
 // The point between the kept corners, without a support.
@@ -188,7 +189,7 @@ SMALL_GJK_INLINE void find_kept(const small_gjk_query *q, const small_gjk_kept *
     r->end = SMALL_GJK_OPEN;
     meet_kept(q, kept, &k, r);
     if (!find_between(&r->at, kept->count, &p) || !(p.height * (1 / sqrt(p.square)) > q->claim)) return;
-    write_direction(r, p.n.x, p.n.y, p.n.z, p.square, 0);
+    write_direction(r, p.n, p.square, 0);
     end_at_kept(r, &k, &p);
 }
 

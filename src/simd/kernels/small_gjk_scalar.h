@@ -19,39 +19,36 @@ SMALL_GJK_INLINE void met_set(met *m, const double w[3]) {
     for (int i = 0; i < 3; i++) m->w[i] = w[i];
 }
 
-SMALL_GJK_INLINE void pose_points(small_gjk_body *p, const simd_points *from, const double rows[9], const double t[3],
-                                  uint32_t blocks) {
+SMALL_GJK_INLINE void pose_points(small_gjk_body *p, const placed_points *from, uint32_t blocks) {
     (void)blocks;
-    p->count = from->padded_count;
-    simd_pose_points_scalar(from, rows, t, p->x, p->y, p->z);
+    p->count = from->points.padded_count;
+    simd_pose_points_scalar(&from->points, from->rows, from->at, (double *[]){p->x, p->y, p->z});
 }
 
 // Moves points that are turned already; the bits are those of posing them.
-SMALL_GJK_INLINE void move_points(small_gjk_body *p, const simd_points *from, const double t[3], uint32_t blocks) {
+SMALL_GJK_INLINE void move_points(small_gjk_body *p, const placed_points *from, uint32_t blocks) {
     (void)blocks;
-    p->count = from->padded_count;
+    const simd_points *own = &from->points;
+    p->count = own->padded_count;
     for (uint32_t i = 0; i < p->count; i++) {
-        p->x[i] = from->x[i] + t[0];
-        p->y[i] = from->y[i] + t[1];
-        p->z[i] = from->z[i] + t[2];
+        p->x[i] = own->x[i] + from->at[0];
+        p->y[i] = own->y[i] + from->at[1];
+        p->z[i] = own->z[i] + from->at[2];
     }
 }
 
-SMALL_GJK_INLINE uint32_t find_extreme_point(const simd_points *p, const double n[3], uint32_t blocks, int is_least,
-                                             double *value) {
+SMALL_GJK_INLINE support_result find_extreme_point(const simd_points *p, vec3 n, uint32_t blocks, int is_least) {
     (void)blocks;
     double sign = is_least ? -1 : 1;
-    support_result best =
-        simd_find_support_scalar(p->x, p->y, p->z, p->padded_count, sign * n[0], sign * n[1], sign * n[2]);
-    *value = sign * best.value;
-    return best.index;
+    support_result best = simd_find_support_scalar(p, vec3_scale(n, sign));
+    return (support_result){sign * best.value, best.index};
 }
 
-SMALL_GJK_INLINE void measure(met *m, const small_gjk_body *a, const small_gjk_body *b, uint32_t blocks, double x,
-                              double y, double z) {
+SMALL_GJK_INLINE void measure(met *m, const small_gjk_bodies *bodies, uint32_t blocks, vec3 n) {
     (void)blocks;
-    support_result high = simd_find_support_scalar(a->x, a->y, a->z, a->count, x, y, z);
-    support_result low = simd_find_support_scalar(b->x, b->y, b->z, b->count, -x, -y, -z);
+    const small_gjk_body *a = &bodies->a, *b = &bodies->b;
+    support_result high = simd_find_support_scalar(&(simd_points){a->x, a->y, a->z, a->count}, n);
+    support_result low = simd_find_support_scalar(&(simd_points){b->x, b->y, b->z, b->count}, vec3_neg(n));
     uint32_t i = m->a = high.index, k = m->b = low.index;
     m->gap = -low.value - high.value;
     m->w[0] = b->x[k] - a->x[i];
@@ -88,7 +85,7 @@ SMALL_GJK_INLINE void corners_meet(corners *c, const small_gjk_query *q, const u
 SMALL_GJK_INLINE void corners_store(const corners *c, corner_lanes *at) { *at = *c; }
 
 SMALL_GJK_INLINE corner_step corners_step(const corners *c, unsigned valid, const met *m) {
-    return simd_step_from_corner_scalar(c, valid, m->w[0], m->w[1], m->w[2]);
+    return simd_step_from_corner_scalar(c, valid, vec3_at(m->w, 0));
 }
 
 #endif

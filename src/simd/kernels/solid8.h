@@ -83,9 +83,24 @@ LANES_INLINE void take_edges(nearest *best, const edge *p, const edge *q) {
     take_nearest(best, always(), lane3_sub(lane3_scale(q->along, t), lane3_add_scaled(r, p->along, s)));
 }
 
+// A triangle: its edges, and the cross product of the first two.
+typedef struct sides {
+    edge of[3];
+    lane3 normal;
+} sides;
+
+LANES_INLINE sides make_sides(const lane3 corner[3]) {
+    sides s;
+    for (int i = 0; i < 3; i++) s.of[i] = make_edge(corner[i], corner[(i + 1) % 3]);
+    s.normal = lane3_cross(s.of[0].along, s.of[1].along);
+    return s;
+}
+
 // A corner above the inside of a triangle: sign 1 where the corner is of the other body, whose points are subtracted
 // from.
-LANES_INLINE void take_corner(nearest *best, lane3 corner, const edge of[3], lane3 normal, lane sign) {
+LANES_INLINE void take_corner(nearest *best, lane3 corner, const sides *s, lane sign) {
+    const edge *of = s->of;
+    lane3 normal = s->normal;
     lane zero = lane_set(0), square = lane3_dot(normal, normal);
     lane_mask inside = lane_greater(square, zero);
     for (int i = 0; i < 3; i++) {
@@ -103,9 +118,22 @@ LANES_INLINE lane find_bottom(const lane3 corner[3], lane3 n) {
     return least(least(lane3_dot(corner[0], n), lane3_dot(corner[1], n)), lane3_dot(corner[2], n));
 }
 
-// Gaps along the normal given and along the line of the middles: 1 if all are enough, and written.
-LANES_INLINE int run_directions(const solid8_triangle *one, const lane3 p[3], const lane3 q[3], int at,
-                                solid8_gaps *out) {
+// What is measured of LANES pairs (solid8_gaps).
+typedef struct lane_gaps {
+    lane lower, upper;
+    lane3 normal;
+} lane_gaps;
+
+LANES_INLINE void put_gaps(solid8_gaps *out, int at, const lane_gaps *g) {
+    lane_store(out->lower + at, g->lower);
+    lane_store(out->upper + at, g->upper);
+    lane_store(out->normal[0] + at, g->normal.x);
+    lane_store(out->normal[1] + at, g->normal.y);
+    lane_store(out->normal[2] + at, g->normal.z);
+}
+
+// Gaps along the normal given and along the line of the middles: 1 if all are enough.
+LANES_INLINE int run_directions(const solid8_triangle *one, const lane3 p[3], const lane3 q[3], lane_gaps *out) {
     lane third = lane_set(1.0 / 3);
     lane3 n = spread(one->normal);
     lane gap = find_bottom(q, n) - find_top(p, n);
@@ -117,47 +145,41 @@ LANES_INLINE int run_directions(const solid8_triangle *one, const lane3 p[3], co
     lane_mask better = lane_and(good, lane_greater(along, gap));
     gap = lane_select(better, along, gap);
     if (lane_bits(lane_at_most(gap, lane_set(one->enough)))) return 0;
-    n = lane3_select(better, line, n);
-    lane_store(out->lower + at, gap);
-    lane_store(out->upper + at, lane_set(INFINITY));
-    lane_store(out->normal[0] + at, n.x);
-    lane_store(out->normal[1] + at, n.y);
-    lane_store(out->normal[2] + at, n.z);
+    *out = (lane_gaps){gap, lane_set(INFINITY), lane3_select(better, line, n)};
     return 1;
 }
 
 LANES_TARGET static void run_triangles(const solid8_triangle *one, const solid8_triangles *eight, solid8_gaps *out) {
     lane3 p[3], q[3];
-    edge a[3], b[3];
+    lane_gaps gaps;
     lane9 rotation = spread9(&one->rotation);
     lane3 translation = spread(one->translation);
     for (int i = 0; i < 3; i++) p[i] = spread(one->corner[i]);
-    for (int i = 0; i < 3; i++) a[i] = make_edge(p[i], p[(i + 1) % 3]);
-    lane3 normal_a = lane3_cross(a[0].along, a[1].along);
+    sides a = make_sides(p);
     for (int at = 0; at < BOX8; at += LANES) {
         for (int i = 0; i < 3; i++) {
             lane3 own = {lane_load(eight->corner[i][0] + at), lane_load(eight->corner[i][1] + at),
                          lane_load(eight->corner[i][2] + at)};
             q[i] = lane3_add(lane9_mul3(rotation, own), translation);
         }
-        if (run_directions(one, p, q, at, out)) continue;
-        for (int i = 0; i < 3; i++) b[i] = make_edge(q[i], q[(i + 1) % 3]);
-        lane3 normal_b = lane3_cross(b[0].along, b[1].along);
+        if (run_directions(one, p, q, &gaps)) {
+            put_gaps(out, at, &gaps);
+            continue;
+        }
+        sides b = make_sides(q);
         nearest best = {lane_set(INFINITY), {lane_set(0), lane_set(0), lane_set(0)}};
         for (int i = 0; i < 3; i++)
-            for (int j = 0; j < 3; j++) take_edges(&best, &a[i], &b[j]);
+            for (int j = 0; j < 3; j++) take_edges(&best, &a.of[i], &b.of[j]);
         for (int i = 0; i < 3; i++) {
-            take_corner(&best, q[i], a, normal_a, lane_set(1));
-            take_corner(&best, p[i], b, normal_b, lane_set(-1));
+            take_corner(&best, q[i], &a, lane_set(1));
+            take_corner(&best, p[i], &b, lane_set(-1));
         }
         lane_mask good = always();
         lane3 n = lane3_unit(best.d, &good);
         lane zero = lane_set(0);
         n = lane3_select(good, n, (lane3){zero, zero, zero});
-        lane_store(out->lower + at, lane_select(good, find_bottom(q, n) - find_top(p, n), lane_set(-INFINITY)));
-        lane_store(out->upper + at, lane_select(good, lane_sqrt(best.square), lane_set(INFINITY)));
-        lane_store(out->normal[0] + at, n.x);
-        lane_store(out->normal[1] + at, n.y);
-        lane_store(out->normal[2] + at, n.z);
+        gaps = (lane_gaps){lane_select(good, find_bottom(q, n) - find_top(p, n), lane_set(-INFINITY)),
+                           lane_select(good, lane_sqrt(best.square), lane_set(INFINITY)), n};
+        put_gaps(out, at, &gaps);
     }
 }

@@ -71,31 +71,39 @@ LANES_INLINE lane9 make_rotation(lane4 q) {
                    {s * (xz - wy), s * (yz + wx), one - s * (xx + yy)}};
 }
 
-LANES_INLINE void put_frame(frame8 *f, int at, lane3 p, lane4 q, lane9 r) {
+// Where a frame is, in another.
+typedef struct lane_pose {
+    lane3 p;
+    lane4 q;
+} lane_pose;
+
+LANES_INLINE void put_frame(frame8 *f, int at, lane_pose pose) {
+    lane3 p = pose.p;
+    lane4 q = pose.q;
+    lane9 r = make_rotation(q);
     const lane all[FRAME8_COLUMNS] = {p.x,    p.y,    p.z,    q.w,    q.x,    q.y,    q.z,    r.r0.x,
                                       r.r0.y, r.r0.z, r.r1.x, r.r1.y, r.r1.z, r.r2.x, r.r2.y, r.r2.z};
     for (int i = 0; i < FRAME8_COLUMNS; i++) lane_store(f->column[i] + at, all[i]);
 }
 
-// The rotation and the place of the step's own, in its parent.
-LANES_INLINE void compute_local(const chain_step *s, const double (*values)[ROBOT8], int at, lane4 *rotation,
-                                lane3 *place) {
-    *rotation = spread4(s->rest);
-    *place = spread3(s->origin);
+// The pose of the step's own frame in its parent.
+LANES_INLINE lane_pose compute_local(const chain_step *s, const double (*values)[ROBOT8], int at) {
+    lane_pose own = {spread3(s->origin), spread4(s->rest)};
     uint32_t lengths = s->kind == STEP_SLIDE ? 1 : s->kind == STEP_PLANE ? 2 : s->kind == STEP_FREE ? 3 : 0;
     for (uint32_t i = 0; i < lengths; i++)
-        *place = lane3_add_scaled(*place, spread3(s->along[i]), get(values[s->value + i], at));
+        own.p = lane3_add_scaled(own.p, spread3(s->along[i]), get(values[s->value + i], at));
     if (s->kind == STEP_TURN || s->kind == STEP_PLANE) {
         lane c, h, angle = get(values[s->value + lengths], at);
         compute_turn(lane_set(0.5) * angle, &c, &h);
-        lane4 o = *rotation, t = spread4(s->turned);
-        *rotation = (lane4){c * o.w + h * t.w, c * o.x + h * t.x, c * o.y + h * t.y, c * o.z + h * t.z};
+        lane4 o = own.q, t = spread4(s->turned);
+        own.q = (lane4){c * o.w + h * t.w, c * o.x + h * t.x, c * o.y + h * t.y, c * o.z + h * t.z};
     } else if (s->kind == STEP_FREE) {
         const double(*v)[ROBOT8] = values + s->value + 3;
         lane4 q = {get(v[0], at), get(v[1], at), get(v[2], at), get(v[3], at)};
         lane scale = lane_set(1) / lane_sqrt((q.w * q.w + q.x * q.x) + (q.y * q.y + q.z * q.z));
-        *rotation = multiply(*rotation, (lane4){q.w * scale, q.x * scale, q.y * scale, q.z * scale});
+        own.q = multiply(own.q, (lane4){q.w * scale, q.x * scale, q.y * scale, q.z * scale});
     }
+    return own;
 }
 
 LANES_INLINE lane9 get_rotation(const frame8 *f, int at) {
@@ -114,16 +122,14 @@ LANES_TARGET static void run_chain(const chain_step *steps, uint32_t count, cons
     for (uint32_t i = 0; i < count; i++) {
         const chain_step *s = &steps[i];
         for (int at = 0; at < ROBOT8; at += LANES) {
-            lane4 q;
-            lane3 p;
-            compute_local(s, values, at, &q, &p);
+            lane_pose own = compute_local(s, values, at);
             if (s->parent != UINT32_MAX) {
                 const frame8 *parent = &frames[s->parent];
                 const double(*c)[ROBOT8] = parent->column;
-                p = lane3_add(get3(c, at), lane9_mul3(get_rotation(parent, at), p));
-                q = multiply((lane4){get(c[3], at), get(c[4], at), get(c[5], at), get(c[6], at)}, q);
+                own.p = lane3_add(get3(c, at), lane9_mul3(get_rotation(parent, at), own.p));
+                own.q = multiply((lane4){get(c[3], at), get(c[4], at), get(c[5], at), get(c[6], at)}, own.q);
             }
-            put_frame(&frames[s->child], at, p, q, make_rotation(q));
+            put_frame(&frames[s->child], at, own);
         }
     }
 }
@@ -223,9 +229,16 @@ LANES_INLINE lane3 place_middle(const linked_box8 *b, lane9 rotation, int at) {
     return lane3_add(get3(b->frame->column, at), lane9_mul3(rotation, spread3(b->middle)));
 }
 
+// A box: its axes, half sizes, and how far the other one's centre is along each axis.
+typedef struct lane_box {
+    lane9 axes;
+    lane3 half, apart;
+} lane_box;
+
 // oriented_boxes_find_gap.
-LANES_INLINE lane find_gap(lane9 ra, lane9 rb, lane3 h, lane3 k, lane3 in_a, lane3 in_b) {
-    lane9 m = lane9_mul_transposed(ra, rb);
+LANES_INLINE lane find_gap(const lane_box *a, const lane_box *b) {
+    lane3 h = a->half, k = b->half, in_a = a->apart, in_b = b->apart;
+    lane9 m = lane9_mul_transposed(a->axes, b->axes);
     lane3 r0 = abs3(m.r0), r1 = abs3(m.r1), r2 = abs3(m.r2);
     const lane gaps[6] = {in_a.x - h.x - lane3_dot(r0, k),
                           in_a.y - h.y - lane3_dot(r1, k),
@@ -248,7 +261,7 @@ LANES_TARGET static unsigned run_near_linked_boxes(const linked_box8 *a, const l
         lane size = (sum_abs(ca) + sum_abs(cb)) + halves;
         lane reach = ((lane_set(a->radius) + lane_set(b->radius)) + lane_set(margin)) + lane_set(ROBOT8_SLACK) * size;
         lane3 in_a = abs3(lane9_mul3_transposed(ra, d)), in_b = abs3(lane9_mul3_transposed(rb, d));
-        lane_mask far = lane_greater(find_gap(ra, rb, h, k, in_a, in_b), reach);
+        lane_mask far = lane_greater(find_gap(&(lane_box){ra, h, in_a}, &(lane_box){rb, k, in_b}), reach);
         // Along the line of centres, times its length.
         lane square = lane3_dot(d, d), along = square - lane3_dot(h, in_a) - lane3_dot(k, in_b);
         lane_mask is_parted = lane_greater(along * along * lane_set(1 - 0x1p-40), reach * reach * square);

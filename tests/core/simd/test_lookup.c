@@ -23,7 +23,8 @@ static uint64_t bits_of(double v) {
 }
 
 static support_result find_among_all(uint32_t count, vec3 n) {
-    return simd_find_support_scalar(x, y, z, (count + 7) / 8 * 8, n.x, n.y, n.z);
+    simd_points points = {x, y, z, (count + 7) / 8 * 8};
+    return simd_find_support_scalar(&points, n);
 }
 
 static void check_direction(const support_table *t, const simd_cell *cells, uint32_t count, vec3 n) {
@@ -188,8 +189,8 @@ static void check_kernels(uint64_t *state) {
         }
         vec3 n = i & 2 ? (vec3){1, -1, 0} : random_direction(state);
         uint32_t count = 1 + (uint32_t)(random_next(state) % 24);
-        simd_extreme p = simd_find_in_cell(cells, cells + 1, count, n.x, n.y, n.z);
-        simd_extreme q = simd_find_in_cell_scalar(cells, cells + 1, count, n.x, n.y, n.z);
+        simd_extreme p = simd_find_in_cell(cells, cells + 1, count, &n);
+        simd_extreme q = simd_find_in_cell_scalar(cells, cells + 1, count, &n);
         CHECK(p.index == q.index && bits_of(p.value) == bits_of(q.value) && bits_of(p.x) == bits_of(q.x));
     }
     for (int i = 0; i < 300; i++) {
@@ -198,8 +199,9 @@ static void check_kernels(uint64_t *state) {
         for (uint32_t k = 0; k < 20; k++) limits[k / 4][k % 4] = 2 * random_normal(state);
         simd_cull by = {(const double(*)[3])corners, (const double(*)[4])limits, (uint32_t)i % 6};
         uint32_t count = 8 * (1 + (uint32_t)(random_next(state) % 20));
-        simd_find_unbeaten(&by, x, y, z, count, a);
-        simd_find_unbeaten_scalar(&by, x, y, z, count, b);
+        simd_points points = {x, y, z, count};
+        simd_find_unbeaten(&by, &points, a);
+        simd_find_unbeaten_scalar(&by, &points, b);
         CHECK(memcmp(a, b, count / 8) == 0);
     }
 }

@@ -17,7 +17,8 @@ static uint64_t bits_of(double v) {
 
 /// The definition: the largest value, the first index that has it.
 static void check_scalar(uint32_t n, const double *d) {
-    support_result r = simd_find_support_scalar(x, y, z, n, d[0], d[1], d[2]);
+    simd_points points = {x, y, z, n};
+    support_result r = simd_find_support_scalar(&points, vec3_at(d, 0));
     int is_first = 1, is_largest = 1;
     for (uint32_t i = 0; i < n; i++) {
         double v = (x[i] * d[0] + y[i] * d[1]) + z[i] * d[2];
@@ -31,11 +32,12 @@ static void check_scalar(uint32_t n, const double *d) {
 /// Every kernel of this machine gives the scalar twin's bits.
 static void check_kernels(uint32_t n, const double *d) {
     check_scalar(n, d);
-    support_result expected = simd_find_support_scalar(x, y, z, n, d[0], d[1], d[2]);
+    simd_points points = {x, y, z, n};
+    support_result expected = simd_find_support_scalar(&points, vec3_at(d, 0));
     for (simd_isa isa = SIMD_SCALAR; isa <= SIMD_ISA_COUNT; isa++) {
         simd_support_function *find = isa == SIMD_ISA_COUNT ? simd_find_support : simd_get_support(isa);
         if (!find) continue;
-        support_result r = find(x, y, z, n, d[0], d[1], d[2]);
+        support_result r = find(&points, vec3_at(d, 0));
         CHECK_EQ(r.index, expected.index);
         CHECK(bits_of(r.value) == bits_of(expected.value));
     }
@@ -98,14 +100,15 @@ static void test_unaligned(void) {
     uint64_t state = check_seed = 7;
     fill_random(&state, LONGEST + 8, 1, 0);
     for (uint32_t shift = 0; shift < 8; shift++) {
-        support_result a = simd_find_support_scalar(x + shift, y + shift, z + shift, LONGEST, 1, 2, 3);
-        support_result b = simd_find_support(x + shift, y + shift, z + shift, LONGEST, 1, 2, 3);
+        simd_points points = {x + shift, y + shift, z + shift, LONGEST};
+        support_result a = simd_find_support_scalar(&points, (vec3){1, 2, 3});
+        support_result b = simd_find_support(&points, (vec3){1, 2, 3});
         CHECK(a.index == b.index && bits_of(a.value) == bits_of(b.value));
     }
 }
 
-static void check_pair(const simd_points *high, const simd_points *low, const double *d) {
-    const double e[3] = {d[1], -d[0], -d[2]};
+static void check_pair(const simd_points *high, const simd_points *low, vec3 d) {
+    vec3 e = {d.y, -d.x, -d.z};
     simd_pair expected = simd_get_pair(SIMD_SCALAR)(high, d, low, e);
     for (simd_isa isa = SIMD_SCALAR; isa <= SIMD_ISA_COUNT; isa++) {
         simd_pair_function *find = isa == SIMD_ISA_COUNT ? simd_find_pair : simd_get_pair(isa);
@@ -119,10 +122,9 @@ static void check_pair(const simd_points *high, const simd_points *low, const do
 }
 
 /// The difference along n is that of the pair along n and -n; points turned and moved are the scalar twin's.
-static void check_difference(const simd_points *a, const simd_points *b, const double *n) {
-    const double back[3] = {-n[0], -n[1], -n[2]};
-    simd_pair expected = simd_get_pair(SIMD_SCALAR)(a, n, b, back);
-    simd_difference d = simd_find_difference(a, b, n[0], n[1], n[2]);
+static void check_difference(const simd_points *a, const simd_points *b, vec3 n) {
+    simd_pair expected = simd_get_pair(SIMD_SCALAR)(a, n, b, vec3_neg(n));
+    simd_difference d = simd_find_difference(a, b, n);
     CHECK(d.a == expected.high.index && d.b == expected.low.index);
     CHECK(bits_of(d.gap) == bits_of(-expected.low.value - expected.high.value));
     CHECK(d.x == b->x[d.b] - a->x[d.a] && d.y == b->y[d.b] - a->y[d.a] && d.z == b->z[d.b] - a->z[d.a]);
@@ -133,14 +135,14 @@ static void check_posed(const simd_points *from, uint64_t *state) {
     double rows[9], t[3];
     for (int i = 0; i < 9; i++) rows[i] = random_normal(state);
     for (int i = 0; i < 3; i++) t[i] = random_normal(state);
-    simd_pose_points(from, rows, t, one[0], one[1], one[2]);
-    simd_pose_points_scalar(from, rows, t, two[0], two[1], two[2]);
+    simd_pose_points(from, rows, t, (double *[]){one[0], one[1], one[2]});
+    simd_pose_points_scalar(from, rows, t, (double *[]){two[0], two[1], two[2]});
     for (int k = 0; k < 3; k++) CHECK(memcmp(one[k], two[k], from->padded_count * sizeof(double)) == 0);
 }
 
 /// Both bodies at once, of all lengths, with and without ties: what two calls of the scalar twin give.
 static void test_pairs(void) {
-    static const double ties[][3] = {{1, 0, 0}, {0, 0, 0}, {-0.0, 0, -0.0}, {1, -1, 1}};
+    static const vec3 ties[] = {{1, 0, 0}, {0, 0, 0}, {-0.0, 0, -0.0}, {1, -1, 1}};
     for (uint32_t n = 8; n <= 80; n += 8)
         for (uint32_t m = 8; m <= 80; m += 8) {
             uint64_t state = check_seed = 100 * n + m;
@@ -151,7 +153,7 @@ static void test_pairs(void) {
                 check_difference(&high, &low, ties[k]);
             }
             fill_random(&state, 200, 1, 0);
-            double d[3] = {random_normal(&state), random_normal(&state), random_normal(&state)};
+            vec3 d = {random_normal(&state), random_normal(&state), random_normal(&state)};
             check_pair(&high, &low, d);
             check_difference(&high, &low, d);
             check_posed(&high, &state);
@@ -169,9 +171,9 @@ static void test_cones(void) {
                 for (int i = 0; i < SIMD_CONE + 4; i++)
                     a.edge[k][i] = random_next(&state) % 8 ? scale * random_normal(&state) : 0;
             b = a;
-            double w[3] = {scale * random_normal(&state), scale * random_normal(&state), scale * random_normal(&state)};
-            simd_compute_cone(&a, count, w[0], w[1], w[2]);
-            simd_compute_cone_scalar(&b, count, w[0], w[1], w[2]);
+            vec3 w = {scale * random_normal(&state), scale * random_normal(&state), scale * random_normal(&state)};
+            simd_compute_cone(&a, count, w);
+            simd_compute_cone_scalar(&b, count, w);
             for (uint32_t i = 0; i < count; i++) {
                 for (int k = 0; k < 3; k++) CHECK(bits_of(a.n[k][i]) == bits_of(b.n[k][i]));
                 CHECK(bits_of(a.offset[i]) == bits_of(b.offset[i]));

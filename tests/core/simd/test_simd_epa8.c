@@ -138,12 +138,12 @@ static void check_faces(const epa8 *o, const epa8_query *q) {
 }
 
 /// The farthest difference along n.
-static double find_farthest(const bodies *o, const double n[3]) {
+static double find_farthest(const bodies *o, vec3 n) {
     real high = -INFINITY, low = INFINITY;
     for (uint32_t i = 0; i < o->count_b; i++)
-        high = fmaxl(high, (real)n[0] * o->b[0][i] + (real)n[1] * o->b[1][i] + (real)n[2] * o->b[2][i]);
+        high = fmaxl(high, (real)n.x * o->b[0][i] + (real)n.y * o->b[1][i] + (real)n.z * o->b[2][i]);
     for (uint32_t i = 0; i < o->count_a; i++)
-        low = fminl(low, (real)n[0] * o->a[0][i] + (real)n[1] * o->a[1][i] + (real)n[2] * o->a[2][i]);
+        low = fminl(low, (real)n.x * o->a[0][i] + (real)n.y * o->a[1][i] + (real)n.z * o->a[2][i]);
     return (double)(high - low);
 }
 
@@ -152,7 +152,7 @@ static void check_result(const epa8 *o, const epa8_query *q, const bodies *of, e
     if (end == EPA8_APART) CHECK(o->best_gap > q->claim);
     if (end != EPA8_NARROW) return;
     uint32_t f = o->nearest;
-    double n[3] = {o->n[0][f], o->n[1][f], o->n[2][f]};
+    vec3 n = {o->n[0][f], o->n[1][f], o->n[2][f]};
     CHECK(is_alive(o, f));
     CHECK_NEAR(-find_farthest(of, n), o->gap, 1e-13);
     CHECK_LE(-o->gap, o->low[f] + q->narrow);

@@ -14,9 +14,8 @@ static ovoid_shape *shapes[SHAPES];
 // What the kernels read and write; two sets of columns, one for each contestant.
 static ovoid_posed_shape bodies[PAIR8_GROUPS][2][PAIR8];
 static pair8_places places[PAIR8_GROUPS];
-static pair8_ellipsoids ellipsoids[PAIR8_GROUPS];
 static pair8 truth[PAIR8_GROUPS], other[PAIR8_GROUPS];
-static pair8_found expected[PAIR8_GROUPS], found[PAIR8_GROUPS];
+static pair8_group expected[PAIR8_GROUPS], found[PAIR8_GROUPS];
 
 static int make_shapes(uint64_t *s) {
     for (int i = 0; i < SHAPES; i++) {
@@ -57,11 +56,14 @@ static void fill(uint64_t *s) {
             places[i].body_b[k] = (const void *)b;
             places[i].shape_a[k] = &a->shape->reach;
             places[i].shape_b[k] = &b->shape->reach;
-            ellipsoids[i].outer_a[k] = &a->shape->outer.center.x;
-            ellipsoids[i].outer_b[k] = &b->shape->outer.center.x;
-            ellipsoids[i].inner_a[k] = a->shape->inside.w;
-            ellipsoids[i].inner_b[k] = b->shape->inside.w;
+            expected[i].from.outer_a[k] = &a->shape->outer.center.x;
+            expected[i].from.outer_b[k] = &b->shape->outer.center.x;
+            expected[i].from.inner_a[k] = a->shape->inside.w;
+            expected[i].from.inner_b[k] = b->shape->inside.w;
         }
+        expected[i].lanes = &truth[i];
+        found[i].from = expected[i].from;
+        found[i].lanes = &other[i];
     }
 }
 
@@ -94,12 +96,12 @@ static void check_part(const pair8_kernels *scalar, const pair8_kernels *kernels
                        unsigned count) {
     for (unsigned i = 0; i < count; i++)
         for (unsigned k = 0; k < PAIR8; k++) truth[i].line.lane[k] = other[i].line.lane[k] = (k + count) % (1 + i) == 1;
-    scalar->ellipsoids(ellipsoids, ask, truth, count, expected);
-    kernels->ellipsoids(ellipsoids, ask, other, count, found);
+    scalar->ellipsoids(expected, count, ask);
+    kernels->ellipsoids(found, count, ask);
     for (unsigned i = 0; i < count; i++) {
         const pair8 *a = &truth[i], *b = &other[i];
-        unsigned meant = ~expected[i].odd & PAIR8_ALL, inner = meant & expected[i].inner;
-        CHECK(same_found(&expected[i], &found[i]));
+        unsigned meant = ~expected[i].found.odd & PAIR8_ALL, inner = meant & expected[i].found.inner;
+        CHECK(same_found(&expected[i].found, &found[i].found));
         compare(&a->lower, &b->lower, 2, meant);
         compare(a->rotation, b->rotation, 9 + 3 + 1, meant);
         compare(a->inner, b->inner, 3, inner);
@@ -114,7 +116,7 @@ static void check_meet(const pair8_kernels *scalar, const pair8_kernels *kernels
     other[0] = truth[0];
     scalar->supports(&truth[0]);
     kernels->supports(&other[0]);
-    unsigned meant = ~(expected[0].odd | expected[0].inner) & PAIR8_ALL;
+    unsigned meant = ~(expected[0].found.odd | expected[0].found.inner) & PAIR8_ALL;
     compare(truth[0].w, other[0].w, 3 + 2, meant);
 }
 
@@ -137,9 +139,9 @@ int main(void) {
             check_part(scalar, kernels, &ask, 1 + (unsigned)round % PAIR8_GROUPS);
             check_meet(scalar, kernels, &s);
         }
-        apart += (uint64_t)__builtin_popcount(expected[0].apart);
-        inner += (uint64_t)__builtin_popcount(expected[0].inner);
-        odd += (uint64_t)__builtin_popcount(expected[0].odd);
+        apart += (uint64_t)__builtin_popcount(expected[0].found.apart);
+        inner += (uint64_t)__builtin_popcount(expected[0].found.inner);
+        odd += (uint64_t)__builtin_popcount(expected[0].found.odd);
     }
     // Every way was gone.
     CHECK(apart > 100 && inner > 100 && odd > 10);
