@@ -12,16 +12,21 @@ static inline void options_take_size(ovoid_options *options, double size) {
     options->absolute_tolerance = options_compute_tolerance(options, size, 0);
 }
 
+/// What is asked of two bodies.
+typedef struct body_request {
+    const ovoid_options *options; ///< as the caller gave them; NULL: the default
+    const query_goal *goal;
+    const ovoid_body_proof *earlier; ///< of an earlier call, or NULL
+    ovoid_exclusions *exclusions;    ///< room for what is left out, or NULL
+} body_request;
+
 /// Of a pair with a solid. The goal's depth is not searched for.
-void solid_find_internal(const ovoid_body_pair *pair, const ovoid_options *options, const query_goal *goal,
-                         const ovoid_body_proof *earlier, ovoid_exclusions *exclusions, ovoid_body_answer *out);
+void solid_find_internal(const ovoid_body_pair *pair, const body_request *request, ovoid_body_answer *out);
 /// Of a pair without a solid.
-void parts_find_internal(const ovoid_body_pair *pair, const ovoid_options *options, query_goal goal,
-                         const ovoid_body_proof *earlier, ovoid_exclusions *exclusions, ovoid_body_answer *out);
+void parts_find_internal(const ovoid_body_pair *pair, const body_request *request, ovoid_body_answer *out);
 
 /// The pipeline of ovoid_body_collide and its sisters, for callers inside a public function, which has set the default
-/// floating-point environment already. options, earlier and exclusions may be NULL.
-void body_find_internal(const ovoid_body_pair *pair, const ovoid_options *options, query_goal goal,
-                        const ovoid_body_proof *earlier, ovoid_exclusions *exclusions, ovoid_body_answer *out);
+/// floating-point environment already.
+void body_find_internal(const ovoid_body_pair *pair, const body_request *request, ovoid_body_answer *out);
 
 #endif

@@ -22,21 +22,18 @@ ovoid_answer ovoid_body_answer_get_answer(const ovoid_body_answer *answer) {
     return own;
 }
 
-void body_find_internal(const ovoid_body_pair *pair, const ovoid_options *options, query_goal goal,
-                        const ovoid_body_proof *earlier, ovoid_exclusions *exclusions, ovoid_body_answer *out) {
+void body_find_internal(const ovoid_body_pair *pair, const body_request *request, ovoid_body_answer *out) {
     if (body_pair_has_solid(pair))
-        solid_find_internal(pair, options, &goal, earlier, exclusions, out);
+        solid_find_internal(pair, request, out);
     else
-        parts_find_internal(pair, options, goal, earlier, exclusions, out);
+        parts_find_internal(pair, request, out);
 }
 
 static ovoid_body_answer find(const ovoid_body_pair *pair, const ovoid_options *options, query_goal goal,
                               const ovoid_body_evidence *known) {
     OVOID_ASSERT(pair);
-    const ovoid_body_proof *earlier = known ? known->earlier : NULL;
-    ovoid_exclusions *exclusions = known ? known->exclusions : NULL;
-    ENVIRONMENT_RETURN_FILLED(ovoid_body_answer, out, goal,
-                              body_find_internal(pair, options, goal, earlier, exclusions, &out));
+    const body_request request = {options, &goal, known ? known->earlier : NULL, known ? known->exclusions : NULL};
+    ENVIRONMENT_RETURN_FILLED(ovoid_body_answer, out, goal, body_find_internal(pair, &request, &out));
 }
 
 ovoid_body_answer ovoid_body_collide(const ovoid_body_pair *pair, const ovoid_options *options,

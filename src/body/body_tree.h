@@ -95,11 +95,15 @@ static inline uint32_t body_tree_get_component_count(const body_tree *tree) {
 /// 1 if a body has an inside that other bodies' components can be in.
 static inline int body_tree_is_closed(const body_tree *tree) { return tree->solid && tree->solid->report.is_closed; }
 
+/// A component of a body that lies inside of the other one.
+typedef struct contained_component {
+    ovoid_body_inside inside; ///< whose component it is
+    uint32_t component;
+} contained_component;
+
 /// Is a component of one body inside of the other? For bodies whose surfaces are farther apart than frame->claim: 0 no,
-/// 1 yes, with *inside (the body whose component it is) and *component; -1: a winding number could not be found.
-/// linear: as in solid_find_winding.
-int trees_find_inside(const body_tree *a, const body_tree *b, int linear, ovoid_body_inside *inside,
-                      uint32_t *component);
+/// 1 yes, with *found; -1: a winding number could not be found. linear: as in solid_find_winding.
+int trees_find_inside(const body_tree *a, const body_tree *b, int linear, contained_component *found);
 /// 1 if the other body winds around the point of one component of the own one; 0, or -1, as above.
 int tree_is_inside(const body_tree *own, const body_tree *other, uint32_t component, int linear);
 

@@ -34,13 +34,24 @@ static ovoid_code refuse_all(ovoid_error *error, const char *what) {
     return error_set(error, OVOID_ERROR_PROOF, -1, "%s", what);
 }
 
+static ovoid_verdict get_verdict(const ovoid_body_answer *x) {
+    return (ovoid_verdict){.status = x->status, .limit = x->limit, .lower = x->lower, .upper = x->upper};
+}
+
 static double find_shape_top(const ovoid_shape *s, vec3 n) {
     return vec3_dot(n, s->origin) + (shape_find_extreme(s, n).value + shape_compute_lower_radius(s, n, AXIS_CHECK));
 }
 
-// The largest n.x over the leaves at [first, end), from the origin of the body's frame; n in the world, and in that
-// frame.
-static double find_top(const body_tree *tree, uint32_t first, uint32_t end, vec3 world, vec3 n) {
+// The leaves of a tree at [first, end).
+typedef struct leaf_range {
+    const body_tree *tree;
+    uint32_t first, end;
+} leaf_range;
+
+// The largest n.x over leaves, from the origin of the body's frame; n in the world, and in that frame.
+static double find_top(leaf_range leaves, vec3 world, vec3 n) {
+    const body_tree *tree = leaves.tree;
+    uint32_t first = leaves.first, end = leaves.end;
     if (tree->shape) return find_shape_top(tree->shape, n);
     double most = -INFINITY;
     for (uint32_t place = first; place < end && tree->compound; place++) {
@@ -59,8 +70,9 @@ static double measure_gap(const cut *c, const ovoid_exclusion *e) {
     vec3 n = vec3_unit(e->normal);
     if (!vec3_is_finite(e->normal) || !(vec3_norm_squared(n) > 0.5)) return -INFINITY;
     vec3 in_a = mat3_mul_transposed_vec3(c->frame.world, n), in_b = mat3_mul_transposed_vec3(c->frame.world_b, n);
-    double top = find_top(&c->a, e->first_a, e->end_a, n, in_a);
-    double bottom = vec3_dot(n, c->frame.offset) - find_top(&c->b, e->first_b, e->end_b, vec3_neg(n), vec3_neg(in_b));
+    double top = find_top((leaf_range){&c->a, e->first_a, e->end_a}, n, in_a);
+    double bottom =
+        vec3_dot(n, c->frame.offset) - find_top((leaf_range){&c->b, e->first_b, e->end_b}, vec3_neg(n), vec3_neg(in_b));
     return (bottom - top) - c->frame.check;
 }
 
@@ -165,12 +177,11 @@ static ovoid_code verify_inside(const cut *c, ovoid_error *error) {
 
 static ovoid_code verify_apart(const cut *c, ovoid_error *error) {
     const ovoid_body_answer *x = c->x;
-    ovoid_body_inside inside;
-    uint32_t component;
+    contained_component found;
     if (!(x->deciding.lower > 0) || !(x->lower <= x->deciding.lower) || !(x->upper >= x->deciding.upper))
         return refuse_all(error, "the distance is not that of the surfaces");
     if (!body_tree_is_closed(&c->a) && !body_tree_is_closed(&c->b)) return OVOID_OK;
-    if (!(x->deciding.lower > c->frame.claim / 2) || trees_find_inside(&c->a, &c->b, 1, &inside, &component) != 0)
+    if (!(x->deciding.lower > c->frame.claim / 2) || trees_find_inside(&c->a, &c->b, 1, &found) != 0)
         return refuse_all(error, "one body is inside of the other, or so near that it could be");
     return OVOID_OK;
 }
@@ -201,9 +212,8 @@ static int limit_is_sound(const cut *c) {
 
 static ovoid_code verify_bodies(const cut *c, ovoid_error *error) {
     const ovoid_body_answer *x = c->x;
-    ovoid_code code =
-        status_verify_internal(x->deciding.status, x->deciding.lower, x->deciding.upper, c->tolerance, error);
-    if (code == OVOID_OK) code = status_verify_internal(x->status, x->lower, x->upper, c->tolerance, error);
+    ovoid_code code = status_verify_internal(answer_get_verdict(&x->deciding), c->tolerance, error);
+    if (code == OVOID_OK) code = status_verify_internal(get_verdict(x), c->tolerance, error);
     if (code != OVOID_OK) return code;
     if (!inside_is_sound(x)) return refuse_all(error, "what is said to be inside proves nothing of that status");
     if (!limit_is_sound(c)) return refuse_all(error, "the bracket is wider than its limit says");
@@ -243,7 +253,8 @@ static ovoid_code verify_parts(cut *c, const ovoid_pair *parts, const ovoid_opti
     const ovoid_answer *x = &c->x->deciding;
     if (!is_of_parts(c->x)) return refuse_all(error, "the bracket is not that of the deciding pair");
     // Two shapes are asked with the options as they are.
-    if (c->a.shape && c->b.shape) return answer_verify_internal(parts, x, given, c->all->cover, error);
+    const ovoid_answer_basis basis = {given, c->all->cover};
+    if (c->a.shape && c->b.shape) return answer_verify_internal(parts, x, &basis, error);
     ovoid_code code = verify_terms(c, parts, given, error);
     // A first look at the bodies has its points by their rounding.
     const answer_claims claims = {parts, x, c->all->cover, c->frame.claim};
@@ -270,33 +281,32 @@ static int is_refusal(ovoid_limit limit) { return limit >= OVOID_LIMIT_POSE_A &&
 
 static ovoid_code verify_solids(cut *c, const ovoid_pair *leaves, ovoid_error *error) {
     static const ovoid_options of_leaves = {.absolute_tolerance = INFINITY};
+    static const ovoid_answer_basis basis = {&of_leaves, NULL};
     // Of the deciding pair the bounds; what its status means is a matter of the bodies' size.
-    ovoid_code code = answer_verify_internal(leaves, &c->x->deciding, &of_leaves, NULL, error);
+    ovoid_code code = answer_verify_internal(leaves, &c->x->deciding, &basis, error);
     if (code == OVOID_OK) code = verify_exclusions(c, error);
     return code == OVOID_OK ? verify_bodies(c, error) : code;
 }
 
-static ovoid_code verify(const ovoid_body_pair *pair, const ovoid_body_answer *x, const ovoid_options *options,
-                         const ovoid_exclusions *all, ovoid_error *error) {
+static ovoid_code verify(const ovoid_body_pair *pair, const ovoid_body_answer *x, const ovoid_body_basis *basis,
+                         ovoid_error *error) {
     static const ovoid_exclusions none = {.items = NULL};
-    cut c = {.x = x, .all = all ? all : &none, .lower = x->deciding.lower};
-    ovoid_limit refused = find_refusal(pair, options, &c);
+    cut c = {.x = x, .all = basis->exclusions ? basis->exclusions : &none, .lower = x->deciding.lower};
+    ovoid_limit refused = find_refusal(pair, basis->options, &c);
     if (refused != OVOID_LIMIT_NONE || is_refusal(x->limit)) {
-        const ovoid_verdict claimed = {.status = x->status, .limit = x->limit, .lower = x->lower, .upper = x->upper};
-        return refusal_verify_internal(claimed, refused, error);
+        return refusal_verify_internal(get_verdict(x), refused, error);
     }
     if (x->part_a >= c.a.count || x->part_b >= c.b.count)
         return error_set(error, OVOID_ERROR_PROOF, -1, "parts %u and %u are not both there", x->part_a, x->part_b);
     c.place_a = body_tree_get_place(&c.a, x->part_a);
     c.place_b = body_tree_get_place(&c.b, x->part_b);
     ovoid_pair parts = get_pair(&c, c.place_a, c.place_b);
-    return c.has_solid ? verify_solids(&c, &parts, error) : verify_parts(&c, &parts, options, error);
+    return c.has_solid ? verify_solids(&c, &parts, error) : verify_parts(&c, &parts, basis->options, error);
 }
 
 ovoid_code ovoid_body_verify(const ovoid_body_pair *pair, const ovoid_body_answer *answer,
                              const ovoid_body_basis *basis, ovoid_error *error) {
     OVOID_ASSERT(pair && answer);
     static const ovoid_body_basis none;
-    const ovoid_body_basis *from = basis ? basis : &none;
-    ENVIRONMENT_RETURN(ovoid_code, pair, verify(pair, answer, from->options, from->exclusions, error));
+    ENVIRONMENT_RETURN(ovoid_code, pair, verify(pair, answer, basis ? basis : &none, error));
 }

@@ -10,6 +10,9 @@ typedef struct framed_pair {
     const body_tree *a, *b;
 } framed_pair;
 
+/// What parts the bodies by all points, along the best of some directions (parting.c). normal: one to try, world frame.
+box_gap framed_pair_find_parting(const framed_pair *pair, vec3 normal);
+
 /// The clearance of a point in a body: above 0 the body covers a ball of that radius around the point; else a point of
 /// the body is no farther from it than minus the clearance. side: 0 for a, 1 for b; point: in a's frame. linear: all
 /// triangles are looked at, without the tree. Off by less than frame->check and what that counts for a compound.

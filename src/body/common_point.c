@@ -75,9 +75,15 @@ static uint32_t count_triangles(const body_tree *tree, uint32_t place) {
     return tree->compound ? tree->compound->parts[place].shape->counts.triangles : tree->shape->counts.triangles;
 }
 
-static void get_triangle(const hunt *h, int side, uint32_t place, uint32_t i, vec3 corner[3]) {
+// Triangle i of a leaf.
+typedef struct leaf_triangle {
+    uint32_t place, i;
+} leaf_triangle;
+
+static void get_triangle(const hunt *h, int side, leaf_triangle of, vec3 corner[3]) {
     const framed_pair *pair = h->pair;
     const body_tree *tree = side ? pair->b : pair->a;
+    uint32_t place = of.place, i = of.i;
     for (int k = 0; k < 3; k++) {
         vec3 x;
         if (tree->solid) {
@@ -96,30 +102,36 @@ static void get_triangle(const hunt *h, int side, uint32_t place, uint32_t i, ve
 
 enum { CLIPPED = 9 };
 
+// A convex polygon.
+typedef struct polygon {
+    vec3 corner[CLIPPED];
+    int count;
+} polygon;
+
 // What of a convex polygon is on the inner side of an edge of a triangle (I. E. Sutherland, G. W. Hodgman, Reentrant
 // polygon clipping, 1974).
-static int clip(const vec3 *from, int count, vec3 edge, vec3 inward, vec3 *to) {
-    int made = 0;
-    for (int i = 0; i < count; i++) {
-        vec3 p = from[i], q = from[(i + 1) % count];
+static void clip(const polygon *from, vec3 edge, vec3 inward, polygon *to) {
+    to->count = 0;
+    for (int i = 0; i < from->count; i++) {
+        vec3 p = from->corner[i], q = from->corner[(i + 1) % from->count];
         double at_p = vec3_dot(inward, vec3_sub(p, edge)), at_q = vec3_dot(inward, vec3_sub(q, edge));
-        if (at_p >= 0) to[made++] = p;
+        if (at_p >= 0) to->corner[to->count++] = p;
         if ((at_p > 0 && at_q < 0) || (at_p < 0 && at_q > 0))
-            to[made++] = vec3_add_scaled(p, vec3_sub(q, p), at_p / (at_p - at_q));
+            to->corner[to->count++] = vec3_add_scaled(p, vec3_sub(q, p), at_p / (at_p - at_q));
     }
-    return made;
 }
 
 /// The middle of what two triangles of one plane have in common; 0 where they have no area in common.
 static int find_common_middle(const vec3 a[3], const vec3 b[3], vec3 *middle) {
-    vec3 room[2][CLIPPED] = {{a[0], a[1], a[2]}}, n = find_normal(b);
-    int count = 3;
-    for (int i = 0; i < 3 && count >= 3; i++) {
+    polygon common = {{a[0], a[1], a[2]}, 3};
+    vec3 n = find_normal(b);
+    for (int i = 0; i < 3 && common.count >= 3; i++) {
         vec3 inward = vec3_cross(n, vec3_sub(b[(i + 1) % 3], b[i]));
-        count = clip(room[i % 2], count, b[i], inward, room[(i + 1) % 2]);
+        const polygon whole = common;
+        clip(&whole, b[i], inward, &common);
     }
-    if (count >= 3) *middle = find_middle(room[1], count);
-    return count >= 3;
+    if (common.count >= 3) *middle = find_middle(common.corner, common.count);
+    return common.count >= 3;
 }
 
 static int are_flush(const vec3 a[3], const vec3 b[3]) {
@@ -136,8 +148,8 @@ static int try_flush_leaves(hunt *h, uint32_t place_a, uint32_t place_b) {
         for (uint32_t j = 0; j < count_b; j++) {
             vec3 a[3], b[3], middle;
             if (tried == LEAF_PAIRS || h->left == 0) return 0;
-            get_triangle(h, 0, place_a, i, a);
-            get_triangle(h, 1, place_b, j, b);
+            get_triangle(h, 0, (leaf_triangle){place_a, i}, a);
+            get_triangle(h, 1, (leaf_triangle){place_b, j}, b);
             if (!are_flush(a, b) || !find_common_middle(a, b, &middle)) continue;
             tried++;
             if (try_sides(h, middle, a)) return 1;
@@ -167,7 +179,7 @@ static int try_samples(hunt *h, int side) {
         vec3 t[3];
         double least;
         if (count == 0) continue;
-        get_triangle(h, side, place, i % count, t);
+        get_triangle(h, side, (leaf_triangle){place, i % count}, t);
         vec3 middle = find_middle(t, 3);
         if (!is_in_room(h, middle)) continue;
         if (try_point(h, middle, &least) || try_sides(h, middle, t)) return 1;

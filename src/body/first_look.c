@@ -14,9 +14,8 @@ static vec3 find_vertex(const compound_part *part, mat3 r) {
     return mat3_mul_vec3(r, vec3_add(part->at, mat3_mul_vec3(part->rotation, part->shape->first)));
 }
 
-static ovoid_limit find_limit(double lower, double upper, double tolerance, double allowance, const query_goal *goal) {
-    final_bracket b = {lower, upper, tolerance + allowance, allowance, OVOID_SEPARATED, OVOID_PROOF_POINTS};
-    return bracket_is_narrow(&b, goal) ? OVOID_LIMIT_NONE : bracket_find_limit(&b, goal, OVOID_LIMIT_NONE);
+static ovoid_limit find_limit(const final_bracket *b, const query_goal *goal) {
+    return bracket_is_narrow(b, goal) ? OVOID_LIMIT_NONE : bracket_find_limit(b, goal, OVOID_LIMIT_NONE);
 }
 
 static void exclude_all(const body_search *state, vec3 normal, double lower) {
@@ -41,7 +40,8 @@ int first_look(const body_search *state, const query_goal *goal) {
     const ovoid_shape *shape_a = part_a->shape, *shape_b = part_b->shape;
     double distance = vec3_norm(d), upper = distance - (shape_a->upper_radius + shape_b->upper_radius) + claim;
     vec3 point = vec3_add(a->pose->position, from), normal = vec3_scale(between, 1 / length);
-    double tolerance = options_compute_tolerance(&state->options, size, 0);
+    double tolerance = options_compute_tolerance(&state->options, size, 0), allowance = a->allowance + b->allowance;
+    const final_bracket bracket = {lower, upper, tolerance + allowance, allowance, OVOID_SEPARATED, OVOID_PROOF_POINTS};
     out->part_a = body_tree_get_index(a, 0);
     out->part_b = body_tree_get_index(b, 0);
     out->visited = 1;
@@ -49,7 +49,7 @@ int first_look(const body_search *state, const query_goal *goal) {
     out->deciding = (ovoid_answer){
         .status = OVOID_SEPARATED,
         .stage = OVOID_STAGE_SPHERE,
-        .limit = find_limit(lower, upper, tolerance, a->allowance + b->allowance, goal),
+        .limit = find_limit(&bracket, goal),
         .lower = lower,
         .upper = upper,
         .point_a = vec3_add_scaled(point, d, shape_a->radius / distance),

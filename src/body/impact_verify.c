@@ -101,7 +101,7 @@ static ovoid_code verify_parts(const claim *c, const ovoid_answer *hit, double m
 
 // The claimed bracket contains what is found, and says the same of the sign.
 static int holds(const ovoid_answer *claimed, const ovoid_body_answer *found) {
-    int follows = status_verify_internal(claimed->status, claimed->lower, claimed->upper, INFINITY, NULL) == OVOID_OK;
+    int follows = status_verify_internal(answer_get_verdict(claimed), INFINITY, NULL) == OVOID_OK;
     if (!follows) return 0;
     return claimed->lower <= found->lower && claimed->upper >= found->upper && claimed->status == found->status;
 }

@@ -36,8 +36,7 @@ int tree_is_inside(const body_tree *own, const body_tree *other, uint32_t compon
     return winding != 0;
 }
 
-int trees_find_inside(const body_tree *a, const body_tree *b, int linear, ovoid_body_inside *inside,
-                      uint32_t *component) {
+int trees_find_inside(const body_tree *a, const body_tree *b, int linear, contained_component *found) {
     int is_open = 0;
     for (int side = 0; side < 2; side++) {
         const body_tree *own = side ? b : a, *other = side ? a : b;
@@ -47,8 +46,7 @@ int trees_find_inside(const body_tree *a, const body_tree *b, int linear, ovoid_
             int is = tree_is_inside(own, other, i, linear);
             is_open |= is < 0;
             if (is <= 0) continue;
-            *inside = side ? OVOID_BODY_B_INSIDE : OVOID_BODY_A_INSIDE;
-            *component = i;
+            *found = (contained_component){side ? OVOID_BODY_B_INSIDE : OVOID_BODY_A_INSIDE, i};
             return 1;
         }
     }

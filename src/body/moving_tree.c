@@ -92,18 +92,17 @@ void moving_trees_ask(const moving_trees *trees, double margin, double time, mov
     out->shift = motion_pair_find_pair(&pieces, time, &at);
     out->pair = (ovoid_body_pair){get_body(trees->a.body, time), get_body(trees->b.body, time)};
     query_goal goal = query_goal_make_within(margin);
-    solid_find_internal(&out->pair, NULL, &goal, NULL, NULL, &out->answer);
+    solid_find_internal(&out->pair, &(body_request){NULL, &goal, NULL, NULL}, &out->answer);
 }
 
 int moving_answer_is_apart(const moving_answer *x, int linear) {
     const ovoid_body_answer *answer = &x->answer;
     if (answer->status != OVOID_SEPARATED || !(answer->deciding.lower > x->shift)) return 0;
     body_tree a, b;
-    ovoid_body_inside inside;
-    uint32_t component;
+    contained_component found;
     if (!linear) return 1;
     if (!body_tree_make(&x->pair.a, &a) || !body_tree_make(&x->pair.b, &b)) return 0;
-    return trees_find_inside(&a, &b, 1, &inside, &component) == 0;
+    return trees_find_inside(&a, &b, 1, &found) == 0;
 }
 
 // ---- boxes and parts

@@ -64,7 +64,7 @@ static vec3 find_world_direction(const mat3 *world, vec3 t) {
 
 nodes_other nodes_turn(const tree_frame *f, int side, const compound_node *other) {
     const side_view s = get_side(f, side);
-    return (nodes_other){other, turn_point(&s, other->center), mat3_mul_vec3(*s.sizes, other->half)};
+    return (nodes_other){side, other, turn_point(&s, other->center), mat3_mul_vec3(*s.sizes, other->half)};
 }
 
 // The gaps of two boxes along their three common axes, negative where they overlap.
@@ -89,8 +89,9 @@ static inline void take(nodes_bound *best, double gap, nodes_means means) {
     if (gap > best->lower) *best = (nodes_bound){gap, means};
 }
 
-nodes_bound nodes_compute_lower(const tree_frame *f, int side, const compound_node *own, const nodes_other *other,
+nodes_bound nodes_compute_lower(const tree_frame *f, const compound_node *own, const nodes_other *other,
                                 double enough) {
+    const int side = other->side;
     const side_view s = get_side(f, side);
     const compound_node *node = other->node;
     enough += f->claim;
@@ -148,8 +149,8 @@ vec3 nodes_compute_normal(const tree_frame *f, const compound_node *a, const com
     }
 }
 
-nodes_bound parts_compute_lower(const tree_frame *f, const parts_direction *d, const compound_part *a,
-                                const compound_part *b, double enough) {
+nodes_bound parts_compute_lower(const tree_frame *f, const parts_direction *d, const part_pair *pair, double enough) {
+    const compound_part *a = pair->a, *b = pair->b;
     vec3 t = find_way(f, a->center, b->center);
     nodes_bound best = {vec3_norm(t) - (a->reach + b->reach), NODES_PARTS};
     if (!(best.lower > enough + f->claim) && has_normal(d)) {

@@ -15,11 +15,11 @@ parts_direction parts_direction_make(const tree_frame *frame, vec3 normal);
 
 /// A node of the other body along the axes of the own one: shared by its pairs with several own nodes.
 typedef struct nodes_other {
+    int side; ///< 0 where the own body is a, 1 where it is b
     const compound_node *node;
     vec3 center, half;
 } nodes_other;
 
-/// side: 0 where the own body is a, 1 where it is b.
 nodes_other nodes_turn(const tree_frame *frame, int side, const compound_node *other);
 
 /// What shows a bound: the line of the centres, the boxes along the axes of a or of b, the spheres of two parts, or
@@ -32,15 +32,19 @@ typedef struct nodes_bound {
 
 /// A lower bound of the signed distance of two nodes, proven with rounding; negative where they overlap. `enough`: a
 /// bound above it need not be the best.
-nodes_bound nodes_compute_lower(const tree_frame *frame, int side, const compound_node *own, const nodes_other *other,
+nodes_bound nodes_compute_lower(const tree_frame *frame, const compound_node *own, const nodes_other *other,
                                 double enough);
 
 /// The unit direction of a bound, world frame, from a to b.
 vec3 nodes_compute_normal(const tree_frame *frame, const compound_node *a, const compound_node *b, nodes_means means);
 
+typedef struct part_pair {
+    const compound_part *a, *b;
+} part_pair;
+
 /// A lower bound of the signed distance of two parts, by their own spheres and by their supports along the direction.
-nodes_bound parts_compute_lower(const tree_frame *frame, const parts_direction *direction, const compound_part *a,
-                                const compound_part *b, double enough);
+nodes_bound parts_compute_lower(const tree_frame *frame, const parts_direction *direction, const part_pair *pair,
+                                double enough);
 
 /// The unit direction of a bound of two parts by their spheres, world frame, from a to b.
 vec3 parts_compute_normal(const tree_frame *frame, const compound_part *a, const compound_part *b);

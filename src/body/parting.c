@@ -92,8 +92,9 @@ static farthest find_farthest(const body_tree *tree, vec3 n) {
 
 /// The gap of both bodies along a unit direction of a's frame, below 0 where they overlap along it; *farther: from the
 /// last point of a to the first of b.
-static double measure(const tree_frame *f, const body_tree *a, const body_tree *b, vec3 n, vec3 *farther) {
-    farthest top = find_farthest(a, n), bottom = find_farthest(b, vec3_neg(mat3_mul_vec3(f->to_b, n)));
+static double measure(const framed_pair *pair, vec3 n, vec3 *farther) {
+    const tree_frame *f = pair->frame;
+    farthest top = find_farthest(pair->a, n), bottom = find_farthest(pair->b, vec3_neg(mat3_mul_vec3(f->to_b, n)));
     *farther = vec3_sub(vec3_add(f->translation, mat3_mul_vec3(f->to_a, bottom.point)), top.point);
     return (vec3_dot(n, f->translation) - bottom.top) - top.top;
 }
@@ -104,10 +105,10 @@ typedef struct parting {
     vec3 farther;
 } parting;
 
-static int try_direction(const tree_frame *f, const body_tree *a, const body_tree *b, vec3 n, parting *best) {
+static int try_direction(const framed_pair *pair, vec3 n, parting *best) {
     vec3 farther;
     if (!(vec3_norm_squared(n) > 0.5)) return 0;
-    double lower = measure(f, a, b, n, &farther);
+    double lower = measure(pair, n, &farther);
     if (!(lower > best->gap.lower)) return 0;
     *best = (parting){{lower, n}, farther};
     return 1;
@@ -120,31 +121,32 @@ static vec3 get_column(const mat3 *m, int i) {
 }
 
 // n and -n, that first along which b's centre lies.
-static void try_both(const tree_frame *f, const body_tree *a, const body_tree *b, vec3 n, parting *best) {
-    try_direction(f, a, b, n, best);
-    try_direction(f, a, b, vec3_neg(n), best);
+static void try_both(const framed_pair *pair, vec3 n, parting *best) {
+    try_direction(pair, n, best);
+    try_direction(pair, vec3_neg(n), best);
 }
 
-static void descend(const tree_frame *f, const body_tree *a, const body_tree *b, parting *best) {
+static void descend(const framed_pair *pair, parting *best) {
     double step = 0.5;
     for (int i = 0; i < DESCENT; i++) {
         // Toward the difference, across n: so the gap along n grows.
         vec3 n = best->gap.normal, p = best->farther;
         vec3 across = vec3_unit(vec3_add_scaled(p, n, -vec3_dot(n, p)));
         if (!(vec3_norm_squared(across) > 0.5)) return;
-        if (!try_direction(f, a, b, vec3_unit(vec3_add_scaled(n, across, step)), best)) step *= 0.5;
+        if (!try_direction(pair, vec3_unit(vec3_add_scaled(n, across, step)), best)) step *= 0.5;
     }
 }
 
-box_gap trees_find_parting(const tree_frame *f, const body_tree *a, const body_tree *b, vec3 normal) {
+box_gap framed_pair_find_parting(const framed_pair *pair, vec3 normal) {
+    const tree_frame *f = pair->frame;
     parting best = {{-INFINITY, {1, 0, 0}}, {0, 0, 0}};
     const vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     for (int i = 0; i < 3; i++) {
-        try_both(f, a, b, axes[i], &best);
-        try_both(f, a, b, vec3_unit(get_column(&f->to_a, i)), &best);
+        try_both(pair, axes[i], &best);
+        try_both(pair, vec3_unit(get_column(&f->to_a, i)), &best);
     }
-    try_both(f, a, b, vec3_unit(f->between), &best);
-    try_both(f, a, b, vec3_unit(mat3_mul_transposed_vec3(f->world, normal)), &best);
-    descend(f, a, b, &best);
+    try_both(pair, vec3_unit(f->between), &best);
+    try_both(pair, vec3_unit(mat3_mul_transposed_vec3(f->world, normal)), &best);
+    descend(pair, &best);
     return (box_gap){best.gap.lower - f->claim, mat3_mul_vec3(f->world, best.gap.normal)};
 }

@@ -40,7 +40,7 @@ static int take(body_search *state, const leaf_pair *pair) {
 static waiting_pair bound_roots(const body_search *state, double enough) {
     const compound_node *a = state->parts->nodes[0], *b = state->parts->nodes[1];
     nodes_other other = nodes_turn(&state->frame, 0, b);
-    nodes_bound bound = nodes_compute_lower(&state->frame, 0, a, &other, enough);
+    nodes_bound bound = nodes_compute_lower(&state->frame, a, &other, enough);
     return waiting_make(get_ref(state, 0, a), get_ref(state, 1, b), bound.lower, bound.means);
 }
 
@@ -49,8 +49,8 @@ static void visit_leaves(body_search *state, const waiting_pair *w) {
     const parts_state *parts = state->parts;
     uint32_t a = get_node(state, 0, waiting_get_a(w))->first, b = get_node(state, 1, waiting_get_b(w))->first;
     if (a == state->warm_a && b == state->warm_b) return;
-    nodes_bound bound = parts_compute_lower(&state->frame, &parts->direction, &parts->parts[0][a], &parts->parts[1][b],
-                                            min2(state->far, state->enough));
+    const part_pair pair = {&parts->parts[0][a], &parts->parts[1][b]};
+    nodes_bound bound = parts_compute_lower(&state->frame, &parts->direction, &pair, min2(state->far, state->enough));
     if (!search_is_left_out(state, bound.lower)) {
         search_query_leaves(state, a, b, NULL);
         return;
@@ -63,10 +63,7 @@ static void visit_leaves(body_search *state, const waiting_pair *w) {
 // where the other body is a shape.
 static inline const nodes_other *turn(body_search *state, int side, const compound_node *rest) {
     parts_state *parts = state->parts;
-    if (parts->turned.node != rest || parts->turned_side != side) {
-        parts->turned = nodes_turn(&state->frame, side, rest);
-        parts->turned_side = side;
-    }
+    if (parts->turned.node != rest || parts->turned.side != side) parts->turned = nodes_turn(&state->frame, side, rest);
     return &parts->turned;
 }
 
@@ -89,7 +86,7 @@ COMPILER_INLINED void open_nodes(body_search *state, const waiting_pair *w, wait
     nodes_bound bounds[2];
     get_children(side ? b : a, side ? ref_b : ref_a, children);
     for (int i = 0; i < 2; i++)
-        bounds[i] = nodes_compute_lower(&state->frame, side, get_node(state, side, children[i]), other, enough);
+        bounds[i] = nodes_compute_lower(&state->frame, get_node(state, side, children[i]), other, enough);
     state->out->visited += 2;
     int turned = bounds[0].lower < bounds[1].lower;
     for (int i = 0; i < 2; i++) {
@@ -148,21 +145,24 @@ static void find(body_search *state, const query_goal *goal, const ovoid_body_pr
     if (was_decided && x->status == OVOID_UNDECIDED) search_from(state, goal, earlier);
 }
 
-static void search_parts(body_search *state, const ovoid_body_pair *pair, const ovoid_options *options,
-                         const query_goal *goal, const ovoid_body_proof *earlier) {
+static void search_parts(body_search *state, const ovoid_body_pair *pair, const body_request *request) {
     ovoid_body_answer *out = state->out;
+    const query_goal *goal = request->goal;
+    const ovoid_body_proof *earlier = request->earlier;
     out->part_a = out->part_b = out->visited = out->tested = 0;
     exclusions_begin(state->exclusions);
     ovoid_cover *cover = state->exclusions ? state->exclusions->cover : NULL;
     ovoid_limit refused = OVOID_LIMIT_OPTIONS;
-    if (options_make(options, &state->options) && goal->far >= 0) refused = body_trees_make(pair, &state->a, &state->b);
+    if (options_make(request->options, &state->options) && goal->far >= 0)
+        refused = body_trees_make(pair, &state->a, &state->b);
     if (refused != OVOID_LIMIT_NONE) {
         out->deciding = answer_make_refused(refused);
         return;
     }
     if (pair->a.shape && pair->b.shape) {
         ovoid_pair shapes = {pair->a.shape, pair->b.shape, pair->a.pose, pair->b.pose};
-        answer_find_internal(&shapes, options, *goal, earlier ? &earlier->proof : NULL, cover, &out->deciding);
+        const query_request of_shapes = {request->options, goal, earlier ? &earlier->proof : NULL, cover};
+        answer_find_internal(&shapes, &of_shapes, &out->deciding);
         out->tested = 1;
         return;
     }
@@ -172,8 +172,7 @@ static void search_parts(body_search *state, const ovoid_body_pair *pair, const 
     find(state, goal, earlier);
 }
 
-void parts_find_internal(const ovoid_body_pair *pair, const ovoid_options *options, query_goal goal,
-                         const ovoid_body_proof *earlier, ovoid_exclusions *exclusions, ovoid_body_answer *out) {
+void parts_find_internal(const ovoid_body_pair *pair, const body_request *request, ovoid_body_answer *out) {
     static const vec3 none = {0, 0, 0};
     parts_state parts;
     body_search state;
@@ -182,8 +181,8 @@ void parts_find_internal(const ovoid_body_pair *pair, const ovoid_options *optio
     state.parts = &parts;
     state.solids = NULL;
     state.out = out;
-    state.exclusions = exclusions;
-    search_parts(&state, pair, options, &goal, earlier);
+    state.exclusions = request->exclusions;
+    search_parts(&state, pair, request);
     const ovoid_answer *x = &out->deciding;
     out->status = x->status;
     out->limit = x->limit;

@@ -66,8 +66,7 @@ typedef struct parts_state {
     const compound_part *parts[2];
     compound_node own_node; ///< the tree of a shape beside a compound
     compound_part own_part;
-    nodes_other turned; ///< a node along the axes of the other body, shared by several of its nodes
-    int turned_side;
+    nodes_other turned;        ///< a node along the axes of the other body, shared by several of its nodes
     parts_direction direction; ///< of the best pair
 } parts_state;
 

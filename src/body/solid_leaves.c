@@ -140,7 +140,9 @@ static void gather(const ovoid_solid *s, const uint32_t *places, uint32_t count,
     }
 }
 
-void solids_visit_triangles(body_search *state, int side, uint32_t one, const uint32_t *places, uint32_t count) {
+void solids_visit_triangles(body_search *state, const triangle_group *group) {
+    const int side = group->side;
+    const uint32_t one = group->one, *places = group->places, count = group->count;
     const tree_frame *f = &state->frame;
     const ovoid_solid *own = side ? state->b.solid : state->a.solid, *other = side ? state->a.solid : state->b.solid;
     vec3 normal = solids_get_normal(state);

@@ -16,34 +16,42 @@ static void insert(children *c, const waiting_pair *w) {
     c->pair[at] = *w;
 }
 
-// The bounds of the children of a solid's node, in lanes. side 0: nodes of a beside a box of b.
-static void bound_boxes(const body_search *state, int side, tree_ref node, const tree_box *rest, double lower[BOX8]) {
-    const ovoid_solid *s = side ? state->b.solid : state->a.solid;
-    solid8_other other;
-    tree_frame_turn(&state->frame, side, rest, solids_get_normal(state), &other);
+// A node that is opened, of a (side 0) or of b, and the box of the other body's node beside it.
+typedef struct opened_node {
+    int side;
+    tree_ref node;
+    const tree_box *rest;
+} opened_node;
+
+// The bounds of the children of a solid's node, in lanes.
+static void bound_boxes(const body_search *state, const opened_node *o, double lower[BOX8]) {
+    const ovoid_solid *s = o->side ? state->b.solid : state->a.solid;
+    solid8_other other = tree_frame_turn(&state->frame, o->side, o->rest, solids_get_normal(state));
     other.unit = s->unit;
-    state->solids->kernels->boxes(&s->boxes[node], &other, lower);
+    state->solids->kernels->boxes(&s->boxes[o->node], &other, lower);
 }
 
 // Of the two children of a compound's node.
-static void bound_nodes(const body_search *state, int side, const tree_ref *two, const tree_box *rest,
-                        double lower[BOX8]) {
+static void bound_nodes(const body_search *state, const opened_node *o, const tree_ref *two, double lower[BOX8]) {
+    const body_tree *tree = o->side ? &state->b : &state->a;
+    vec3 normal = solids_get_normal(state);
     for (int i = 0; i < 2; i++) {
-        tree_box own = body_tree_get_box(side ? &state->b : &state->a, two[i]);
-        lower[i] =
-            tree_frame_find_gap(&state->frame, side ? rest : &own, side ? &own : rest, solids_get_normal(state)).lower;
+        tree_box own = body_tree_get_box(tree, two[i]);
+        const tree_box *a = o->side ? o->rest : &own, *b = o->side ? &own : o->rest;
+        lower[i] = tree_frame_find_gap(&state->frame, a, b, normal).lower;
     }
 }
 
-static void bound_children(body_search *state, const waiting_pair *w, int side, const tree_box *rest, children *found) {
+static void bound_children(body_search *state, const waiting_pair *w, const opened_node *o, children *found) {
+    int side = o->side;
     const body_tree *tree = side ? &state->b : &state->a;
-    tree_ref node = side ? waiting_get_b(w) : waiting_get_a(w), all[BOX8];
-    uint32_t count = body_tree_get_children(tree, node, all);
+    tree_ref all[BOX8];
+    uint32_t count = body_tree_get_children(tree, o->node, all);
     double lower[BOX8];
     if (tree->solid)
-        bound_boxes(state, side, node, rest, lower);
+        bound_boxes(state, o, lower);
     else
-        bound_nodes(state, side, all, rest, lower);
+        bound_nodes(state, o, all, lower);
     state->out->visited += count;
     found->count = 0;
     for (uint32_t i = 0; i < count; i++) {
@@ -58,13 +66,15 @@ static void bound_children(body_search *state, const waiting_pair *w, int side, 
 
 // Children that are triangles, of a node beside a triangle: in lanes.
 static void visit_triangles(body_search *state, int side, const children *found) {
-    uint32_t places[BOX8], one = ref_get_index(side ? waiting_get_a(&found->pair[0]) : waiting_get_b(&found->pair[0]));
+    const waiting_pair *any = &found->pair[0];
+    triangle_group group = {
+        .side = side, .one = ref_get_index(side ? waiting_get_a(any) : waiting_get_b(any)), .count = found->count};
     for (uint32_t i = 0; i < found->count; i++) {
         // The nearest first.
         const waiting_pair *w = &found->pair[found->count - 1 - i];
-        places[i] = ref_get_index(side ? waiting_get_b(w) : waiting_get_a(w));
+        group.places[i] = ref_get_index(side ? waiting_get_b(w) : waiting_get_a(w));
     }
-    solids_visit_triangles(state, side, one, places, found->count);
+    solids_visit_triangles(state, &group);
 }
 
 // Children wait: boxes that overlap on the stack, since each has to be opened, the others in the heap; where that is
@@ -93,8 +103,9 @@ static void open_nodes(body_search *state, const waiting_pair *w, waiting *q) {
     const tree_ref ref_a = waiting_get_a(w), ref_b = waiting_get_b(w);
     tree_box a = body_tree_get_box(&state->a, ref_a), b = body_tree_get_box(&state->b, ref_b);
     int side = !boxes_split_first(ref_a, &a, ref_b, &b);
+    const opened_node opened = {side, side ? ref_b : ref_a, side ? &a : &b};
     children found;
-    bound_children(state, w, side, side ? &a : &b, &found);
+    bound_children(state, w, &opened, &found);
     pass_on(state, side, &found, q);
 }
 

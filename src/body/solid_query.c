@@ -10,16 +10,22 @@
 static int find_inside(body_search *state) {
     if (!body_tree_is_closed(&state->a) && !body_tree_is_closed(&state->b)) return 0;
     if (!(state->out->deciding.lower > state->frame.claim / 2)) return -1;
-    return trees_find_inside(&state->a, &state->b, 0, &state->out->inside, &state->out->component);
+    contained_component found;
+    int is_inside = trees_find_inside(&state->a, &state->b, 0, &found);
+    if (is_inside > 0) {
+        state->out->inside = found.inside;
+        state->out->component = found.component;
+    }
+    return is_inside;
 }
 
 // What parts the bodies: of a distance, which is asked for its bracket, and of bodies that touch, by all points.
 static void find_parting(body_search *state) {
     ovoid_body_answer *out = state->out;
     int is_distance = state->whole_goal.wants_bracket && state->whole_goal.near == -INFINITY;
-    box_gap gap = is_distance || !(out->upper < 0)
-                      ? trees_find_parting(&state->frame, &state->a, &state->b, out->deciding.normal)
-                      : tree_frame_find_parting(&state->frame, &state->a, &state->b);
+    const framed_pair pair = {&state->frame, &state->a, &state->b};
+    box_gap gap = is_distance || !(out->upper < 0) ? framed_pair_find_parting(&pair, out->deciding.normal)
+                                                   : tree_frame_find_parting(&state->frame, &state->a, &state->b);
     out->lower = min2(gap.lower, min2(out->upper, 0));
     out->parting = gap.normal;
 }
@@ -58,9 +64,8 @@ static void finish(body_search *state) {
 
 // ---- the beginning
 
-static ovoid_limit begin(body_search *state, const ovoid_body_pair *pair, const ovoid_options *options,
-                         const query_goal *goal) {
-    if (!options_make(options, &state->options) || !(goal->far >= 0)) return OVOID_LIMIT_OPTIONS;
+static ovoid_limit begin(body_search *state, const ovoid_body_pair *pair, const body_request *request) {
+    if (!options_make(request->options, &state->options) || !(request->goal->far >= 0)) return OVOID_LIMIT_OPTIONS;
     ovoid_limit refused = body_trees_make(pair, &state->a, &state->b);
     if (refused != OVOID_LIMIT_NONE) return refused;
     tree_frame_make(&state->a, &state->b, &state->frame);
@@ -69,7 +74,7 @@ static ovoid_limit begin(body_search *state, const ovoid_body_pair *pair, const 
     state->slack = state->options.absolute_tolerance = state->tolerance / 2;
     state->options.relative_tolerance = OVOID_LENGTH_MIN;
     state->least_far = state->frame.claim;
-    search_begin(state, goal);
+    search_begin(state, request->goal);
     solids_state *solids = state->solids;
     solids->flush.count = 0;
     solids->filter_support = -INFINITY;
@@ -82,13 +87,12 @@ static ovoid_limit begin(body_search *state, const ovoid_body_pair *pair, const 
 }
 
 // The whole query; the limit is that of a refusal.
-static ovoid_limit search_from(body_search *state, const ovoid_body_pair *pair, const ovoid_options *options,
-                               const query_goal *goal, const ovoid_body_proof *earlier) {
+static ovoid_limit search_from(body_search *state, const ovoid_body_pair *pair, const body_request *request) {
     *state->out = (ovoid_body_answer){.status = OVOID_UNDECIDED};
     exclusions_begin(state->exclusions);
-    ovoid_limit refused = begin(state, pair, options, goal);
+    ovoid_limit refused = begin(state, pair, request);
     if (refused != OVOID_LIMIT_NONE) return refused;
-    search_run(state, earlier);
+    search_run(state, request->earlier);
     finish(state);
     return OVOID_LIMIT_NONE;
 }
@@ -104,20 +108,23 @@ static int is_better(ovoid_status status, double width, const ovoid_body_answer 
     return status == than->status && width < than->upper - than->lower;
 }
 
-COMPILER_NOINLINE void solid_find_internal(const ovoid_body_pair *pair, const ovoid_options *options,
-                                           const query_goal *goal, const ovoid_body_proof *earlier,
-                                           ovoid_exclusions *exclusions, ovoid_body_answer *out) {
+COMPILER_NOINLINE void solid_find_internal(const ovoid_body_pair *pair, const body_request *request,
+                                           ovoid_body_answer *out) {
     solids_state solids;
     body_search state;
-    query_goal own = *goal;
-    own.wants_depth = 0;
+    query_goal goal = *request->goal;
+    goal.wants_depth = 0;
+    body_request warm = *request, cold;
+    warm.goal = &goal;
+    cold = warm;
+    cold.earlier = NULL;
     state.kind = &solids_kind;
     state.has_solid = 1;
     state.parts = NULL;
     state.solids = &solids;
     state.out = out;
-    state.exclusions = exclusions;
-    ovoid_limit refused = search_from(&state, pair, options, &own, earlier);
+    state.exclusions = request->exclusions;
+    ovoid_limit refused = search_from(&state, pair, &warm);
     if (refused != OVOID_LIMIT_NONE) {
         out->deciding = answer_make_refused(refused);
         out->limit = refused;
@@ -125,10 +132,10 @@ COMPILER_NOINLINE void solid_find_internal(const ovoid_body_pair *pair, const ov
         out->upper = INFINITY;
         return;
     }
-    if (!earlier || !is_improvable(out)) return;
+    if (!request->earlier || !is_improvable(out)) return;
     // No earlier proof makes an answer worse: the query alone, unless the one from the proof says more.
     ovoid_status status = out->status;
     double width = out->upper - out->lower;
-    (void)search_from(&state, pair, options, &own, NULL);
-    if (is_better(status, width, out)) (void)search_from(&state, pair, options, &own, earlier);
+    (void)search_from(&state, pair, &cold);
+    if (is_better(status, width, out)) (void)search_from(&state, pair, &warm);
 }

@@ -17,7 +17,14 @@ void solids_exclude_boxes(body_search *state, const waiting_pair *w);
 void solids_visit_leaves(body_search *state, const waiting_pair *w);
 int solids_take(body_search *state, const leaf_pair *pair);
 
-/// Triangles of the body `side` (0: a) at places, with one triangle of the other, in lanes. count <= 8.
-void solids_visit_triangles(body_search *state, int side, uint32_t one, const uint32_t *places, uint32_t count);
+/// Triangles of the body `side` (0: a) at places, and one triangle of the other.
+typedef struct triangle_group {
+    int side;
+    uint32_t one;
+    uint32_t places[BOX8], count;
+} triangle_group;
+
+/// The pairs of a group, in lanes.
+void solids_visit_triangles(body_search *state, const triangle_group *group);
 
 #endif

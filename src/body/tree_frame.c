@@ -45,22 +45,30 @@ static box_gap find_axis_gap(vec3 d, vec3 half) {
 
 static double find_reach(vec3 half, vec3 n) { return vec3_dot(half, absolute(n)); }
 
+// Two boxes, with the vector between their centres in a's frame.
+typedef struct box_pair {
+    const tree_box *a, *b;
+    vec3 between;
+} box_pair;
+
 // The gap along a unit direction of a's frame.
-static box_gap find_gap_along(const tree_frame *f, const tree_box *a, const tree_box *b, vec3 d, vec3 n) {
-    return (box_gap){vec3_dot(n, d) - find_reach(a->half, n) - find_reach(b->half, mat3_mul_vec3(f->to_b, n)), n};
+static box_gap find_gap_along(const tree_frame *f, const box_pair *pair, vec3 n) {
+    double reach_a = find_reach(pair->a->half, n), reach_b = find_reach(pair->b->half, mat3_mul_vec3(f->to_b, n));
+    return (box_gap){vec3_dot(n, pair->between) - reach_a - reach_b, n};
 }
 
 box_gap tree_frame_find_gap(const tree_frame *f, const tree_box *a, const tree_box *b, vec3 normal) {
     vec3 d = vec3_sub(vec3_add(f->between, mat3_mul_vec3(f->to_a, b->center)), a->center);
+    const box_pair pair = {a, b, d};
     box_gap best = find_axis_gap(d, vec3_add(a->half, mat3_mul_vec3(f->absolute_a, b->half)));
     box_gap next = find_axis_gap(mat3_mul_vec3(f->to_b, d), vec3_add(b->half, mat3_mul_vec3(f->absolute_b, a->half)));
     next.normal = mat3_mul_vec3(f->to_a, next.normal);
     if (next.lower > best.lower) best = next;
-    next = find_gap_along(f, a, b, d, normal);
+    next = find_gap_along(f, &pair, normal);
     if (next.lower > best.lower) best = next;
     vec3 line = vec3_unit(d);
     if (!(vec3_norm_squared(line) > 0.5)) return best;
-    next = find_gap_along(f, a, b, d, line);
+    next = find_gap_along(f, &pair, line);
     return next.lower > best.lower ? next : best;
 }
 
@@ -72,15 +80,17 @@ box_gap tree_frame_find_parting(const tree_frame *f, const body_tree *a, const b
     return gap;
 }
 
-void tree_frame_turn(const tree_frame *f, int side, const tree_box *rest, vec3 normal, solid8_other *o) {
+solid8_other tree_frame_turn(const tree_frame *f, int side, const tree_box *rest, vec3 normal) {
     // A box of b beside nodes of a, or the other way round; the normal goes from a to b.
-    o->center = side ? mat3_mul_vec3(f->to_b, vec3_sub(rest->center, f->between))
-                     : vec3_add(f->between, mat3_mul_vec3(f->to_a, rest->center));
-    o->rotation = side ? f->to_a : f->to_b;
-    o->absolute = side ? f->absolute_a : f->absolute_b;
-    o->turned = mat3_mul_vec3(side ? f->absolute_b : f->absolute_a, rest->half);
-    o->half = rest->half;
+    solid8_other o = {.unit = 0};
+    o.center = side ? mat3_mul_vec3(f->to_b, vec3_sub(rest->center, f->between))
+                    : vec3_add(f->between, mat3_mul_vec3(f->to_a, rest->center));
+    o.rotation = side ? f->to_a : f->to_b;
+    o.absolute = side ? f->absolute_a : f->absolute_b;
+    o.turned = mat3_mul_vec3(side ? f->absolute_b : f->absolute_a, rest->half);
+    o.half = rest->half;
     vec3 in_b = mat3_mul_vec3(f->to_b, normal);
-    o->normal = side ? vec3_neg(in_b) : normal;
-    o->reach = find_reach(rest->half, side ? normal : in_b);
+    o.normal = side ? vec3_neg(in_b) : normal;
+    o.reach = find_reach(rest->half, side ? normal : in_b);
+    return o;
 }

@@ -53,11 +53,9 @@ box_gap tree_frame_find_gap(const tree_frame *f, const tree_box *a, const tree_b
 
 /// A box of b (side 0) or of a (side 1) as the kernel wants it beside nodes of the other; the
 /// unit of these is left to the caller.
-void tree_frame_turn(const tree_frame *f, int side, const tree_box *rest, vec3 normal, solid8_other *other);
+solid8_other tree_frame_turn(const tree_frame *f, int side, const tree_box *rest, vec3 normal);
 
 /// The bound by the boxes of both roots, lowered by the claim, and its direction in the world: what parts the bodies.
 box_gap tree_frame_find_parting(const tree_frame *f, const body_tree *a, const body_tree *b);
-/// What parts the bodies by all points, along the best of some directions (parting.c). normal: one to try, world frame.
-box_gap trees_find_parting(const tree_frame *f, const body_tree *a, const body_tree *b, vec3 normal);
 
 #endif

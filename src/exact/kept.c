@@ -44,7 +44,10 @@ static void set_gap(const pair_frame *f, vec3 n, small_gjk_result *r) {
     r->gap = (vec3_dot(n, f->offset) - ends.low.value) - ends.high.value;
 }
 
-int kept_run(const pair_frame *f, const query_goal *goal, const ovoid_proof *earlier, small_end *end) {
+int kept_run(const placed_query *query, small_end *end) {
+    const pair_frame *f = query->frame;
+    const query_goal *goal = query->goal;
+    const ovoid_proof *earlier = query->earlier;
     small_gjk_kept kept = kept_get_simplex(f, goal, earlier);
     if (!kept.count) return 0;
     small_gjk_query q = small_make_query(f, goal);

@@ -27,7 +27,6 @@ static inline int kept_fits(const query_goal *goal, const ovoid_shape *a, const 
 }
 
 /// Bodies with any number of vertices, which were apart: 1 if the point between the kept differences answers the query.
-/// The frame needs only frame_place.
-int kept_run(const pair_frame *frame, const query_goal *goal, const ovoid_proof *earlier, small_end *end);
+int kept_run(const placed_query *query, small_end *end);
 
 #endif

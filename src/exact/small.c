@@ -53,23 +53,22 @@ static double find_upper(const pair_frame *f, small_gjk_end kind, double claim, 
 // How deep the spheres overlap, of the sum of their radii, where the inner ellipsoids are likely to overlap too.
 #define INNER_DEPTH 0.4
 
-// An overlap that `upper` proves, without a search. The lower bound is that of the spheres, along the line of centres.
-static void end_at_overlap(double sphere_gap, vec3 line, double upper, ovoid_proof_kind kind, ovoid_stage stage,
-                           small_end *end) {
-    end->lower = sphere_gap;
+// An overlap that is proven without a search. The lower bound is that of the spheres, along the line of centres.
+static void end_at_overlap(const placed_query *q, double upper, ovoid_stage stage, small_end *end) {
+    end->lower = q->sphere_gap;
     end->upper = upper;
-    end->normal = vec3_unit(line);
-    end->kind = kind;
+    end->normal = vec3_unit(q->frame->between);
     end->stage = stage;
     end->iterations = 0;
 }
 
 // A common point of the inner ellipsoids: 1 if it proves an overlap.
-static int run_inner(const pair_frame *f, double sphere_gap, vec3 line, small_end *end) {
-    double upper = inner_compute_upper_in_world(f, &end->inner);
+static int run_inner(const placed_query *q, small_end *end) {
+    double upper = inner_compute_upper_in_world(q->frame, &end->inner);
     if (!(upper < 0)) return 0;
     clear_points(&end->points);
-    end_at_overlap(sphere_gap, line, upper, OVOID_PROOF_INNER, OVOID_STAGE_INNER, end);
+    end->kind = OVOID_PROOF_INNER;
+    end_at_overlap(q, upper, OVOID_STAGE_INNER, end);
     return 1;
 }
 
@@ -93,11 +92,11 @@ small_gjk_query small_make_query(const pair_frame *f, const query_goal *goal) {
                              goal->iterations};
 }
 
-int small_begin(const pair_frame *f, const query_goal *goal, double sphere_gap, small_gjk_query *q, small_end *end) {
-    vec3 d = f->between;
-    if (!(vec3_norm_squared(d) > 1e-150)) return 0;
-    if (sphere_gap < -INNER_DEPTH * (f->a->reach + f->b->reach) && run_inner(f, sphere_gap, d, end)) return 1;
-    *q = small_make_query(f, goal);
+int small_begin(const placed_query *q, small_gjk_query *gjk, small_end *end) {
+    const pair_frame *f = q->frame;
+    if (!(vec3_norm_squared(f->between) > 1e-150)) return 0;
+    if (q->sphere_gap < -INNER_DEPTH * (f->a->reach + f->b->reach) && run_inner(q, end)) return 1;
+    *gjk = small_make_query(f, q->goal);
     return -1;
 }
 
@@ -128,71 +127,75 @@ int small_finish(const pair_frame *f, const query_goal *goal, const small_gjk_re
     return query_goal_is_met(goal, end->lower, end->upper);
 }
 
-int small_run(const pair_frame *f, const query_goal *goal, double sphere_gap, small_end *end) {
-    small_gjk_query q;
+int small_run(const placed_query *q, small_end *end) {
+    small_gjk_query gjk;
     small_gjk_result r;
-    int is_over = small_begin(f, goal, sphere_gap, &q, end);
+    int is_over = small_begin(q, &gjk, end);
     if (is_over >= 0) return is_over;
-    simd_run_small_gjk(&q, &r);
-    return small_finish(f, goal, &r, end);
+    simd_run_small_gjk(&gjk, &r);
+    return small_finish(q->frame, q->goal, &r, end);
 }
 
 // ---- from an earlier proof
 
 // The hull of four differences that was around the origin: 1 if it still is.
-static int run_kept_hull(const pair_frame *f, const ovoid_proof *p, double sphere_gap, vec3 line, small_end *end) {
+static int run_kept_hull(const placed_query *q, small_end *end) {
+    const pair_frame *f = q->frame;
     vec3 w[4];
     for (int i = 0; i < 4; i++) {
-        end->points.p[i] = kept_get_difference(f, p, i);
+        end->points.p[i] = kept_get_difference(f, q->earlier, i);
         w[i] = end->points.p[i].w;
     }
     double depth = hull_find_weights(w, reject_get_claim(f), end->points.weight);
     if (!(depth > 0)) return 0;
     end->points.count = 4;
     end->inner = (vec3){0, 0, 0};
-    end_at_overlap(sphere_gap, line, -depth - f->upper_radii, OVOID_PROOF_HULL, OVOID_STAGE_PROOF, end);
+    end->kind = OVOID_PROOF_HULL;
+    end_at_overlap(q, -depth - f->upper_radii, OVOID_STAGE_PROOF, end);
     return 1;
 }
 
 // The common point of the inner ellipsoids as it was, fixed in A, or another one.
-static int run_kept_inner(const pair_frame *f, const ovoid_proof *p, double sphere_gap, vec3 line, small_end *end) {
-    double upper = inner_compute_upper_at(f, p->inner_a);
-    if (!(upper < 0)) return run_inner(f, sphere_gap, line, end);
-    end->inner = p->inner_a;
+static int run_kept_inner(const placed_query *q, small_end *end) {
+    vec3 inner = q->earlier->inner_a;
+    double upper = inner_compute_upper_at(q->frame, inner);
+    if (!(upper < 0)) return run_inner(q, end);
+    end->inner = inner;
     clear_points(&end->points);
-    end_at_overlap(sphere_gap, line, upper, OVOID_PROOF_INNER, OVOID_STAGE_PROOF, end);
+    end->kind = OVOID_PROOF_INNER;
+    end_at_overlap(q, upper, OVOID_STAGE_PROOF, end);
     return 1;
 }
 
-static small_outcome run_kept_overlap(const pair_frame *f, const ovoid_proof *p, double sphere_gap, small_end *end) {
-    vec3 line = f->between;
+static small_outcome run_kept_overlap(const placed_query *q, small_end *end) {
+    const ovoid_proof *p = q->earlier;
     int is_proven = 0;
-    if (!(vec3_norm_squared(line) > 1e-150) || !proof_is_sound(f, p)) return SMALL_UNKNOWN;
-    if (p->kind == OVOID_PROOF_INNER) is_proven = run_kept_inner(f, p, sphere_gap, line, end);
-    if (p->kind == OVOID_PROOF_HULL && p->count == 4) is_proven = run_kept_hull(f, p, sphere_gap, line, end);
+    if (!(vec3_norm_squared(q->frame->between) > 1e-150) || !proof_is_sound(q->frame, p)) return SMALL_UNKNOWN;
+    if (p->kind == OVOID_PROOF_INNER) is_proven = run_kept_inner(q, end);
+    if (p->kind == OVOID_PROOF_HULL && p->count == 4) is_proven = run_kept_hull(q, end);
     return is_proven ? SMALL_ANSWERED : SMALL_UNKNOWN;
 }
 
-static small_outcome run_kept(const pair_frame *f, const query_goal *goal, const small_gjk_kept *kept, small_end *end) {
-    small_gjk_query q = small_make_query(f, goal);
+static small_outcome run_kept(const placed_query *q, const small_gjk_kept *kept, small_end *end) {
+    small_gjk_query gjk = small_make_query(q->frame, q->goal);
     small_gjk_result r;
-    simd_run_small_gjk_kept(&q, kept, &r);
-    if (!small_finish(f, goal, &r, end)) return SMALL_OPEN;
+    simd_run_small_gjk_kept(&gjk, kept, &r);
+    if (!small_finish(q->frame, q->goal, &r, end)) return SMALL_OPEN;
     if (r.iterations == 0) end->stage = OVOID_STAGE_PROOF;
     return SMALL_ANSWERED;
 }
 
-small_outcome small_run_earlier(const pair_frame *f, const query_goal *goal, const ovoid_proof *earlier,
-                                rejection *found, small_end *end) {
+small_outcome small_run_earlier(const placed_query *q, rejection *found, small_end *end) {
+    const ovoid_proof *earlier = q->earlier;
     int was_apart = earlier->kind == OVOID_PROOF_POINTS || earlier->kind == OVOID_PROOF_INNER_POINTS;
-    if (!was_apart) return run_kept_overlap(f, earlier, found->lower, end);
-    small_gjk_kept kept = kept_get_simplex(f, goal, earlier);
-    if (kept.count) return run_kept(f, goal, &kept, end);
-    if (goal->far == INFINITY) return SMALL_UNKNOWN;
-    if (reject_by_normal(f, goal->far, earlier, found)) return SMALL_REJECTED;
+    if (!was_apart) return run_kept_overlap(q, end);
+    small_gjk_kept kept = kept_get_simplex(q->frame, q->goal, earlier);
+    if (kept.count) return run_kept(q, &kept, end);
+    if (q->goal->far == INFINITY) return SMALL_UNKNOWN;
+    if (reject_by_normal(q->frame, q->goal->far, earlier, found)) return SMALL_REJECTED;
     // More differences: it touched, and the stages of all pairs say more of that.
     if (earlier->count > 3) return SMALL_OPEN;
     uint32_t a = found->a, b = found->b;
     small_gjk_kept met = {1, {a, a, a, a}, {b, b, b, b}};
-    return run_kept(f, goal, &met, end);
+    return run_kept(q, &met, end);
 }

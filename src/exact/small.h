@@ -26,6 +26,14 @@ typedef struct small_end {
     uint32_t iterations;
 } small_end;
 
+/// A query whose pair is placed in the world, once the enclosing spheres have left it open.
+typedef struct placed_query {
+    const pair_frame *frame; ///< as frame_place makes it
+    const query_goal *goal;
+    const ovoid_proof *earlier; ///< of an earlier call, or NULL; it may hold any bytes
+    double sphere_gap;          ///< the lower bound of reject_by_spheres
+} placed_query;
+
 /// 1 if both bodies have few vertices and no allowance, and no depth is asked for. sphere_gap: the lower bound of
 /// reject_by_spheres.
 static inline int small_fits(const query_goal *goal, const ovoid_shape *a, const ovoid_shape *b, double sphere_gap) {
@@ -42,18 +50,17 @@ static inline int small_takes(const query_goal *goal, const ovoid_shape *a, cons
     return is_line & small_fits(goal, a, b, sphere_gap);
 }
 
-/// Searches from the line of centres, by the inner ellipsoids first where the spheres overlap much. 1: answered; 0:
-/// unusual, and nothing is known. The frame needs only frame_place.
-int small_run(const pair_frame *frame, const query_goal *goal, double sphere_gap, small_end *end);
+/// Searches from the line of centres, by the inner ellipsoids first where the spheres overlap much, without the earlier
+/// proof. 1: answered; 0: unusual, and nothing is known.
+int small_run(const placed_query *query, small_end *end);
 
 /// The pair as the kernel takes it, from the line of centres.
 small_gjk_query small_make_query(const pair_frame *frame, const query_goal *goal);
 
-/// small_run in parts, for searches in lanes. Before the kernel's search: 1: answered, 0: unusual, -1: *query is to be
-/// searched; it refers to the frame. After it: 1: answered, 0: unusual. Of the frame small_finish reads the size, what
-/// is hidden and the radii.
-int small_begin(const pair_frame *frame, const query_goal *goal, double sphere_gap, small_gjk_query *query,
-                small_end *end);
+/// small_run in parts, for searches in lanes. Before the kernel's search: 1: answered, 0: unusual, -1: *gjk is to be
+/// run; it refers to the frame. After it: 1: answered, 0: unusual. Of the frame small_finish reads the size, what is
+/// hidden and the radii.
+int small_begin(const placed_query *query, small_gjk_query *gjk, small_end *end);
 int small_finish(const pair_frame *frame, const query_goal *goal, const small_gjk_result *result, small_end *end);
 
 typedef enum small_outcome {
@@ -63,10 +70,8 @@ typedef enum small_outcome {
     SMALL_UNKNOWN   ///< the earlier proof says nothing of the pair as it is now; nothing was searched
 } small_outcome;
 
-/// For a pair that fits: what an earlier proof shows of it now, and for bodies that were apart a search that goes on
-/// from there. The proof may hold any bytes. found: as reject_by_spheres left it; if REJECTED is returned, the
-/// rejection.
-small_outcome small_run_earlier(const pair_frame *frame, const query_goal *goal, const ovoid_proof *earlier,
-                                rejection *found, small_end *end);
+/// For a pair that fits: what the earlier proof shows of it now, and for bodies that were apart a search that goes on
+/// from there. found: as reject_by_spheres left it; if REJECTED is returned, the rejection.
+small_outcome small_run_earlier(const placed_query *query, rejection *found, small_end *end);
 
 #endif

@@ -80,8 +80,8 @@ void sweep_query(sweep *s, double time) {
     ovoid_pair pair;
     ovoid_proof earlier = s->answer.proof;
     s->shift = find_pair(s, time, &pair);
-    answer_find_internal(&pair, s->query, query_goal_make_distance(s->query), s->used ? &earlier : NULL, NULL,
-                         &s->answer);
+    const query_goal goal = query_goal_make_distance(s->query);
+    answer_find_internal(&pair, &(query_request){s->query, &goal, s->used ? &earlier : NULL, NULL}, &s->answer);
     find_fall(s, time);
     s->queried_at = time;
     s->used++;

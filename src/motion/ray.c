@@ -29,7 +29,8 @@ static ovoid_ray_hit refuse(ovoid_limit limit) { return (ovoid_ray_hit){.limit =
 // A ray that begins inside: the point and the normal of the depth query.
 static void take_inside(const ovoid_pair *pair, ovoid_ray_hit *out) {
     ovoid_answer depth;
-    answer_find_internal(pair, NULL, query_goal_make_depth(NULL), NULL, NULL, &depth);
+    const query_goal goal = query_goal_make_depth(NULL);
+    answer_find_internal(pair, &(query_request){NULL, &goal, NULL, NULL}, &depth);
     out->point = depth.point_a;
     out->normal = depth.normal;
     out->upper = 0;

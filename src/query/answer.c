@@ -281,7 +281,8 @@ COMPILER_NOINLINE static void find_sign(search *s) {
     small_end end;
     (void)reject_by_spheres(s->frame, INFINITY, &found);
     search_make(&t, s->frame, &sign);
-    if (begin_after_spheres(s->frame, &sign, NULL, &found, &end) == BEGIN_SMALL) {
+    const placed_query placed = {s->frame, &sign, NULL, found.lower};
+    if (begin_after_spheres(&placed, &found, &end) == BEGIN_SMALL) {
         s->iterations += end.iterations;
         if (end.upper < 0) take_small_overlap(s, &end);
         return;
@@ -310,45 +311,49 @@ void answer_search(search *s, const ovoid_pair *pair, simplex *start) {
     search_on(s, pair);
 }
 
+// A query as it begins: the goal with the pair's own numbers, the frame, and what its first stages find.
+typedef struct query_start {
+    query_goal goal;
+    pair_frame frame;
+    ovoid_limit refused;
+    rejection found;
+    small_end end;
+    placed_query placed; ///< of goal and frame
+} query_start;
+
 // A query from its arguments on.
-static inline beginning begin(const ovoid_pair *pair, const ovoid_options *given, query_goal *goal,
-                              const ovoid_proof *earlier, ovoid_cover *cover, pair_frame *frame, rejection *found,
-                              small_end *end, ovoid_limit *refused) {
+static inline beginning begin(const ovoid_pair *pair, const query_request *request, query_start *s) {
     OVOID_ASSERT(pair);
     ovoid_options options;
-    if (cover && !goal->has_cover) cover->point_count = cover->triangle_count = 0;
-    *refused = OVOID_LIMIT_OPTIONS;
-    if (options_make(given, &options) && goal->far >= 0) *refused = frame_place(pair, frame);
-    if (*refused != OVOID_LIMIT_NONE) return BEGIN_REFUSED;
-    set_numbers(goal, &options, frame);
-    if (reject_by_spheres(frame, goal->far, found)) return BEGIN_REJECTED;
-    return begin_after_spheres(frame, goal, earlier, found, end);
+    ovoid_cover *cover = request->cover;
+    s->goal = *request->goal;
+    if (cover && !s->goal.has_cover) cover->point_count = cover->triangle_count = 0;
+    s->refused = OVOID_LIMIT_OPTIONS;
+    if (options_make(request->options, &options) && s->goal.far >= 0) s->refused = frame_place(pair, &s->frame);
+    if (s->refused != OVOID_LIMIT_NONE) return BEGIN_REFUSED;
+    set_numbers(&s->goal, &options, &s->frame);
+    if (reject_by_spheres(&s->frame, s->goal.far, &s->found)) return BEGIN_REJECTED;
+    s->placed = (placed_query){&s->frame, &s->goal, request->earlier, s->found.lower};
+    return begin_after_spheres(&s->placed, &s->found, &s->end);
 }
 
-// What a search is about, once the beginning of the query has left it open.
-typedef struct open_query {
-    const ovoid_pair *pair;
-    const pair_frame *frame;
-    double sphere_gap;
-    const query_goal *goal;
-    ovoid_cover *cover;
-} open_query;
-
-// The stages in doubles.
+// The stages in doubles, from the earlier proof or without it.
 static void search_in_doubles(const open_query *q, const ovoid_proof *earlier, search *s) {
     simplex start;
-    search_make(s, q->frame, q->goal);
-    run_stages(s, q->sphere_gap, earlier, &start);
+    search_make(s, q->placed.frame, q->placed.goal);
+    run_stages(s, q->placed.sphere_gap, earlier, &start);
     if (!search_is_done(s)) run_exact(s, &start, q->cover);
 }
 
 // The query as it is without an earlier proof, from the beginning that the spheres left open.
 static void search_afresh(const open_query *q, ovoid_answer *out) {
-    rejection found = {.lower = q->sphere_gap};
+    placed_query cold = q->placed;
+    rejection found = {.lower = cold.sphere_gap};
     small_end end;
     search s;
-    if (begin_after_spheres(q->frame, q->goal, NULL, &found, &end) == BEGIN_SMALL) {
-        *out = answer_make_small(&end, q->frame, q->goal);
+    cold.earlier = NULL;
+    if (begin_after_spheres(&cold, &found, &end) == BEGIN_SMALL) {
+        *out = answer_make_small(&end, cold.frame, cold.goal);
         return;
     }
     search_in_doubles(q, NULL, &s);
@@ -365,77 +370,72 @@ static int is_better(const ovoid_answer *warm, const ovoid_answer *cold) {
 
 // A search from an earlier proof that did not answer is followed by the query without that proof: no proof, whatever it
 // holds, makes an answer worse. What the proof decided and the query alone does not is kept, with its cover.
-COMPILER_NOINLINE static void search_again(const open_query *q, const ovoid_proof *earlier, search *s,
-                                           ovoid_answer *out) {
+COMPILER_NOINLINE static void search_again(const open_query *q, search *s, ovoid_answer *out) {
     ovoid_answer warm;
     answer_write(s, &warm);
     if (q->cover) q->cover->point_count = q->cover->triangle_count = 0;
     search_afresh(q, out);
     if (!is_better(&warm, out)) return;
     if (q->cover) q->cover->point_count = q->cover->triangle_count = 0;
-    search_in_doubles(q, earlier, s);
+    search_in_doubles(q, q->placed.earlier, s);
     *out = warm;
 }
 
-void answer_run_search(const ovoid_pair *pair, pair_frame *frame, double sphere_gap, const query_goal *goal,
-                       const ovoid_proof *earlier, ovoid_cover *cover, ovoid_answer *out) {
-    frame_relate(frame);
-    const open_query q = {pair, frame, sphere_gap, goal, cover};
+void answer_run_search(const open_query *q, ovoid_answer *out) {
+    const ovoid_proof *earlier = q->placed.earlier;
     search s;
-    search_in_doubles(&q, earlier, &s);
+    search_in_doubles(q, earlier, &s);
     if (!search_is_done(&s) && earlier) {
-        search_again(&q, earlier, &s, out);
+        search_again(q, &s, out);
         return;
     }
-    search_on(&s, pair);
+    search_on(&s, q->pair);
     answer_write(&s, out);
     // Another normal of the same gap may decide what this one leaves to the allowances.
-    if (earlier && goal->has_axis && out->status == OVOID_UNDECIDED) search_again(&q, earlier, &s, out);
+    if (earlier && q->placed.goal->has_axis && out->status == OVOID_UNDECIDED) search_again(q, &s, out);
 }
 
-void answer_find_internal(const ovoid_pair *pair, const ovoid_options *given, query_goal goal,
-                          const ovoid_proof *earlier, ovoid_cover *cover, ovoid_answer *out) {
-    pair_frame frame;
-    rejection found;
-    small_end end;
-    ovoid_limit refused;
-    switch (begin(pair, given, &goal, earlier, cover, &frame, &found, &end, &refused)) {
-    case BEGIN_REFUSED: *out = answer_make_refused(refused); break;
-    case BEGIN_REJECTED: *out = rejection_make_answer(&found, &frame, &goal); break;
-    case BEGIN_SMALL: *out = answer_make_small(&end, &frame, &goal); break;
-    case BEGIN_SEARCH: answer_run_search(pair, &frame, found.lower, &goal, earlier, cover, out); break;
+static open_query make_open(const ovoid_pair *pair, const query_request *request, query_start *s) {
+    frame_relate(&s->frame);
+    return (open_query){pair, s->placed, request->cover};
+}
+
+void answer_find_internal(const ovoid_pair *pair, const query_request *request, ovoid_answer *out) {
+    query_start s;
+    open_query q;
+    switch (begin(pair, request, &s)) {
+    case BEGIN_REFUSED: *out = answer_make_refused(s.refused); break;
+    case BEGIN_REJECTED: *out = rejection_make_answer(&s.found, &s.frame, &s.goal); break;
+    case BEGIN_SMALL: *out = answer_make_small(&s.end, &s.frame, &s.goal); break;
+    case BEGIN_SEARCH:
+        q = make_open(pair, request, &s);
+        answer_run_search(&q, out);
+        break;
     }
 }
 
 // Returned by value from functions that are not inlined: where no address of the answer is taken, it is made in the
 // caller's place, and a rejection ends sooner than its answer could be copied.
-COMPILER_NOINLINE static ovoid_answer search_by_value(const ovoid_pair *pair, pair_frame *frame, double sphere_gap,
-                                                      const query_goal *goal, const ovoid_proof *earlier,
-                                                      ovoid_cover *cover) {
+COMPILER_NOINLINE static ovoid_answer search_by_value(const ovoid_pair *pair, const query_request *request,
+                                                      query_start *s) {
     ovoid_answer out;
-    answer_run_search(pair, frame, sphere_gap, goal, earlier, cover, &out);
+    const open_query q = make_open(pair, request, s);
+    answer_run_search(&q, &out);
     return out;
 }
 
-COMPILER_NOINLINE static ovoid_answer find_by_value(const ovoid_pair *pair, const ovoid_options *given,
-                                                    const query_goal *wanted, const ovoid_proof *earlier,
-                                                    ovoid_cover *cover) {
-    query_goal goal = *wanted;
-    pair_frame frame;
-    rejection found;
-    small_end end;
-    ovoid_limit refused;
-    switch (begin(pair, given, &goal, earlier, cover, &frame, &found, &end, &refused)) {
-    case BEGIN_REFUSED: return answer_make_refused(refused);
-    case BEGIN_REJECTED: return rejection_make_answer(&found, &frame, &goal);
-    case BEGIN_SMALL: return answer_make_small(&end, &frame, &goal);
-    default: return search_by_value(pair, &frame, found.lower, &goal, earlier, cover);
+COMPILER_NOINLINE static ovoid_answer find_by_value(const ovoid_pair *pair, const query_request *request) {
+    query_start s;
+    switch (begin(pair, request, &s)) {
+    case BEGIN_REFUSED: return answer_make_refused(s.refused);
+    case BEGIN_REJECTED: return rejection_make_answer(&s.found, &s.frame, &s.goal);
+    case BEGIN_SMALL: return answer_make_small(&s.end, &s.frame, &s.goal);
+    default: return search_by_value(pair, request, &s);
     }
 }
 
 // All arithmetic is inside the call and cannot be moved out of it, so the answer needs no environment_hide. The
 // environment is restored after the answer has been made.
-ovoid_answer answer_find(const ovoid_pair *pair, const ovoid_options *given, const query_goal *goal,
-                         const ovoid_proof *earlier, ovoid_cover *cover) {
-    ENVIRONMENT_RETURN_CALL(find_by_value(pair, given, goal, earlier, cover));
+ovoid_answer answer_find(const ovoid_pair *pair, const query_request *request) {
+    ENVIRONMENT_RETURN_CALL(find_by_value(pair, request));
 }

@@ -29,21 +29,33 @@ static inline ovoid_verdict answer_get_verdict(const ovoid_answer *answer) {
 /// The answer of a query that was refused: no bracket.
 ovoid_answer answer_make_refused(ovoid_limit limit);
 
-/// The whole pipeline for one query; earlier and cover may be NULL.
-ovoid_answer answer_find(const ovoid_pair *pair, const ovoid_options *given, const query_goal *goal,
-                         const ovoid_proof *earlier, ovoid_cover *cover);
+/// What is asked of a pair.
+typedef struct query_request {
+    const ovoid_options *options; ///< as the caller gave them; NULL: the default
+    const query_goal *goal;
+    const ovoid_proof *earlier; ///< of an earlier call, or NULL
+    ovoid_cover *cover;         ///< room for a cover, or NULL
+} query_request;
 
-/// The rest of the pipeline, for a pair that its beginning left to the search. The frame needs only frame_place.
-void answer_run_search(const ovoid_pair *pair, pair_frame *frame, double sphere_gap, const query_goal *goal,
-                       const ovoid_proof *earlier, ovoid_cover *cover, ovoid_answer *out);
+/// The whole pipeline for one query.
+ovoid_answer answer_find(const ovoid_pair *pair, const query_request *request);
+
+/// A query that its beginning left to the search.
+typedef struct open_query {
+    const ovoid_pair *pair;
+    placed_query placed;
+    ovoid_cover *cover; ///< room for a cover, or NULL
+} open_query;
+
+/// The rest of the pipeline. The frame is related (frame_relate).
+void answer_run_search(const open_query *query, ovoid_answer *out);
 
 /// answer_find for callers inside a public function, which has set the default floating-point environment already.
-void answer_find_internal(const ovoid_pair *pair, const ovoid_options *given, query_goal goal,
-                          const ovoid_proof *earlier, ovoid_cover *cover, ovoid_answer *out);
+void answer_find_internal(const ovoid_pair *pair, const query_request *request, ovoid_answer *out);
 
 /// ovoid_answer_verify for callers inside a public function.
-ovoid_code answer_verify_internal(const ovoid_pair *pair, const ovoid_answer *answer, const ovoid_options *given,
-                                  const ovoid_cover *cover, ovoid_error *error);
+ovoid_code answer_verify_internal(const ovoid_pair *pair, const ovoid_answer *answer, const ovoid_answer_basis *basis,
+                                  ovoid_error *error);
 
 /// What an answer was asked by: the tolerance, to which allowances add nothing; the width that these make; the cap, or
 /// 0.
@@ -65,10 +77,9 @@ typedef struct answer_claims {
 /// OVOID_OK if the answer's bracket and points follow from its proof; status and limit are not looked at.
 ovoid_code bounds_verify_internal(const answer_claims *claims, ovoid_error *error);
 
-/// OVOID_OK if a status follows from its bracket, or PROOF with a sentence. tolerance: as in bracket_find_status.
-/// "undecided" claims nothing but that the bracket leaves the sign open.
-ovoid_code status_verify_internal(ovoid_status status, double lower, double upper, double tolerance,
-                                  ovoid_error *error);
+/// OVOID_OK if an answer's status follows from its bracket, or PROOF with a sentence; its other members are not looked
+/// at. tolerance: as in bracket_find_status. "undecided" claims nothing but that the bracket leaves the sign open.
+ovoid_code status_verify_internal(ovoid_verdict answer, double tolerance, ovoid_error *error);
 
 /// OVOID_OK if an answer is the refusal for that reason, and claims nothing.
 ovoid_code refusal_verify_internal(ovoid_verdict answer, ovoid_limit refused, ovoid_error *error);

@@ -84,7 +84,7 @@ void batch_query_single(const ovoid_batch *batch, size_t i, query_goal goal) {
     ovoid_pair pair = get_pair(batch, i);
     ovoid_answer own, *out = batch->answers ? &batch->answers[i] : &own;
     const ovoid_proof *earlier = batch->proofs && !is_blank(&batch->proofs[i]) ? &batch->proofs[i] : NULL;
-    answer_find_internal(&pair, batch->options, goal, earlier, NULL, out);
+    answer_find_internal(&pair, &(query_request){batch->options, &goal, earlier, NULL}, out);
     batch_write(batch, i, out);
 }
 
@@ -101,65 +101,71 @@ static mat3 get9(const lane_column *c, unsigned k) { return (mat3){get3(c, k), g
 static const ovoid_posed_shape *get_a(const lane_group *e, unsigned k) { return (const void *)e->at.body_a[k]; }
 static const ovoid_posed_shape *get_b(const lane_group *e, unsigned k) { return (const void *)e->at.body_b[k]; }
 
+// Lane k of a group.
+typedef struct group_lane {
+    const lane_group *e;
+    unsigned k;
+} group_lane;
+
 // The frame of a lane, as frame_place and frame_relate make it; what frame_relate fills in is valid after the
 // ellipsoids only.
-static pair_frame get_frame(const lane_group *e, unsigned k) {
-    const pair8 *o = e->lanes;
-    double size = o->size.lane[k], hidden = OVOID_LENGTH_MIN;
-    return (pair_frame){get_a(e, k)->shape,
-                        get_b(e, k)->shape,
-                        get9(o->world_a, k),
-                        get9(o->world_b, k),
-                        get_a(e, k)->pose.position,
-                        get3(o->offset, k),
-                        get3(o->between, k),
+static pair_frame get_frame(group_lane at) {
+    const pair8 *o = at.e->lanes;
+    double size = o->size.lane[at.k], hidden = OVOID_LENGTH_MIN;
+    return (pair_frame){get_a(at.e, at.k)->shape,
+                        get_b(at.e, at.k)->shape,
+                        get9(o->world_a, at.k),
+                        get9(o->world_b, at.k),
+                        get_a(at.e, at.k)->pose.position,
+                        get3(o->offset, at.k),
+                        get3(o->between, at.k),
                         NULL,
                         NULL,
                         size,
                         FRAME_CLAIM * size + 2 * hidden,
                         FRAME_CHECK * size + hidden,
                         hidden,
-                        o->radii.lane[k],
-                        o->radii.lane[k],
-                        get9(o->rotation, k),
-                        get3(o->translation, k)};
+                        o->radii.lane[at.k],
+                        o->radii.lane[at.k],
+                        get9(o->rotation, at.k),
+                        get3(o->translation, at.k)};
 }
 
-static query_goal get_goal(const batch_state *c, const lane_group *e, unsigned k) {
+static query_goal get_goal(const batch_state *c, group_lane at) {
     query_goal goal = c->goal;
-    goal.tolerance = e->lanes->tolerance.lane[k];
+    goal.tolerance = at.e->lanes->tolerance.lane[at.k];
     return goal;
 }
 
 // The verdict of a stage that answered the query, from the lane's bounds.
-static void write_bounds(const batch_state *c, const lane_group *e, unsigned k, ovoid_stage stage, unsigned narrow) {
-    double lower = e->lanes->lower.lane[k], upper = e->lanes->upper.lane[k];
+static void write_bounds(const batch_state *c, group_lane at, ovoid_stage stage, unsigned narrow) {
+    double lower = at.e->lanes->lower.lane[at.k], upper = at.e->lanes->upper.lane[at.k];
     ovoid_status status = lower > 0 ? OVOID_SEPARATED : OVOID_OVERLAPPING;
     ovoid_limit wide = lower > c->goal.far ? c->goal.beyond : OVOID_LIMIT_ANSWERED;
-    ovoid_limit limit = narrow >> k & 1 ? OVOID_LIMIT_NONE : wide;
-    write_verdict(c->batch, e->index[k], (ovoid_verdict){status, stage, limit, 0, lower, upper});
+    ovoid_limit limit = narrow >> at.k & 1 ? OVOID_LIMIT_NONE : wide;
+    write_verdict(c->batch, at.e->index[at.k], (ovoid_verdict){status, stage, limit, 0, lower, upper});
 }
 
 // Ends a lane that the spheres decided. Its evidence is found by rejecting the pair again, alone.
-static void end_at_spheres(const batch_state *c, const lane_group *e, unsigned k, unsigned narrow) {
+static void end_at_spheres(const batch_state *c, group_lane at, unsigned narrow) {
     if (!c->wants_evidence) {
-        write_bounds(c, e, k, OVOID_STAGE_SPHERE, narrow);
+        write_bounds(c, at, OVOID_STAGE_SPHERE, narrow);
         return;
     }
-    pair_frame frame = get_frame(e, k);
-    query_goal goal = get_goal(c, e, k);
+    pair_frame frame = get_frame(at);
+    query_goal goal = get_goal(c, at);
     rejection rejected;
-    ovoid_answer own, *out = c->batch->answers ? &c->batch->answers[e->index[k]] : &own;
+    ovoid_answer own, *out = c->batch->answers ? &c->batch->answers[at.e->index[at.k]] : &own;
     (void)reject_by_spheres(&frame, goal.far, &rejected);
     *out = rejection_make_answer(&rejected, &frame, &goal);
-    batch_write(c->batch, e->index[k], out);
+    batch_write(c->batch, at.e->index[at.k], out);
 }
 
 // The search as the lane's stage leaves it; *frame must outlive the search.
-static search get_search(const batch_state *c, const lane_group *e, unsigned k, ovoid_stage stage, pair_frame *frame) {
+static search get_search(const batch_state *c, group_lane at, ovoid_stage stage, pair_frame *frame) {
     search s;
-    query_goal goal = get_goal(c, e, k);
-    *frame = get_frame(e, k);
+    query_goal goal = get_goal(c, at);
+    *frame = get_frame(at);
     search_make(&s, frame, &goal);
     s.stage = stage;
     return s;
@@ -175,36 +181,43 @@ static void end_search(const ovoid_batch *batch, int wants_evidence, size_t inde
     batch_write(batch, index, out);
 }
 
-static void end_at_inner(const batch_state *c, const lane_group *e, unsigned k, unsigned narrow) {
+static void end_at_inner(const batch_state *c, group_lane at, unsigned narrow) {
     if (!c->wants_evidence) {
-        write_bounds(c, e, k, OVOID_STAGE_INNER, narrow);
+        write_bounds(c, at, OVOID_STAGE_INNER, narrow);
         return;
     }
     pair_frame frame;
-    search s = get_search(c, e, k, OVOID_STAGE_INNER, &frame);
-    s.upper = e->lanes->upper.lane[k];
+    search s = get_search(c, at, OVOID_STAGE_INNER, &frame);
+    s.upper = at.e->lanes->upper.lane[at.k];
     s.kind = OVOID_PROOF_INNER;
-    s.inner_a = get3(e->lanes->inner, k);
-    end_search(c->batch, c->wants_evidence, e->index[k], &s);
+    s.inner_a = get3(at.e->lanes->inner, at.k);
+    end_search(c->batch, c->wants_evidence, at.e->index[at.k], &s);
 }
 
-static void end_at_outer(const batch_state *c, const lane_group *e, unsigned k, unsigned narrow) {
+static void end_at_outer(const batch_state *c, group_lane at, unsigned narrow) {
     if (!c->wants_evidence) {
-        write_bounds(c, e, k, OVOID_STAGE_OUTER, narrow);
+        write_bounds(c, at, OVOID_STAGE_OUTER, narrow);
         return;
     }
     pair_frame frame;
-    search s = get_search(c, e, k, OVOID_STAGE_OUTER, &frame);
-    s.lower = e->lanes->lower.lane[k];
-    s.normal = get3(e->lanes->n, k);
-    end_search(c->batch, c->wants_evidence, e->index[k], &s);
+    search s = get_search(c, at, OVOID_STAGE_OUTER, &frame);
+    s.lower = at.e->lanes->lower.lane[at.k];
+    s.normal = get3(at.e->lanes->n, at.k);
+    end_search(c->batch, c->wants_evidence, at.e->index[at.k], &s);
 }
 
 // The supports left it open: the exact search goes on from their corner, later.
-static void leave_open(const batch_state *c, const lane_group *e, unsigned k, uint32_t a, uint32_t b) {
-    const pair8 *o = e->lanes;
-    c->open->items[c->open->count++] = (open_couple){
-        e->index[k], o->tolerance.lane[k], o->lower.lane[k], o->upper.lane[k], get3(o->n, k), get3(o->w, k), a, b, 0};
+static void leave_open(const batch_state *c, group_lane at, uint32_t a, uint32_t b) {
+    const pair8 *o = at.e->lanes;
+    c->open->items[c->open->count++] = (open_couple){at.e->index[at.k],
+                                                     o->tolerance.lane[at.k],
+                                                     o->lower.lane[at.k],
+                                                     o->upper.lane[at.k],
+                                                     get3(o->n, at.k),
+                                                     get3(o->w, at.k),
+                                                     a,
+                                                     b,
+                                                     0};
 }
 
 // What is known after the supports.
@@ -219,24 +232,24 @@ static void take_supports(search *s, const open_couple *couple, simplex *start) 
 }
 
 // Takes the result of the supports: the couple is answered, or left open.
-static void end_at_support(const batch_state *c, const lane_group *e, unsigned k, uint32_t a, uint32_t b) {
-    double lower = e->lanes->lower.lane[k], upper = e->lanes->upper.lane[k];
-    query_goal goal = get_goal(c, e, k);
+static void end_at_support(const batch_state *c, group_lane at, uint32_t a, uint32_t b) {
+    double lower = at.e->lanes->lower.lane[at.k], upper = at.e->lanes->upper.lane[at.k];
+    query_goal goal = get_goal(c, at);
     if (!query_goal_is_met(&goal, lower, upper)) {
-        leave_open(c, e, k, a, b);
-    } else if (goal.wants_bracket && e->lanes->radii.lane[k] > 0) {
+        leave_open(c, at, a, b);
+    } else if (goal.wants_bracket && at.e->lanes->radii.lane[at.k] > 0) {
         // If radii overlap, the single query takes a second look (stage_support).
-        leave_alone(c, e->index[k]);
+        leave_alone(c, at.e->index[at.k]);
     } else if (!c->wants_evidence) {
-        write_bounds(c, e, k, OVOID_STAGE_SUPPORT, (unsigned)(upper - lower <= goal.tolerance) << k);
+        write_bounds(c, at, OVOID_STAGE_SUPPORT, (unsigned)(upper - lower <= goal.tolerance) << at.k);
     } else {
         pair_frame frame;
-        search s = get_search(c, e, k, OVOID_STAGE_SUPPORT, &frame);
+        search s = get_search(c, at, OVOID_STAGE_SUPPORT, &frame);
         open_couple couple = {
-            .lower = lower, .upper = upper, .n = get3(e->lanes->n, k), .w = get3(e->lanes->w, k), a, b, 0};
+            .lower = lower, .upper = upper, .n = get3(at.e->lanes->n, at.k), .w = get3(at.e->lanes->w, at.k), a, b, 0};
         simplex start;
         take_supports(&s, &couple, &start);
-        end_search(c->batch, 1, e->index[k], &s);
+        end_search(c->batch, 1, at.e->index[at.k], &s);
     }
 }
 
@@ -283,7 +296,7 @@ static void meet(const batch_state *c, lane_group *e, unsigned open) {
     c->kernels->supports(o);
     for (unsigned rest = open; rest; rest &= rest - 1) {
         unsigned k = compiler_count_low_zeros(rest);
-        end_at_support(c, e, k, a[k], b[k]);
+        end_at_support(c, (group_lane){e, k}, a[k], b[k]);
     }
 }
 
@@ -306,9 +319,9 @@ static void end_group(const batch_state *c, lane_group *e, unsigned some, const 
         if (found->odd >> k & 1)
             leave_alone(c, e->index[k]);
         else if (found->inner >> k & 1)
-            end_at_inner(c, e, k, found->narrow);
+            end_at_inner(c, (group_lane){e, k}, found->narrow);
         else if (found->apart >> k & 1)
-            end_at_outer(c, e, k, found->narrow);
+            end_at_outer(c, (group_lane){e, k}, found->narrow);
     }
     unsigned open = some & ~(found->odd | found->inner | found->apart);
     if (open) meet(c, e, open);
@@ -420,17 +433,17 @@ COMPILER_NOINLINE static unsigned find_warm(const ovoid_batch *batch, const lane
 }
 
 // Ends a couple of small bodies (small_owner).
-static void end_small(void *self, size_t index, const query_goal *goal, const pair_frame *frame, const small_end *end) {
+static void end_small(void *self, size_t index, const placed_query *q, const small_end *end) {
     const batch_state *c = self;
     const ovoid_batch *to = c->batch;
     if (!end) {
         leave_alone(c, index);
         return;
     }
-    write_verdict(to, index, answer_make_small_verdict(end, goal));
+    write_verdict(to, index, answer_make_small_verdict(end, q->goal));
     if (to->proofs) to->proofs[index] = answer_make_small_proof(end);
-    if (to->witnesses) to->witnesses[index] = answer_make_small_witness(end, frame);
-    if (to->answers) to->answers[index] = answer_make_small(end, frame, goal);
+    if (to->witnesses) to->witnesses[index] = answer_make_small_witness(end, q->frame);
+    if (to->answers) to->answers[index] = answer_make_small(end, q->frame, q->goal);
 }
 
 // Searches those of the lanes `open` that are small. The mask of these.
@@ -441,9 +454,9 @@ static unsigned add_small(const batch_state *c, const lane_group *e, unsigned op
         double sphere_gap = e->lanes->lower.lane[k];
         if (!small_takes(&c->goal, get_a(e, k)->shape, get_b(e, k)->shape, sphere_gap)) continue;
         small |= 1u << k;
-        pair_frame frame = get_frame(e, k);
-        query_goal goal = get_goal(c, e, k);
-        small_pool_add(c->small, e->index[k], &frame, &goal, sphere_gap);
+        pair_frame frame = get_frame((group_lane){e, k});
+        query_goal goal = get_goal(c, (group_lane){e, k});
+        small_pool_add(c->small, e->index[k], &(placed_query){&frame, &goal, NULL, sphere_gap});
     }
     return small;
 }
@@ -465,7 +478,7 @@ static void take_group(batch_state *c, size_t first, unsigned count, lane_group 
     for (unsigned rest = (odd & all) | warm; rest; rest &= rest - 1)
         leave_alone(c, first + compiler_count_low_zeros(rest));
     for (unsigned rest = apart; rest; rest &= rest - 1)
-        end_at_spheres(c, e, compiler_count_low_zeros(rest), found.narrow);
+        end_at_spheres(c, (group_lane){e, compiler_count_low_zeros(rest)}, found.narrow);
     for (unsigned rest = open; rest; rest &= rest - 1) {
         unsigned k = compiler_count_low_zeros(rest);
         fetch_ellipsoids((const void *)e->at.shape_a[k]);
@@ -480,18 +493,24 @@ static void take_group(batch_state *c, size_t first, unsigned count, lane_group 
     if (c->waiting_count > PAIR8 * (PAIR8_GROUPS - 1)) settle(c);
 }
 
-// Runs from couple `first` on, until enough couples are left open or all are done; returns the next one.
-COMPILER_NOINLINE static size_t run_lanes(const ovoid_batch *batch, query_goal goal, pair8_query numbers, size_t first,
-                                          open_list *open) {
+// Runs from couple `first` on, until enough couples are left open or all are done; returns the next one. batch: the
+// state without its working memory.
+COMPILER_NOINLINE static size_t run_lanes(const batch_state *batch, size_t first, open_list *open) {
     pair8 lanes[PAIR8_GROUPS + 1];
     lane_group groups[PAIR8_GROUPS + 1];
     for (unsigned i = 0; i <= PAIR8_GROUPS; i++) groups[i].lanes = &lanes[i];
     small_pool small;
-    batch_state c = {batch, pair8_get_kernels(), goal, numbers, numbers.keeps_all, groups, lanes, 0, &small, open};
+    batch_state c = *batch;
+    c.waiting = groups;
+    c.lanes = lanes;
+    c.waiting_count = 0;
+    c.small = &small;
+    c.open = open;
     small_pool_make(&small, &c.goal, (small_owner){end_small, &c, c.wants_evidence});
-    for (; first < batch->couple_count && open->count <= OPEN_FULL; first += PAIR8) {
-        size_t left = batch->couple_count - first;
-        fetch_ahead(batch, first);
+    size_t count = c.batch->couple_count;
+    for (; first < count && open->count <= OPEN_FULL; first += PAIR8) {
+        size_t left = count - first;
+        fetch_ahead(c.batch, first);
         take_group(&c, first, left < PAIR8 ? (unsigned)left : PAIR8, &groups[PAIR8_GROUPS]);
     }
     if (c.waiting_count) settle(&c);
@@ -503,17 +522,16 @@ void batch_run(const ovoid_batch *batch, query_goal goal, const ovoid_options *o
     open_list open;
     goal.iterations = options->iterations;
     int wants_evidence = batch->answers || batch->proofs || batch->witnesses;
-    pair8_query numbers = {goal.far,
-                           options->absolute_tolerance,
-                           options->relative_tolerance,
-                           FRAME_REJECT,
-                           FRAME_CLAIM,
-                           OVOID_LENGTH_MIN,
-                           OVOID_LENGTH_MAX,
-                           wants_evidence};
+    const batch_state state = {.batch = batch,
+                               .kernels = pair8_get_kernels(),
+                               .goal = goal,
+                               .numbers = {goal.far, options->absolute_tolerance, options->relative_tolerance,
+                                           FRAME_REJECT, FRAME_CLAIM, OVOID_LENGTH_MIN, OVOID_LENGTH_MAX,
+                                           wants_evidence},
+                               .wants_evidence = wants_evidence};
     for (size_t next = 0; next < batch->couple_count;) {
         open.count = 0;
-        next = run_lanes(batch, goal, numbers, next, &open);
+        next = run_lanes(&state, next, &open);
         search_all_open(batch, goal, wants_evidence, &open);
     }
 }

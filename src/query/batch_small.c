@@ -27,7 +27,8 @@ static void end_lanes(const small_pool *p, unsigned group, unsigned lanes, small
         small_gjk_result r = {.end = how};
         small_end end;
         if (how != SMALL_GJK_OPEN) gjk8_get_result(g, k, how, &r);
-        p->owner.finish(p->owner.self, c->index, &goal, &c->frame, small_finish(&f, &goal, &r, &end) ? &end : NULL);
+        const placed_query q = {.frame = &c->frame, .goal = &goal};
+        p->owner.finish(p->owner.self, c->index, &q, small_finish(&f, &goal, &r, &end) ? &end : NULL);
     }
 }
 
@@ -50,31 +51,31 @@ static unsigned find_group(small_pool *p) {
 
 // 1 where a place in the lanes costs more than it saves: the first supports end most searches of bodies far apart, and
 // most of yes or no whose spheres do not overlap by a fifth.
-static int is_short(const pair_frame *f, const query_goal *goal, double sphere_gap) {
-    return sphere_gap > (goal->wants_bracket ? 1 : -0.2) * (f->a->reach + f->b->reach);
+static int is_short(const placed_query *q) {
+    return q->sphere_gap > (q->goal->wants_bracket ? 1 : -0.2) * (q->frame->a->reach + q->frame->b->reach);
 }
 
-void small_pool_add(small_pool *p, size_t index, const pair_frame *f, const query_goal *goal, double sphere_gap) {
-    small_gjk_query q;
+void small_pool_add(small_pool *p, size_t index, const placed_query *q) {
+    small_gjk_query gjk;
     small_end end;
-    int is_over = small_begin(f, goal, sphere_gap, &q, &end);
+    int is_over = small_begin(q, &gjk, &end);
     if (is_over >= 0) {
-        p->owner.finish(p->owner.self, index, goal, f, is_over ? &end : NULL);
+        p->owner.finish(p->owner.self, index, q, is_over ? &end : NULL);
         return;
     }
-    if (is_short(f, goal, sphere_gap)) {
+    if (is_short(q)) {
         small_gjk_result r;
-        simd_run_small_gjk(&q, &r);
-        p->owner.finish(p->owner.self, index, goal, f, small_finish(f, goal, &r, &end) ? &end : NULL);
+        simd_run_small_gjk(&gjk, &r);
+        p->owner.finish(p->owner.self, index, q, small_finish(q->frame, q->goal, &r, &end) ? &end : NULL);
         return;
     }
     unsigned group = find_group(p), k = compiler_count_low_zeros(~p->groups[group].active);
     small_couple *c = &p->couples[PAIR8 * group + k];
     c->index = index;
-    c->size = f->size;
-    c->tolerance = goal->tolerance;
-    if (p->owner.keeps_frames) c->frame = *f;
-    p->kernels->begin(&p->groups[group], k, &q);
+    c->size = q->frame->size;
+    c->tolerance = q->goal->tolerance;
+    if (p->owner.keeps_frames) c->frame = *q->frame;
+    p->kernels->begin(&p->groups[group], k, &gjk);
 }
 
 void small_pool_finish(small_pool *p) {

@@ -15,10 +15,10 @@ typedef struct small_couple {
     pair_frame frame; ///< where the pool keeps frames
 } small_couple;
 
-/// What is done with a couple that ends. goal, end: its answer; end NULL: it is unusual, and has to be queried
-/// alone. frame: as frame_place made it, where frames are kept.
+/// What is done with a couple that ends. query, end: its answer; end NULL: it is unusual, and has to be queried alone.
+/// The query's frame is as frame_place made it, where frames are kept.
 typedef struct small_owner {
-    void (*finish)(void *self, size_t index, const query_goal *goal, const pair_frame *frame, const small_end *end);
+    void (*finish)(void *self, size_t index, const placed_query *query, const small_end *end);
     void *self;
     int keeps_frames;
 } small_owner;
@@ -34,9 +34,8 @@ typedef struct small_pool {
 
 void small_pool_make(small_pool *pool, const query_goal *goal, small_owner owner);
 
-/// Begins the search of a couple for which small_takes is 1; others may end meanwhile. The frame is that of
-/// frame_place.
-void small_pool_add(small_pool *pool, size_t index, const pair_frame *frame, const query_goal *goal, double sphere_gap);
+/// Begins the search of a couple for which small_takes is 1; others may end meanwhile.
+void small_pool_add(small_pool *pool, size_t index, const placed_query *query);
 
 /// Goes on until all have ended.
 void small_pool_finish(small_pool *pool);

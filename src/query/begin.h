@@ -7,11 +7,11 @@
 #include "query/goal.h"
 
 /// The rejection along an earlier proof's normal. That of a proof of overlap separated nothing, so it is not tried.
-static inline int reject_by_earlier(const pair_frame *f, const query_goal *goal, const ovoid_proof *earlier,
-                                    rejection *found) {
-    int was_apart = earlier && goal->far < INFINITY &&
+static inline int reject_by_earlier(const placed_query *q, rejection *found) {
+    const ovoid_proof *earlier = q->earlier;
+    int was_apart = earlier && q->goal->far < INFINITY &&
                     (earlier->kind == OVOID_PROOF_POINTS || earlier->kind == OVOID_PROOF_INNER_POINTS);
-    return was_apart && reject_by_normal(f, goal->far, earlier, found);
+    return was_apart && reject_by_normal(q->frame, q->goal->far, earlier, found);
 }
 
 /// How a query begins: refused, rejected, answered as a pair of small bodies, or passed on to the search.
@@ -19,15 +19,15 @@ typedef enum beginning { BEGIN_REFUSED, BEGIN_REJECTED, BEGIN_SMALL, BEGIN_SEARC
 
 /// The kernel of small bodies, from the earlier proof where that says something; of larger ones what the proof's
 /// differences say.
-static inline small_outcome run_small(const pair_frame *frame, const query_goal *goal, const ovoid_proof *earlier,
-                                      rejection *found, small_end *end) {
+static inline small_outcome run_small(const placed_query *q, rejection *found, small_end *end) {
+    const ovoid_shape *a = q->frame->a, *b = q->frame->b;
     small_outcome outcome = SMALL_UNKNOWN;
-    if (earlier && small_fits(goal, frame->a, frame->b, found->lower))
-        outcome = small_run_earlier(frame, goal, earlier, found, end);
-    else if (earlier && kept_fits(goal, frame->a, frame->b, found->lower) && kept_run(frame, goal, earlier, end))
+    if (q->earlier && small_fits(q->goal, a, b, q->sphere_gap))
+        outcome = small_run_earlier(q, found, end);
+    else if (q->earlier && kept_fits(q->goal, a, b, q->sphere_gap) && kept_run(q, end))
         return SMALL_ANSWERED;
-    if (outcome == SMALL_UNKNOWN && small_takes(goal, frame->a, frame->b, found->lower))
-        outcome = small_run(frame, goal, found->lower, end) ? SMALL_ANSWERED : SMALL_OPEN;
+    if (outcome == SMALL_UNKNOWN && small_takes(q->goal, a, b, q->sphere_gap))
+        outcome = small_run(q, end) ? SMALL_ANSWERED : SMALL_OPEN;
     return outcome;
 }
 
@@ -41,13 +41,12 @@ static inline void set_numbers(query_goal *goal, const ovoid_options *options, c
 
 /// The stages after the spheres. The spheres come first, as they cost the same for any number of vertices; found has
 /// their bound.
-static inline beginning begin_after_spheres(const pair_frame *frame, const query_goal *goal, const ovoid_proof *earlier,
-                                            rejection *found, small_end *end) {
-    switch (run_small(frame, goal, earlier, found, end)) {
+static inline beginning begin_after_spheres(const placed_query *q, rejection *found, small_end *end) {
+    switch (run_small(q, found, end)) {
     case SMALL_ANSWERED: return BEGIN_SMALL;
     case SMALL_REJECTED: return BEGIN_REJECTED;
     case SMALL_OPEN: return BEGIN_SEARCH;
-    default: return reject_by_earlier(frame, goal, earlier, found) ? BEGIN_REJECTED : BEGIN_SEARCH;
+    default: return reject_by_earlier(q, found) ? BEGIN_REJECTED : BEGIN_SEARCH;
     }
 }
 

@@ -47,22 +47,21 @@ static ovoid_pair get_pair(ovoid_prepared_pair pair) {
 }
 
 // The query of the pair as if its bodies were not prepared.
-COMPILER_NOINLINE static ovoid_verdict find_afresh(ovoid_prepared_pair both, const ovoid_options *given,
-                                                   const query_goal *goal, const ovoid_proof *earlier,
+COMPILER_NOINLINE static ovoid_verdict find_afresh(ovoid_prepared_pair both, const query_request *request,
                                                    const ovoid_evidence *out) {
     ovoid_pair pair = get_pair(both);
     ovoid_answer answer;
-    answer_find_internal(&pair, given, *goal, earlier, NULL, &answer);
+    answer_find_internal(&pair, request, &answer);
     if (out) write_evidence(out, &answer);
     return answer_get_verdict(&answer);
 }
 
-COMPILER_NOINLINE static ovoid_verdict search_on(ovoid_prepared_pair both, pair_frame *frame, double sphere_gap,
-                                                 const query_goal *goal, const ovoid_proof *earlier,
+COMPILER_NOINLINE static ovoid_verdict search_on(ovoid_prepared_pair both, const placed_query *query,
                                                  const ovoid_evidence *out) {
     ovoid_pair pair = get_pair(both);
+    const open_query open = {&pair, *query, NULL};
     ovoid_answer answer;
-    answer_run_search(&pair, frame, sphere_gap, goal, earlier, NULL, &answer);
+    answer_run_search(&open, &answer);
     if (out) write_evidence(out, &answer);
     return answer_get_verdict(&answer);
 }
@@ -100,7 +99,7 @@ COMPILER_NOINLINE static ovoid_verdict find_near(ovoid_prepared_pair pair, const
     ovoid_options options;
     query_goal goal = *wanted;
     if (!(pair.a->is_ready & pair.b->is_ready) || !options_make(given, &options) || !(goal.far >= 0))
-        return find_afresh(pair, given, wanted, earlier, out);
+        return find_afresh(pair, &(query_request){given, wanted, earlier, NULL}, out);
     pair_frame frame;
     rejection found;
     small_end end;
@@ -108,10 +107,11 @@ COMPILER_NOINLINE static ovoid_verdict find_near(ovoid_prepared_pair pair, const
     frame_place_rotations(pair.a, pair.b, &frame);
     set_numbers(&goal, &options, &frame);
     if (reject_by_spheres(&frame, goal.far, &found)) return end_at_rejection(&frame, &found, &goal, out);
-    switch (begin_after_spheres(&frame, &goal, earlier, &found, &end)) {
+    const placed_query query = {&frame, &goal, earlier, found.lower};
+    switch (begin_after_spheres(&query, &found, &end)) {
     case BEGIN_REJECTED: return end_at_rejection(&frame, &found, &goal, out);
     case BEGIN_SMALL: return end_at_small(&frame, &end, &goal, out);
-    default: return search_on(pair, &frame, found.lower, &goal, earlier, out);
+    default: frame_relate(&frame); return search_on(pair, &query, out);
     }
 }
 

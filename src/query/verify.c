@@ -126,14 +126,13 @@ static ovoid_code verify_witness(const pair_frame *f, const ovoid_answer *answer
     return off <= slack ? OVOID_OK : refuse(error, "witness points are not the proof's, off by", off, slack);
 }
 
-ovoid_code status_verify_internal(ovoid_status status, double lower, double upper, double tolerance,
-                                  ovoid_error *error) {
-    ovoid_status shown = bracket_find_status(lower, upper, tolerance);
-    int is_open = status == OVOID_UNDECIDED && shown == OVOID_TOUCHING;
-    if (lower <= upper && (status == shown || is_open)) return OVOID_OK;
+ovoid_code status_verify_internal(ovoid_verdict answer, double tolerance, ovoid_error *error) {
+    ovoid_status shown = bracket_find_status(answer.lower, answer.upper, tolerance);
+    int is_open = answer.status == OVOID_UNDECIDED && shown == OVOID_TOUCHING;
+    if (answer.lower <= answer.upper && (answer.status == shown || is_open)) return OVOID_OK;
     return error_set(error, OVOID_ERROR_PROOF, -1,
                      "status %s does not follow from the bracket [%.17g, %.17g] and the tolerance %.3g",
-                     ovoid_status_get_name(status), lower, upper, tolerance);
+                     ovoid_status_get_name(answer.status), answer.lower, answer.upper, tolerance);
 }
 
 // 1 if what the limit says is so: NONE and ALLOWANCE are promises of a width, on which ovoid_answer_get_distance rests,
@@ -155,7 +154,7 @@ static int is_limit_shown(const ovoid_answer *answer, const answer_terms *terms)
 }
 
 ovoid_code terms_verify_internal(const ovoid_answer *answer, const answer_terms *terms, ovoid_error *error) {
-    ovoid_code code = status_verify_internal(answer->status, answer->lower, answer->upper, terms->tolerance, error);
+    ovoid_code code = status_verify_internal(answer_get_verdict(answer), terms->tolerance, error);
     if (code != OVOID_OK || is_limit_shown(answer, terms)) return code;
     return error_set(error, OVOID_ERROR_PROOF, -1, "limit %s does not follow from the bracket [%.17g, %.17g]",
                      ovoid_limit_get_name(answer->limit), answer->lower, answer->upper);
@@ -178,9 +177,10 @@ static ovoid_code verify_bounds(const pair_frame *f, const answer_claims *claims
     return code == OVOID_OK ? verify_witness(f, answer, claims->slack, error) : code;
 }
 
-ovoid_code answer_verify_internal(const ovoid_pair *pair, const ovoid_answer *answer, const ovoid_options *given,
-                                  const ovoid_cover *cover, ovoid_error *error) {
+ovoid_code answer_verify_internal(const ovoid_pair *pair, const ovoid_answer *answer, const ovoid_answer_basis *basis,
+                                  ovoid_error *error) {
     OVOID_ASSERT(pair && answer);
+    const ovoid_options *given = basis->options;
     pair_frame f;
     ovoid_options options;
     ovoid_limit refused = options_make(given, &options) ? frame_make(pair, &f) : OVOID_LIMIT_OPTIONS;
@@ -189,7 +189,7 @@ ovoid_code answer_verify_internal(const ovoid_pair *pair, const ovoid_answer *an
     const answer_terms terms = {options_compute_tolerance(&options, f.size, f.hidden), frame_get_allowance(&f),
                                 given ? given->cap : 0};
     ovoid_code code = terms_verify_internal(answer, &terms, error);
-    return code == OVOID_OK ? verify_bounds(&f, &(answer_claims){pair, answer, cover, 0}, error) : code;
+    return code == OVOID_OK ? verify_bounds(&f, &(answer_claims){pair, answer, basis->cover, 0}, error) : code;
 }
 
 ovoid_code bounds_verify_internal(const answer_claims *claims, ovoid_error *error) {
@@ -202,6 +202,5 @@ ovoid_code bounds_verify_internal(const answer_claims *claims, ovoid_error *erro
 ovoid_code ovoid_answer_verify(const ovoid_pair *pair, const ovoid_answer *answer, const ovoid_answer_basis *basis,
                                ovoid_error *error) {
     static const ovoid_answer_basis none;
-    const ovoid_answer_basis *from = basis ? basis : &none;
-    ENVIRONMENT_RETURN(ovoid_code, pair, answer_verify_internal(pair, answer, from->options, from->cover, error));
+    ENVIRONMENT_RETURN(ovoid_code, pair, answer_verify_internal(pair, answer, basis ? basis : &none, error));
 }

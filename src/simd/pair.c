@@ -60,13 +60,14 @@ AVX2 static simd_difference find_difference_avx2(const simd_points *a, const sim
 
 AVX2 static void pose_points_avx2(const simd_points *from, const double rows[9], const double t[3],
                                   double *const to[3]) {
+    double *const out[3] = {to[0], to[1], to[2]};
     for (uint32_t i = 0; i < from->padded_count; i += 4) {
         __m256d px = _mm256_loadu_pd(from->x + i), py = _mm256_loadu_pd(from->y + i), pz = _mm256_loadu_pd(from->z + i);
         for (int k = 0; k < 3; k++) {
             __m256d sum = _mm256_add_pd(_mm256_mul_pd(_mm256_set1_pd(rows[3 * k]), px),
                                         _mm256_mul_pd(_mm256_set1_pd(rows[3 * k + 1]), py));
             sum = _mm256_add_pd(sum, _mm256_mul_pd(_mm256_set1_pd(rows[3 * k + 2]), pz));
-            _mm256_storeu_pd(to[k] + i, _mm256_add_pd(sum, _mm256_set1_pd(t[k])));
+            _mm256_storeu_pd(out[k] + i, _mm256_add_pd(sum, _mm256_set1_pd(t[k])));
         }
     }
 }

@@ -109,7 +109,8 @@ static int ask_point(const round_body *hull, nearest *result) {
     const ovoid_pair pair = {&point.shape, hull->shape, {result->p, {1, 0, 0, 0}}, hull->pose};
     const ovoid_options options = {.relative_tolerance = 1e-14};
     ovoid_answer found;
-    answer_find_internal(&pair, &options, query_goal_make_distance(&options), NULL, NULL, &found);
+    const query_goal goal = query_goal_make_distance(&options);
+    answer_find_internal(&pair, &(query_request){&options, &goal, NULL, NULL}, &found);
     const ovoid_proof *proof = &found.proof;
     if (proof->kind != OVOID_PROOF_POINTS || !proof->count) return 0;
     result->of_q = feature_make(hull->shape, (vec3){0, 0, 0}, proof->b, proof->weight_b, proof->count);

@@ -77,7 +77,8 @@ static int find_touch(void *context, const tree_node *leaf) {
         return 1;
     tighten(p);
     if (!box_is_overlapping(&p->at.bounds, &leaf->bounds)) return 1;
-    bodies_query(p->body, &b->body, &state->options, state->goal, &state->found);
+    const ovoid_body_pair pair = {*p->body, b->body};
+    bodies_query(&pair, &state->options, &state->goal, &state->found);
     if (state->found.lower > 0) return 1;
     state->body = leaf->body;
     return 0;
@@ -104,7 +105,8 @@ static int do_touch(state_search *state, placed_probe *a, placed_probe *b) {
     tighten(a);
     tighten(b);
     if (!box_is_overlapping(&a->at.bounds, &b->at.bounds)) return 0;
-    bodies_query(a->body, b->body, &state->options, state->goal, &state->found);
+    const ovoid_body_pair pair = {*a->body, *b->body};
+    bodies_query(&pair, &state->options, &state->goal, &state->found);
     return !(state->found.lower > 0);
 }
 

@@ -68,7 +68,8 @@ void pair_query(const ovoid_world *w, const ovoid_body_pair *both, const pair_ca
         earlier.part_b = cache->part_b;
         write_proof(cache, &earlier.proof);
     }
-    body_find_internal(both, &w->query_options, make_goal(w), cache ? &earlier : NULL, exclusions, out);
+    const query_goal goal = make_goal(w);
+    body_find_internal(both, &(body_request){&w->query_options, &goal, cache ? &earlier : NULL, exclusions}, out);
 }
 
 // d and t of a pair at the present poses.
@@ -141,7 +142,8 @@ static void query_shapes(const ovoid_world *w, const world_pair *p, const pair_c
     ovoid_proof earlier;
     int is_warm = cache->proof != OVOID_PROOF_NONE;
     if (is_warm) write_proof(cache, &earlier);
-    answer_find_internal(&both, &w->query_options, make_goal(w), is_warm ? &earlier : NULL, NULL, out);
+    const query_goal goal = make_goal(w);
+    answer_find_internal(&both, &(query_request){&w->query_options, &goal, is_warm ? &earlier : NULL, NULL}, out);
 }
 
 static void cache_answer(ovoid_world *w, const world_pair *p, pair_cache *cache, const ovoid_answer *answer) {

@@ -70,7 +70,8 @@ static int is_queried(const world_search *state, uint32_t j) {
 }
 
 static void query_body(const world_search *state, uint32_t j, ovoid_body_answer *out) {
-    bodies_query(&state->body, &state->w->bodies[j].body, &state->options, state->goal, out);
+    const ovoid_body_pair pair = {state->body, state->w->bodies[j].body};
+    bodies_query(&pair, &state->options, &state->goal, out);
 }
 
 static double measure_distance(const void *context, const box *bounds) {
