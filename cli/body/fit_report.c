@@ -168,16 +168,16 @@ static step_row make_step(const fitted *f, int step) {
 }
 
 void fit_write_json(FILE *file, const fitted *f) {
-    fields_write_members(file, "\"", "{", &body_table, f, 0);
+    fields_write_members(file, "\"", "{", (fields_item){&body_table, f, 0});
     for (int i = 0; i < FIT_STEPS; i++) {
         const step_row step = make_step(f, i);
         fprintf(file, ",\"%s\":", step_keys[i]);
         if (isnan(step.volume))
             fputs("null", file);
         else
-            fields_write_json(file, "\"", &step_table, &step, 0);
+            fields_write_json(file, "\"", (fields_item){&step_table, &step, 0});
     }
-    fields_write_members(file, "\"", ",", &time_table, f, 0);
+    fields_write_members(file, "\"", ",", (fields_item){&time_table, f, 0});
     fputs("}\n", file);
 }
 
@@ -191,11 +191,11 @@ void fit_write_csv_title(FILE *file) {
 }
 
 void fit_write_csv_row(FILE *file, const fitted *f) {
-    fields_write_csv(file, "", &body_table, f, 0, FIELD_COLUMN);
+    fields_write_csv(file, "", (fields_item){&body_table, f, 0}, FIELD_COLUMN);
     for (int i = 0; i < FIT_STEPS; i++) {
         const step_row step = make_step(f, i);
-        fields_write_csv(file, ",", &step_table, &step, 1, FIELD_COLUMN);
+        fields_write_csv(file, ",", (fields_item){&step_table, &step, 1}, FIELD_COLUMN);
     }
-    fields_write_csv(file, ",", &time_table, f, 0, FIELD_COLUMN);
+    fields_write_csv(file, ",", (fields_item){&time_table, f, 0}, FIELD_COLUMN);
     fputc('\n', file);
 }

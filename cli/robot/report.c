@@ -54,7 +54,7 @@ static void write_pair(FILE *file, const report_form *form, const pair_row *row)
     cell_write_side_json(file, form->cell, row->a);
     fputs(",\"b\":", file);
     cell_write_side_json(file, form->cell, row->b);
-    fields_write_members(file, "\"", ",", &pair_table, &row->pair, get_bits(row));
+    fields_write_members(file, "\"", ",", (fields_item){&pair_table, &row->pair, get_bits(row)});
     for (size_t i = 0; i < form->states->variable_count && row->gradient; i++) {
         fputs(i ? "," : ",\"gradient\":[", file);
         json_write_number(file, row->gradient[i]);
@@ -116,7 +116,7 @@ static void write_numbers(FILE *file, const double *numbers, size_t count) {
 
 static void write_csv_row(FILE *file, const report_form *form, const pair_row *row) {
     cell_write_pair_csv(file, form->cell, row->a, row->b);
-    fields_write_csv(file, ",", &pair_table, &row->pair, get_bits(row), get_columns(form));
+    fields_write_csv(file, ",", (fields_item){&pair_table, &row->pair, get_bits(row)}, get_columns(form));
     if (form->has_gradient) write_numbers(file, row->gradient, form->states->variable_count);
     fputc('\n', file);
 }

@@ -77,17 +77,22 @@ typedef struct field_table {
 #define FIELD_TABLE_READ(type, rows, foreign, missing)                                                                 \
     { (rows), sizeof(rows) / sizeof *(rows), sizeof(type), (foreign), (missing) }
 
-/// Writes the struct as an object, without what its bits leave out.
-void fields_write_json(FILE *file, const char *quote, const field_table *table, const void *item, uint64_t bits);
+/// A struct that is written, by its table, without what its bits leave out.
+typedef struct fields_item {
+    const field_table *table;
+    const void *item;
+    uint64_t bits;
+} fields_item;
+
+/// Writes the struct as an object.
+void fields_write_json(FILE *file, const char *quote, fields_item item);
 /// Writes the members alone: `before` stands before the first of them, a comma before all others. Returns what stands
 /// before the next one.
-const char *fields_write_members(FILE *file, const char *quote, const char *before, const field_table *table,
-                                 const void *item, uint64_t bits);
+const char *fields_write_members(FILE *file, const char *quote, const char *before, fields_item item);
 
 /// Writes the names, or the values, of the columns that are chosen, as above; what is left out is empty.
 const char *fields_write_csv_header(FILE *file, const char *before, const field_table *table, unsigned columns);
-const char *fields_write_csv(FILE *file, const char *before, const field_table *table, const void *item, uint64_t bits,
-                             unsigned columns);
+const char *fields_write_csv(FILE *file, const char *before, fields_item item, unsigned columns);
 
 /// The name of an enum's field; "" where it has none.
 const char *field_get_name(const field_names *names, const void *at);
@@ -103,13 +108,13 @@ typedef struct fields_reader {
     struct fields_block *blocks;
     const char *key; ///< of what is wrong
     char text[64];   ///< a sentence about it
+    uint64_t bits;   ///< of each field that was there
     int is_memory_out;
 } fields_reader;
 
 /// Reads an object into a struct that holds the defaults: all keys of the table that need be, each of its kind, no
-/// others. *bits: those of each field that is there are added. NULL, or what is wrong with reader->key.
-const char *fields_read(fields_reader *reader, struct json_t *object, const field_table *table, void *item,
-                        uint64_t *bits);
+/// others. NULL, or what is wrong with reader->key.
+const char *fields_read(fields_reader *reader, struct json_t *object, const field_table *table, void *item);
 
 /// What is wrong where an object that was read has a field against `bits`, or lacks one; NULL: nothing.
 const char *fields_compare(fields_reader *reader, const struct json_t *object, const field_table *table, uint64_t bits);

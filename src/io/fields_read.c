@@ -101,6 +101,8 @@ static int read_flag(const json_t *value, void *at) {
 
 // ---- arrays, lists
 
+static const char *read_object(fields_reader *r, json_t *object, const field_table *table, void *item);
+
 /// Arrays of one count: the first of them says what it is.
 static const char *read_array(fields_reader *r, const json_t *value, const field *f, void *item) {
     char *at = (char *)item + f->offset;
@@ -127,7 +129,7 @@ static const char *read_texts(fields_reader *r, const json_t *value, const field
     return NULL;
 }
 
-static const char *read_list(fields_reader *r, const json_t *value, const field *f, void *item, uint64_t *bits) {
+static const char *read_list(fields_reader *r, const json_t *value, const field *f, void *item) {
     size_t count = json_array_size(value);
     if (!count) return "must be a list, not an empty one";
     char *items = get_memory(r, count, f->table->size);
@@ -136,13 +138,13 @@ static const char *read_list(fields_reader *r, const json_t *value, const field 
     memcpy((char *)item + f->count, &count, sizeof count);
     const char *wrong = NULL;
     for (size_t i = 0; i < count && !wrong; i++)
-        wrong = fields_read(r, json_array_get(value, i), f->table, items + i * f->table->size, bits);
+        wrong = read_object(r, json_array_get(value, i), f->table, items + i * f->table->size);
     return wrong;
 }
 
 // ---- objects
 
-static const char *read_value(fields_reader *r, json_t *value, const field *f, void *item, uint64_t *bits) {
+static const char *read_value(fields_reader *r, json_t *value, const field *f, void *item) {
     void *at = (char *)item + f->offset;
     int good = 0;
     switch (f->kind) {
@@ -159,8 +161,8 @@ static const char *read_value(fields_reader *r, json_t *value, const field *f, v
     case FIELD_WHOLES:
     case FIELD_NUMBERS: return read_array(r, value, f, item);
     case FIELD_TEXTS: return read_texts(r, value, f, item);
-    case FIELD_OBJECT: return fields_read(r, value, f->table, at, bits);
-    case FIELD_LIST: return read_list(r, value, f, item, bits);
+    case FIELD_OBJECT: return read_object(r, value, f->table, at);
+    case FIELD_LIST: return read_list(r, value, f, item);
     case FIELD_OWN: return f->own->read(value, item);
     }
     return good ? NULL : f->wrong;
@@ -190,16 +192,21 @@ static const char *check_keys(fields_reader *r, json_t *object, const field_tabl
     return NULL;
 }
 
-const char *fields_read(fields_reader *r, json_t *object, const field_table *table, void *item, uint64_t *bits) {
+static const char *read_object(fields_reader *r, json_t *object, const field_table *table, void *item) {
     const char *wrong = check_keys(r, object, table);
     for (const field *f = table->fields; f < table->fields + table->count && !wrong; f++) {
         json_t *value = json_object_get(object, f->key);
         if (!value) continue;
         r->key = f->key;
-        *bits |= f->bit;
-        wrong = read_value(r, value, f, item, bits);
+        r->bits |= f->bit;
+        wrong = read_value(r, value, f, item);
     }
     return wrong;
+}
+
+const char *fields_read(fields_reader *r, json_t *object, const field_table *table, void *item) {
+    r->bits = 0;
+    return read_object(r, object, table, item);
 }
 
 const char *fields_compare(fields_reader *r, const json_t *object, const field_table *table, uint64_t bits) {

@@ -96,12 +96,12 @@ static void write_wholes(FILE *file, const uint32_t *values, size_t count) {
     fputc(']', file);
 }
 
-static void write_list(FILE *file, const char *quote, const field *f, const void *item, uint64_t bits) {
-    const char *one = get_pointer((const char *)item + f->offset);
-    size_t count = get_count(f, item);
+static void write_list(FILE *file, const char *quote, const field *f, fields_item of) {
+    const char *one = get_pointer((const char *)of.item + f->offset);
+    size_t count = get_count(f, of.item);
     for (size_t i = 0; i < count; i++, one += f->table->size) {
         fputc(i ? ',' : '[', file);
-        fields_write_json(file, quote, f->table, one, bits);
+        fields_write_json(file, quote, (fields_item){f->table, one, of.bits});
     }
     fputc(']', file);
 }
@@ -122,7 +122,8 @@ static void write_text(FILE *file, const char *text) {
         fputs("null", file);
 }
 
-static void write_value(FILE *file, const char *quote, const field *f, const void *item, uint64_t bits) {
+static void write_value(FILE *file, const char *quote, const field *f, fields_item of) {
+    const void *item = of.item;
     const void *at = (const char *)item + f->offset;
     switch (f->kind) {
     case FIELD_FINITE:
@@ -138,27 +139,27 @@ static void write_value(FILE *file, const char *quote, const field *f, const voi
     case FIELD_WHOLES: write_wholes(file, at, get_count(f, item)); break;
     case FIELD_NUMBERS: json_write_numbers(file, at, get_count(f, item)); break;
     case FIELD_TEXTS: write_texts(file, get_pointer(at), get_count(f, item)); break;
-    case FIELD_OBJECT: fields_write_json(file, quote, f->table, at, bits); break;
-    case FIELD_LIST: write_list(file, quote, f, item, bits); break;
+    case FIELD_OBJECT: fields_write_json(file, quote, (fields_item){f->table, at, of.bits}); break;
+    case FIELD_LIST: write_list(file, quote, f, of); break;
     case FIELD_OWN: f->own->write(file, quote, item); break;
     }
 }
 
-const char *fields_write_members(FILE *file, const char *quote, const char *before, const field_table *table,
-                                 const void *item, uint64_t bits) {
+const char *fields_write_members(FILE *file, const char *quote, const char *before, fields_item of) {
+    const field_table *table = of.table;
     for (const field *f = table->fields; f < table->fields + table->count; f++) {
-        if (!is_there(f, item, bits)) continue;
+        if (!is_there(f, of.item, of.bits)) continue;
         fputs(before, file);
         write_quoted(file, quote, f->key);
         fputc(':', file);
-        write_value(file, quote, f, item, bits);
+        write_value(file, quote, f, of);
         before = ",";
     }
     return before;
 }
 
-void fields_write_json(FILE *file, const char *quote, const field_table *table, const void *item, uint64_t bits) {
-    const char *before = fields_write_members(file, quote, "{", table, item, bits);
+void fields_write_json(FILE *file, const char *quote, fields_item item) {
+    const char *before = fields_write_members(file, quote, "{", item);
     fputs(*before == '{' ? "{}" : "}", file);
 }
 
@@ -184,7 +185,8 @@ static void write_vector(FILE *file, const double *v, int is_written) {
 }
 
 /// Kinds that are alike in JSON and CSV but for their quotes.
-static void write_column(FILE *file, const field *f, const void *item, uint64_t bits) {
+static void write_column(FILE *file, const field *f, fields_item of) {
+    const void *item = of.item;
     const void *at = (const char *)item + f->offset;
     switch (f->kind) {
     case FIELD_FINITE:
@@ -199,24 +201,25 @@ static void write_column(FILE *file, const field *f, const void *item, uint64_t 
         break;
     case FIELD_OBJECT:
         fputc('"', file);
-        fields_write_json(file, "\"\"", f->table, at, bits);
+        fields_write_json(file, "\"\"", (fields_item){f->table, at, of.bits});
         fputc('"', file);
         break;
     case FIELD_OWN: f->own->write(file, NULL, item); break;
-    default: write_value(file, "", f, item, bits); break;
+    default: write_value(file, "", f, of); break;
     }
 }
 
-const char *fields_write_csv(FILE *file, const char *before, const field_table *table, const void *item, uint64_t bits,
-                             unsigned columns) {
+const char *fields_write_csv(FILE *file, const char *before, fields_item of, unsigned columns) {
+    const field_table *table = of.table;
     for (const field *f = table->fields; f < table->fields + table->count; f++) {
         if (!(f->column & columns)) continue;
         fputs(before, file);
         before = ",";
         if (f->kind == FIELD_VECTOR)
-            write_vector(file, (const double *)(const void *)((const char *)item + f->offset), is_there(f, item, bits));
-        else if (is_there(f, item, bits))
-            write_column(file, f, item, bits);
+            write_vector(file, (const double *)(const void *)((const char *)of.item + f->offset),
+                         is_there(f, of.item, of.bits));
+        else if (is_there(f, of.item, of.bits))
+            write_column(file, f, of);
     }
     return before;
 }

@@ -42,12 +42,13 @@ void io_prefix_path(ovoid_error *error, const char *path) {
 
 // ---- files
 
-static ovoid_code read_all(int file, size_t size, const char *path, bytes *out, ovoid_error *error) {
+static ovoid_code read_all(const opened_file *from, size_t size, bytes *out, ovoid_error *error) {
+    const char *path = from->path;
     out->data = malloc(size + 1);
     if (!out->data) return io_fail_memory(error, path);
     out->size = 0;
     while (out->size < size) {
-        ssize_t n = read(file, out->data + out->size, size - out->size);
+        ssize_t n = read(from->file, out->data + out->size, size - out->size);
         if (n < 0 && errno == EINTR) continue;
         if (n < 0) {
             int reason = errno;
@@ -85,22 +86,23 @@ static ovoid_code validate_content(const char *path, bytes *out, ovoid_error *er
 }
 
 // Reads what is open, which must be a regular file of at most `most` bytes.
-static ovoid_code read_open(int file, const char *path, size_t most, bytes *out, ovoid_error *error) {
-    where at = {path, 0, -1};
+static ovoid_code read_open(const opened_file *from, size_t most, bytes *out, ovoid_error *error) {
+    where at = {from->path, 0, -1};
     struct stat status;
-    if (fstat(file, &status) != 0) return io_fail(error, OVOID_ERROR_FILE, at, "cannot be read: %s", strerror(errno));
+    if (fstat(from->file, &status) != 0)
+        return io_fail(error, OVOID_ERROR_FILE, at, "cannot be read: %s", strerror(errno));
     if (!S_ISREG(status.st_mode)) return io_fail(error, OVOID_ERROR_FILE, at, "is not a regular file");
     if ((uint64_t)status.st_size > most)
         return io_fail(error, OVOID_ERROR_LIMIT, at, "has %lld bytes; at most %zu are read", (long long)status.st_size,
                        most);
-    return read_all(file, (size_t)status.st_size, path, out, error);
+    return read_all(from, (size_t)status.st_size, out, error);
 }
 
-ovoid_code bytes_read_open(int file, const char *path, size_t most, bytes *out, ovoid_error *error) {
+ovoid_code bytes_read_open(const opened_file *from, size_t most, bytes *out, ovoid_error *error) {
     *out = (bytes){NULL, 0};
-    ovoid_code code = read_open(file, path, most, out, error);
-    close(file);
-    return code ? code : validate_content(path, out, error);
+    ovoid_code code = read_open(from, most, out, error);
+    close(from->file);
+    return code ? code : validate_content(from->path, out, error);
 }
 
 static ovoid_code read_file(const char *path, size_t most, bytes *out, ovoid_error *error) {
@@ -108,7 +110,7 @@ static ovoid_code read_file(const char *path, size_t most, bytes *out, ovoid_err
     int file = open(path, FILE_OPEN_FLAGS);
     if (file < 0)
         return io_fail(error, OVOID_ERROR_FILE, (where){path, 0, -1}, "cannot be opened: %s", strerror(errno));
-    return bytes_read_open(file, path, most, out, error);
+    return bytes_read_open(&(opened_file){file, path}, most, out, error);
 }
 
 // Standard input, of a length that is not known before.

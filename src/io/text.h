@@ -44,8 +44,14 @@ ovoid_code bytes_read_input(const char *path, size_t most, bytes *out, ovoid_err
 
 /// How files are opened to be read. O_NONBLOCK: a pipe of that name must be refused, not waited for.
 #define FILE_OPEN_FLAGS (O_RDONLY | O_NONBLOCK | O_CLOEXEC)
-/// Reads an open regular file of at most `most` bytes, closes it; the path is for messages. The caller frees out->data.
-ovoid_code bytes_read_open(int file, const char *path, size_t most, bytes *out, ovoid_error *error);
+/// An open file, and its path for messages.
+typedef struct opened_file {
+    int file;
+    const char *path;
+} opened_file;
+
+/// Reads a regular file of at most `most` bytes, and closes it. The caller frees out->data.
+ovoid_code bytes_read_open(const opened_file *from, size_t most, bytes *out, ovoid_error *error);
 
 /// The text without a byte order mark (UTF-8) at its beginning: a view.
 bytes bytes_skip_mark(bytes text);

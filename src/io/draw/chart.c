@@ -57,8 +57,13 @@ static range find_x_range(const ovoid_chart *c) {
     return r;
 }
 
+// The pixels of an axis.
+typedef struct pixels {
+    double from, to;
+} pixels;
+
 // The axis of a range; its length is never 0. `open`: the axis ends at a round number.
-static axis make_axis(range r, int is_log, int open, double from, double to) {
+static axis make_axis(range r, int is_log, int open, pixels p) {
     if (!(r.low <= r.high)) r = is_log ? (range){1, 10} : (range){0, 1};
     if (is_log) {
         if (!(r.high > r.low * 1.0001)) r = (range){r.low / 2, r.high * 2};
@@ -66,20 +71,26 @@ static axis make_axis(range r, int is_log, int open, double from, double to) {
             double low = pow(10, floor(log10(r.low) + 1e-9)), high = pow(10, ceil(log10(r.high) - 1e-9));
             r = high / low > 2000 ? (range){low, high} : (range){r.low / 1.2, r.high * 1.2};
         }
-        return (axis){r.low, r.high, from, to, 1};
+        return (axis){r.low, r.high, p.from, p.to, 1};
     }
     if (!(r.high > r.low)) r = (range){r.low - fmax(0.5, 0.5 * fabs(r.low)), r.high + fmax(0.5, 0.5 * fabs(r.high))};
     if (open) {
-        double step = axis_find_step(r.high - r.low, fabs(to - from));
+        double step = axis_find_step(r.high - r.low, fabs(p.to - p.from));
         r = (range){step * floor(r.low / step + 1e-9), step * ceil(r.high / step - 1e-9)};
     }
-    return (axis){r.low, r.high, from, to, 0};
+    return (axis){r.low, r.high, p.from, p.to, 0};
 }
 
 // ---- texts
 
-static void write_text(FILE *file, double x, double y, const char *anchor, const char *extra, const char *text) {
-    fprintf(file, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\"%s>", x, y, anchor, extra);
+// Where a text stands, and its attributes beside the anchor.
+typedef struct text_place {
+    double x, y;
+    const char *anchor, *extra;
+} text_place;
+
+static void write_text(FILE *file, text_place at, const char *text) {
+    fprintf(file, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\"%s>", at.x, at.y, at.anchor, at.extra);
     svg_escape(file, text);
     fputs("</text>\n", file);
 }
@@ -110,12 +121,12 @@ static void draw_y_axis(const canvas *c) {
         format_tick(ticks[i], c->y.is_log, text);
         fprintf(c->file, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#e3e3e3\"/>\n", c->x.from, y,
                 c->x.to, y);
-        write_text(c->file, c->x.from - 6, y + 4, "end", "", text);
+        write_text(c->file, (text_place){c->x.from - 6, y + 4, "end", ""}, text);
     }
     if (!c->chart->y_label) return;
     char turn[96];
     snprintf(turn, sizeof turn, " transform=\"rotate(-90 15 %.1f)\"", (c->y.from + c->y.to) / 2);
-    write_text(c->file, 15, (c->y.from + c->y.to) / 2, "middle", turn, c->chart->y_label);
+    write_text(c->file, (text_place){15, (c->y.from + c->y.to) / 2, "middle", turn}, c->chart->y_label);
 }
 
 // Of labels that would overlap, only every n-th is drawn.
@@ -129,7 +140,8 @@ static void draw_categories(const canvas *c) {
     double room = fabs(c->x.to - c->x.from) / (double)chart->category_count;
     size_t each = (size_t)ceil(6.6 * (double)(longest + 1) / room);
     for (size_t i = 0; i < chart->category_count; i += each ? each : 1)
-        write_text(c->file, axis_project(&c->x, (double)i), c->y.from + 17, "middle", "", chart->categories[i]);
+        write_text(c->file, (text_place){axis_project(&c->x, (double)i), c->y.from + 17, "middle", ""},
+                   chart->categories[i]);
 }
 
 // A label under its tick; at the ends of the axis it is moved into the picture, and left out where it would run into
@@ -137,7 +149,7 @@ static void draw_categories(const canvas *c) {
 static void write_x_label(const canvas *c, double x, const char *text, double *end) {
     double half = 3.5 * (double)strlen(text), middle = fmin(x, c->x.to + RIGHT - 2 - half);
     if (middle - half < *end + 4) return;
-    write_text(c->file, middle, c->y.from + 17, "middle", "", text);
+    write_text(c->file, (text_place){middle, c->y.from + 17, "middle", ""}, text);
     *end = middle + half;
 }
 
@@ -156,7 +168,7 @@ static void draw_x_axis(const canvas *c) {
     fprintf(c->file, "<line x1=\"%.1f\" y1=\"%.1f\" x2=\"%.1f\" y2=\"%.1f\" stroke=\"#999\"/>\n", c->x.from, c->y.from,
             c->x.to, c->y.from);
     if (c->chart->x_label)
-        write_text(c->file, (c->x.from + c->x.to) / 2, c->y.from + 36, "middle", "", c->chart->x_label);
+        write_text(c->file, (text_place){(c->x.from + c->x.to) / 2, c->y.from + 36, "middle", ""}, c->chart->x_label);
 }
 
 // ---- the legend: above the area, in as many lines as it needs
@@ -173,7 +185,7 @@ static double draw_legend(const canvas *c, double top, double width, int is_draw
         if (named++ && x + get_entry_width(name) > width - RIGHT) x = LEFT, y += LEGEND_LINE;
         if (is_drawn) {
             chart_draw_key(c, i, (vec2){x + 11, y - 4});
-            write_text(c->file, x + 26, y, "start", "", name);
+            write_text(c->file, (text_place){x + 26, y, "start", ""}, name);
         }
         x += get_entry_width(name);
     }
@@ -184,14 +196,15 @@ static ovoid_code write_chart(FILE *file, const ovoid_chart *chart) {
     double width = chart->width ? chart->width : 720, height = chart->height ? chart->height : 400;
     canvas c = {.file = file, .chart = chart};
     double head = TOP + (chart->title ? 20 : 0), top = draw_legend(&c, head, width, 0);
-    c.x = make_axis(find_x_range(chart), chart->x_log, 0, LEFT, width - RIGHT);
-    c.y = make_axis(find_y_range(chart), chart->y_log, !(chart->y_max > chart->y_min), height - BOTTOM, top);
+    c.x = make_axis(find_x_range(chart), chart->x_log, 0, (pixels){LEFT, width - RIGHT});
+    c.y = make_axis(find_y_range(chart), chart->y_log, !(chart->y_max > chart->y_min), (pixels){height - BOTTOM, top});
     fprintf(file,
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 %.0f %.0f\" width=\"%.0f\" height=\"%.0f\" "
             "font-family=\"Helvetica, Arial, sans-serif\" font-size=\"12\" fill=\"#333\">\n",
             width, height, width, height);
     fputs("<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n", file);
-    if (chart->title) write_text(file, LEFT, TOP, "start", " font-size=\"14\" font-weight=\"bold\"", chart->title);
+    if (chart->title)
+        write_text(file, (text_place){LEFT, TOP, "start", " font-size=\"14\" font-weight=\"bold\""}, chart->title);
     (void)draw_legend(&c, head, width, 1);
     draw_y_axis(&c);
     chart_draw_series(&c);

@@ -85,7 +85,8 @@ static solid_ellipsoid make_ellipsoid(const ovoid_ellipsoid *e, const body_frame
     return s;
 }
 
-ovoid_code figure_make(figure *f, const ovoid_picture_body *body, int number, const char *path, ovoid_error *error) {
+ovoid_code figure_make(figure *f, const ovoid_picture_body *body, const char *path, ovoid_error *error) {
+    int number = f->number;
     size_t tone = body->group ? body->group - 1 : (size_t)number;
     *f = (figure){.body = body, .number = number, .base = palette[tone % (sizeof palette / sizeof *palette)]};
     ovoid_polytope own = ovoid_shape_get_polytope(body->shape);

@@ -52,8 +52,8 @@ typedef struct figure {
     vec2 low, high; ///< pixels that the points span
 } figure;
 
-/// Makes the figure of a body; the pixels come later. figure_clear frees it also after a failure.
-ovoid_code figure_make(figure *f, const ovoid_picture_body *body, int number, const char *path, ovoid_error *error);
+/// Makes the figure of a body, f->number; the pixels come later. figure_clear frees it also after a failure.
+ovoid_code figure_make(figure *f, const ovoid_picture_body *body, const char *path, ovoid_error *error);
 void figure_clear(figure *f);
 /// Fills in pixels, low and high.
 void figure_project(figure *f, const camera *c);

@@ -45,7 +45,9 @@ static int compare_figures(const figure *a, const figure *b, const camera *c) {
 }
 
 // Counts for each figure those not yet painted that must come before it; painted figures have -1.
-static void count_before(const figure *figures, size_t count, const camera *c, int *before, signed char *relation) {
+static void count_before(const figure_list *list, const camera *c, int *before, signed char *relation) {
+    const figure *figures = list->figures;
+    const size_t count = list->count;
     for (size_t i = 0; i < count; i++)
         for (size_t j = i + 1; j < count; j++) {
             int order = compare_figures(&figures[i], &figures[j], c);
@@ -57,7 +59,9 @@ static void count_before(const figure *figures, size_t count, const camera *c, i
 }
 
 // The next figure to paint: of those that none must precede, the farthest.
-static size_t find_next(const figure *figures, size_t count, const camera *c, const int *before) {
+static size_t find_next(const figure_list *list, const camera *c, const int *before) {
+    const figure *figures = list->figures;
+    const size_t count = list->count;
     size_t best = count;
     double best_depth = 0;
     int best_is_free = 0;
@@ -73,16 +77,16 @@ static size_t find_next(const figure *figures, size_t count, const camera *c, co
     return best;
 }
 
-// Finds the order of painting: order[k] is the figure to paint as number k. Beyond BODIES_ORDERED_MAX bodies only the
-// depth of centres counts.
-static ovoid_code sort_figures(const figure *figures, size_t count, const camera *c, size_t *order) {
+// Finds the order of painting. Beyond BODIES_ORDERED_MAX bodies only the depth of centres counts.
+static ovoid_code sort_figures(const figure_list *list, const camera *c) {
+    const size_t count = list->count;
     int *before = calloc(count + 1, sizeof *before);
     int is_exact = count <= BODIES_ORDERED_MAX;
     signed char *relation = calloc(is_exact ? count * count + 1 : 1, 1);
     ovoid_code code = before && relation ? OVOID_OK : OVOID_ERROR_MEMORY;
-    if (!code && is_exact) count_before(figures, count, c, before, relation);
+    if (!code && is_exact) count_before(list, c, before, relation);
     for (size_t k = 0; k < count && !code; k++) {
-        size_t i = order[k] = find_next(figures, count, c, before);
+        size_t i = list->order[k] = find_next(list, c, before);
         before[i] = -1;
         for (size_t j = 0; j < count && is_exact; j++)
             if (before[j] > 0 && relation[i * count + j] > 0) before[j]--;
@@ -156,15 +160,15 @@ static ovoid_code draw_figure(const figure *f, const drawing *d, ovoid_error *er
 }
 
 // Draws all bodies and texts in the order of painting.
-static ovoid_code draw_ordered(const ovoid_picture *picture, const figure *figures, const size_t *order,
-                               const drawing *d, ovoid_error *error) {
+static ovoid_code draw_ordered(const ovoid_picture *picture, const figure_list *list, const drawing *d,
+                               ovoid_error *error) {
     ovoid_code code = OVOID_OK;
-    for (size_t k = 0; k < picture->body_count && !code; k++) code = draw_figure(&figures[order[k]], d, error);
+    for (size_t k = 0; k < list->count && !code; k++) code = draw_figure(&list->figures[list->order[k]], d, error);
     labels l = {.count = 0, .frame_low = {8, 8}, .frame_high = {d->width - 8.0, d->height - 8.0}};
     if (picture->title) labels_block(&l, (vec2){0, 0}, (vec2){40 + text_get_width(picture->title, 20), 54});
     if (d->layers & OVOID_PICTURE_LEGEND) draw_legend(picture, d, &l);
     if (d->layers & OVOID_PICTURE_WITNESS) draw_links(picture, d, &l);
-    if (d->layers & OVOID_PICTURE_NAMES) draw_names(figures, order, picture->body_count, d, &l);
+    if (d->layers & OVOID_PICTURE_NAMES) draw_names(list, d, &l);
     return code;
 }
 
@@ -172,11 +176,12 @@ static ovoid_code draw_all(const ovoid_picture *picture, figure *figures, drawin
     fit_camera(picture, figures, d);
     write_head(picture, d);
     size_t *order = malloc((picture->body_count + 1) * sizeof *order);
-    ovoid_code code = order ? sort_figures(figures, picture->body_count, &d->camera, order) : OVOID_ERROR_MEMORY;
+    const figure_list list = {figures, order, picture->body_count};
+    ovoid_code code = order ? sort_figures(&list, &d->camera) : OVOID_ERROR_MEMORY;
     if (code)
         io_fail_memory(error, "picture");
     else
-        code = draw_ordered(picture, figures, order, d, error);
+        code = draw_ordered(picture, &list, d, error);
     free(order);
     fputs("</svg>\n", d->file);
     return code;
@@ -229,8 +234,10 @@ static ovoid_code write_picture(const char *path, const ovoid_picture *picture, 
     figure *figures = calloc(picture->body_count, sizeof *figures);
     if (!figures) return io_fail_memory(error, path);
     ovoid_code code = OVOID_OK;
-    for (size_t i = 0; i < picture->body_count && !code; i++)
-        code = figure_make(&figures[i], &picture->bodies[i], (int)i, path, error);
+    for (size_t i = 0; i < picture->body_count && !code; i++) {
+        figures[i].number = (int)i;
+        code = figure_make(&figures[i], &picture->bodies[i], path, error);
+    }
     if (!code) code = draw_all(picture, figures, d, error);
     for (size_t i = 0; i < picture->body_count; i++) figure_clear(&figures[i]);
     free(figures);

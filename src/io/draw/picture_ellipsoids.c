@@ -8,50 +8,56 @@
 static const double pi = 3.141592653589793;
 
 // The symmetric matrix P A A' P' of the outline, in pixels.
-static void outline_matrix(const solid_ellipsoid *e, const camera *c, double *xx, double *xy, double *yy) {
-    *xx = *xy = *yy = 0;
+typedef struct outline {
+    double xx, xy, yy;
+} outline;
+
+static outline find_outline(const solid_ellipsoid *e, const camera *c) {
+    outline o = {0, 0, 0};
     for (int i = 0; i < 3; i++) {
         vec2 v = camera_project_vector(c, e->axis[i]);
-        *xx += v.x * v.x;
-        *xy += v.x * v.y;
-        *yy += v.y * v.y;
+        o.xx += v.x * v.x;
+        o.xy += v.x * v.y;
+        o.yy += v.y * v.y;
     }
+    return o;
 }
 
 void ellipsoid_get_extent(const solid_ellipsoid *e, const camera *c, vec2 *low, vec2 *high) {
-    double xx, xy, yy;
-    outline_matrix(e, c, &xx, &xy, &yy);
-    vec2 center = camera_project(c, e->center), half = {sqrt(xx), sqrt(yy)};
+    outline o = find_outline(e, c);
+    vec2 center = camera_project(c, e->center), half = {sqrt(o.xx), sqrt(o.yy)};
     *low = (vec2){center.x - half.x, center.y - half.y};
     *high = (vec2){center.x + half.x, center.y + half.y};
 }
 
 // The outline as a path: center + L (cos t, sin t) with the Cholesky factor L of its matrix.
 static void write_outline(const solid_ellipsoid *e, const drawing *d, double grow) {
-    double xx, xy, yy;
-    outline_matrix(e, &d->camera, &xx, &xy, &yy);
-    double l00 = sqrt(xx), l10 = l00 > 0 ? xy / l00 : 0, l11 = sqrt(fmax(yy - l10 * l10, 0));
+    outline o = find_outline(e, &d->camera);
+    double l00 = sqrt(o.xx), l10 = l00 > 0 ? o.xy / l00 : 0, l11 = sqrt(fmax(o.yy - l10 * l10, 0));
     svg_path path = {d->file, 0, 0};
-    vec2 u = {grow * l00, grow * l10}, v = {0, grow * l11};
+    const ellipse whole = {camera_project(&d->camera, e->center), {grow * l00, grow * l10}, {0, grow * l11}};
     fputs(" d=\"", d->file);
-    svg_arc(&path, camera_project(&d->camera, e->center), u, v, 0, 2 * pi);
+    svg_arc(&path, &whole, 0, 2 * pi);
     fputs("z\"", d->file);
 }
 
-// The half of the great circle through axes i and j that is in front of the outline (side 1) or behind it (side -1).
-// The normal at center + A u is along the sum of dual_i u_i.
-static void write_half_circle(const solid_ellipsoid *e, const drawing *d, int i, int j, int side) {
-    double a = vec3_dot(e->dual[i], d->camera.eye), b = vec3_dot(e->dual[j], d->camera.eye);
+// The half of the great circle through axis i and the next one that is in front of the outline (side 1) or behind it
+// (side -1). The normal at center + A u is along the sum of dual_i u_i.
+static void write_half_circle(const solid_ellipsoid *e, const drawing *d, int i, int side) {
+    const camera *c = &d->camera;
+    int j = (i + 1) % 3;
+    double a = vec3_dot(e->dual[i], c->eye), b = vec3_dot(e->dual[j], c->eye);
     double middle = atan2(b, a) + (side < 0 ? pi : 0);
     svg_path path = {d->file, 0, 0};
-    svg_arc(&path, camera_project(&d->camera, e->center), camera_project_vector(&d->camera, e->axis[i]),
-            camera_project_vector(&d->camera, e->axis[j]), middle - pi / 2, middle + pi / 2);
+    const ellipse circle = {camera_project(c, e->center), camera_project_vector(c, e->axis[i]),
+                            camera_project_vector(c, e->axis[j])};
+    svg_arc(&path, &circle, middle - pi / 2, middle + pi / 2);
 }
 
 // The halves of all three sections on that side.
 static void write_sections(const solid_ellipsoid *e, const drawing *d, int side) {
     fputs(" d=\"", d->file);
-    for (int i = 0; i < 3; i++) write_half_circle(e, d, i, (i + 1) % 3, side);
+    for (int i = 0; i < 3; i++) write_half_circle(e, d, i, side);
     fputs("\"", d->file);
 }
 

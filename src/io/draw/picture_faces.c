@@ -25,6 +25,8 @@ typedef struct piece {
 typedef struct pieces {
     piece *items;
     size_t count, capacity;
+    int front; ///< 1: of faces toward the eye, 0: of the others
+    int areas; ///< 1: cut along the areas
 } pieces;
 
 // ---- shades
@@ -93,17 +95,17 @@ static int is_front(const figure *f, uint32_t facet, const camera *c) {
     return f->polytope.rank < 3 || vec3_dot(f->normals[facet], c->eye) > 0;
 }
 
-static int collect(const figure *f, const drawing *d, int front, int areas, pieces *list) {
+static int collect(const figure *f, const drawing *d, pieces *list) {
     const ovoid_polytope *p = &f->polytope;
     for (uint32_t t = 0; t < p->triangle_count; t++) {
         uint32_t facet = p->triangle_facets[t];
-        if (is_front(f, facet, &d->camera) != front) continue;
+        if (is_front(f, facet, &d->camera) != list->front) continue;
         vec3 normal = f->normals[facet];
         // A flat body is lit on the side that is seen.
         if (p->rank < 3 && vec3_dot(normal, d->camera.eye) < 0) normal = vec3_neg(normal);
         piece whole = {.count = 3, .key = (int)(get_light(normal, &d->camera) * (SHADES - 1) + 0.5)};
         for (int k = 0; k < 3; k++) whole.corner[k] = f->points[p->triangles[3 * t + (uint32_t)k]];
-        if (!(areas ? add_octants(list, &whole, &f->areas) : add_piece(list, &whole))) return 0;
+        if (!(list->areas ? add_octants(list, &whole, &f->areas) : add_piece(list, &whole))) return 0;
     }
     return 1;
 }
@@ -111,14 +113,14 @@ static int collect(const figure *f, const drawing *d, int front, int areas, piec
 static int compare_pieces(const void *a, const void *b) { return ((const piece *)a)->key - ((const piece *)b)->key; }
 
 // One path for the pieces of one key.
-static void write_pieces(const figure *f, const drawing *d, pieces *list, int areas) {
+static void write_pieces(const figure *f, const drawing *d, pieces *list) {
     if (list->count) qsort(list->items, list->count, sizeof *list->items, compare_pieces);
     svg_path path = {d->file, 0, 0};
     for (size_t i = 0; i < list->count; i++) {
         const piece *p = &list->items[i];
         if (!i || p->key != p[-1].key) {
             char hex[8];
-            color base = areas ? octant_get_color(p->key / SHADES) : f->base;
+            color base = list->areas ? octant_get_color(p->key / SHADES) : f->base;
             color_write(shade(base, (double)(p->key % SHADES) / (SHADES - 1)), hex);
             fprintf(d->file, "%s<path fill=\"%s\" stroke=\"%s\" d=\"", i ? "\"/>\n" : "", hex, hex);
         }
@@ -129,13 +131,23 @@ static void write_pieces(const figure *f, const drawing *d, pieces *list, int ar
     if (list->count) fputs("\"/>\n", d->file);
 }
 
-static ovoid_code draw_faces(const figure *f, const drawing *d, int front, const char *opacity, ovoid_error *error) {
-    int areas = front && (d->layers & OVOID_PICTURE_AREAS) && f->areas.is_solid;
-    pieces list = {NULL, 0, 0};
+// 1 where the inner ellipsoid shows through the faces; else they hide all that is behind them.
+static int is_clear(const figure *f, const drawing *d) {
+    return (d->layers & OVOID_PICTURE_INNER) && f->inner.is_solid;
+}
+
+static const char *get_opacity(const figure *f, const drawing *d, int front) {
+    if (!front) return ".35";
+    return !is_clear(f, d) ? "1" : d->layers & OVOID_PICTURE_AREAS ? ".58" : ".5";
+}
+
+static ovoid_code draw_faces(const figure *f, const drawing *d, int front, ovoid_error *error) {
+    pieces list = {.front = front, .areas = front && (d->layers & OVOID_PICTURE_AREAS) && f->areas.is_solid};
     ovoid_code code = OVOID_OK;
-    if (collect(f, d, front, areas, &list)) {
-        fprintf(d->file, "<g opacity=\"%s\" stroke-width=\".7\" stroke-linejoin=\"round\">\n", opacity);
-        write_pieces(f, d, &list, areas);
+    if (collect(f, d, &list)) {
+        fprintf(d->file, "<g opacity=\"%s\" stroke-width=\".7\" stroke-linejoin=\"round\">\n",
+                get_opacity(f, d, front));
+        write_pieces(f, d, &list);
         fputs("</g>\n", d->file);
     } else {
         code = io_fail_memory(error, "picture");
@@ -276,14 +288,9 @@ static void draw_thin(const figure *f, const drawing *d) {
     fputs("\"/>\n", d->file);
 }
 
-// 1 where the inner ellipsoid shows through the faces; else they hide all that is behind them.
-static int is_clear(const figure *f, const drawing *d) {
-    return (d->layers & OVOID_PICTURE_INNER) && f->inner.is_solid;
-}
-
 ovoid_code figure_draw_back(const figure *f, const drawing *d, ovoid_error *error) {
     if (f->polytope.rank < 3 || !is_clear(f, d)) return OVOID_OK;
-    ovoid_code code = draw_faces(f, d, 0, ".35", error);
+    ovoid_code code = draw_faces(f, d, 0, error);
     return code ? code : sort_and_draw_edges(f, d, 0, error);
 }
 
@@ -292,10 +299,6 @@ ovoid_code figure_draw_front(const figure *f, const drawing *d, ovoid_error *err
         (f->ball > 0 ? draw_ball : draw_thin)(f, d);
         return OVOID_OK;
     }
-    ovoid_code code = draw_faces(f, d, 1,
-                                 !is_clear(f, d)                   ? "1"
-                                 : d->layers & OVOID_PICTURE_AREAS ? ".58"
-                                                                   : ".5",
-                                 error);
+    ovoid_code code = draw_faces(f, d, 1, error);
     return code ? code : sort_and_draw_edges(f, d, 1, error);
 }

@@ -34,14 +34,15 @@ static double get_cost(const labels *l, vec2 low, vec2 high) {
     return cost + 3 * (area - inside);
 }
 
-int labels_place(labels *l, vec2 near, vec2 size, double gap, vec2 *at) {
+int labels_place(labels *l, const label *text, vec2 *at) {
+    const vec2 near = text->near, size = text->size;
     // Above, right, left, below, the corners; then the same farther away, which costs a little.
     static const vec2 directions[8] = {{0, -1}, {1, 0}, {-1, 0}, {0, 1}, {1, -1}, {-1, -1}, {1, 1}, {-1, 1}};
     double best_cost = INFINITY, best_overlap = INFINITY;
     *at = near;
     for (int ring = 0; ring < 4; ring++)
         for (int i = 0; i < 8; i++) {
-            double away = gap + 16 * ring;
+            double away = text->gap + 16 * ring;
             vec2 p = {near.x + directions[i].x * (size.x / 2 + away), near.y + directions[i].y * (size.y / 2 + away)};
             vec2 low = {p.x - size.x / 2, p.y - size.y / 2}, high = {p.x + size.x / 2, p.y + size.y / 2};
             double covered = get_cost(l, low, high), cost = covered + 0.05 * size.x * size.y * (ring + 0.2 * i / 8);
@@ -91,14 +92,14 @@ static int is_inside(const figure *f, vec2 p) {
 }
 
 // The topmost vertex of figure order[place] that no later one hides; 0 where all are hidden.
-static int find_top(const figure *figures, const size_t *order, size_t count, size_t place, vec2 *top) {
-    const figure *f = &figures[order[place]];
+static int find_top(const figure_list *list, size_t place, vec2 *top) {
+    const figure *f = &list->figures[list->order[place]];
     int found = 0;
     for (uint32_t v = 0; v < f->polytope.vertex_count; v++) {
         vec2 p = f->pixels[v];
         int is_hidden = found && p.y >= top->y;
-        for (size_t later = place + 1; later < count && !is_hidden; later++)
-            is_hidden = is_inside(&figures[order[later]], p);
+        for (size_t later = place + 1; later < list->count && !is_hidden; later++)
+            is_hidden = is_inside(&list->figures[list->order[later]], p);
         if (is_hidden) continue;
         *top = p;
         found = 1;
@@ -106,17 +107,17 @@ static int find_top(const figure *figures, const size_t *order, size_t count, si
     return found;
 }
 
-void draw_names(const figure *figures, const size_t *order, size_t count, const drawing *d, labels *l) {
+void draw_names(const figure_list *list, const drawing *d, labels *l) {
     enum { SIZE = 14 };
     const color dark = {0.05, 0.07, 0.10};
     // The nearest bodies first.
-    for (size_t place = count; place-- > 0;) {
-        const figure *f = &figures[order[place]];
+    for (size_t place = list->count; place-- > 0;) {
+        const figure *f = &list->figures[list->order[place]];
         const char *name = f->body->name;
         vec2 top, at, size = {name ? text_get_width(name, SIZE) : 0, 1.2 * SIZE};
-        if (!name || !name[0] || !find_top(figures, order, count, place, &top)) continue;
+        if (!name || !name[0] || !find_top(list, place, &top)) continue;
         top.y -= f->ball * d->camera.scale;
-        if (!labels_place(l, top, size, 6, &at)) continue;
+        if (!labels_place(l, &(label){top, size, 6}, &at)) continue;
         char hex[8];
         color_write(color_mix(f->base, dark, 0.55), hex);
         write_text(d->file, (vec2){at.x, at.y + 0.35 * SIZE}, &(text_style){"middle", SIZE, "600", hex}, name);
@@ -193,7 +194,7 @@ void draw_links(const ovoid_picture *picture, const drawing *d, labels *l) {
         write_length(text, sizeof text, answer, picture->unit);
         vec2 size = {text_get_width(text, SIZE) + 14, 1.5 * SIZE};
         vec2 at;
-        if (!labels_place(l, (vec2){(a.x + b.x) / 2, (a.y + b.y) / 2}, size, 9, &at)) continue;
+        if (!labels_place(l, &(label){{(a.x + b.x) / 2, (a.y + b.y) / 2}, size, 9}, &at)) continue;
         fprintf(d->file,
                 "<rect x=\"%.1f\" y=\"%.1f\" width=\"%.1f\" height=\"%.1f\" rx=\"%.1f\" fill=\"#fff\" "
                 "fill-opacity=\".93\" stroke=\"%s\" stroke-opacity=\".5\"/>\n"

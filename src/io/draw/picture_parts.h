@@ -35,12 +35,24 @@ typedef struct labels {
 
 /// Keeps texts out of a box of the picture.
 void labels_block(labels *l, vec2 low, vec2 high);
-/// Finds a place for a text of that size about `gap` from a point, clear of earlier texts: its centre. 0 where there is
-/// no room.
-int labels_place(labels *l, vec2 near, vec2 size, double gap, vec2 *at);
+/// A text of that size about `gap` from a point.
+typedef struct label {
+    vec2 near, size;
+    double gap;
+} label;
 
-/// Draws the names beside the figures, of those that are seen and where there is room. order: of painting.
-void draw_names(const figure *figures, const size_t *order, size_t count, const drawing *d, labels *l);
+/// Finds a place for a text, clear of earlier ones: its centre. 0 where there is no room.
+int labels_place(labels *l, const label *text, vec2 *at);
+
+/// The figures of a picture, and their numbers in the order of painting.
+typedef struct figure_list {
+    figure *figures;
+    size_t *order;
+    size_t count;
+} figure_list;
+
+/// Draws the names beside the figures, of those that are seen and where there is room.
+void draw_names(const figure_list *list, const drawing *d, labels *l);
 /// Draws witness points, the lines between them and their lengths.
 void draw_links(const ovoid_picture *picture, const drawing *d, labels *l);
 /// Draws the legend and the scale bar.

@@ -64,19 +64,19 @@ void svg_polygon(svg_path *path, const vec2 *points, size_t count) {
     svg_close(path);
 }
 
-static vec2 arc_point(vec2 center, vec2 u, vec2 v, double c, double s) {
-    return (vec2){center.x + u.x * c + v.x * s, center.y + u.y * c + v.y * s};
+static vec2 arc_point(const ellipse *e, double c, double s) {
+    return (vec2){e->center.x + e->u.x * c + e->v.x * s, e->center.y + e->u.y * c + e->v.y * s};
 }
 
-void svg_arc(svg_path *path, vec2 center, vec2 u, vec2 v, double from, double to) {
+void svg_arc(svg_path *path, const ellipse *of, double from, double to) {
     int pieces = (int)ceil(fabs(to - from) / 0.7854);
     double step = (to - from) / pieces, k = 4.0 / 3 * tan(step / 4);
-    svg_move(path, arc_point(center, u, v, cos(from), sin(from)));
+    svg_move(path, arc_point(of, cos(from), sin(from)));
     for (int i = 0; i < pieces; i++) {
         double c0 = cos(from + i * step), s0 = sin(from + i * step);
         double c1 = cos(from + (i + 1) * step), s1 = sin(from + (i + 1) * step);
-        svg_curve(path, arc_point(center, u, v, c0 - k * s0, s0 + k * c0),
-                  arc_point(center, u, v, c1 + k * s1, s1 - k * c1), arc_point(center, u, v, c1, s1));
+        svg_curve(path, arc_point(of, c0 - k * s0, s0 + k * c0), arc_point(of, c1 + k * s1, s1 - k * c1),
+                  arc_point(of, c1, s1));
     }
 }
 

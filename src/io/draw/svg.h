@@ -34,9 +34,14 @@ void svg_curve(svg_path *path, vec2 a, vec2 b, vec2 to);
 void svg_close(svg_path *path);
 /// A closed polygon of count points.
 void svg_polygon(svg_path *path, const vec2 *points, size_t count);
-/// The arc center + u cos t + v sin t, t from `from` to `to`, as cubic curves of at most 45 degrees (error below 1e-5
+/// center + u cos t + v sin t.
+typedef struct ellipse {
+    vec2 center, u, v;
+} ellipse;
+
+/// The arc of an ellipse, t from `from` to `to`, as cubic curves of at most 45 degrees (error below 1e-5
 /// of the size). Starts a new line of the path.
-void svg_arc(svg_path *path, vec2 center, vec2 u, vec2 v, double from, double to);
+void svg_arc(svg_path *path, const ellipse *of, double from, double to);
 
 /// The approximate width of a text in pixels, without font tables; of common fonts none is wider by much.
 double text_get_width(const char *text, double font_size);

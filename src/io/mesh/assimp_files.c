@@ -130,7 +130,7 @@ static ovoid_code read_other(const assimp_files *files, const char *path, bytes 
     free(resolved);
     if (code) return code;
     if (files->before_reading && fstat(file, &status) == 0) files->before_reading((size_t)status.st_size);
-    return bytes_read_open(file, path, OVOID_FILE_SIZE_MAX, out, error);
+    return bytes_read_open(&(opened_file){file, path}, OVOID_FILE_SIZE_MAX, out, error);
 }
 
 static struct aiFile *open_named(struct aiFileIO *io, const char *path, const char *mode) {

@@ -41,7 +41,7 @@ ovoid_code ovoid_decomposition_write_json(FILE *file, const ovoid_decomposition 
                                           const ovoid_decomposition_proof *proof) {
     const proof_line line = {1, ovoid_solid_get_report(decomposition->solid).triangles, decomposition->part_count,
                              make_length(proof->uncovered), make_length(proof->excess)};
-    fields_write_json(file, "\"", &line_table, &line, 0);
+    fields_write_json(file, "\"", (fields_item){&line_table, &line, 0});
     fputc('\n', file);
     return ferror(file) ? OVOID_ERROR_FILE : OVOID_OK;
 }
@@ -51,8 +51,7 @@ static int has_point(const ovoid_decomposition_length *l) { return !isnan(l->poi
 static ovoid_code read_proof(json_t *root, where at, ovoid_decomposition_record *record, ovoid_error *error) {
     fields_reader reader = {.key = "the proof"};
     proof_line line = {0};
-    uint64_t bits = 0;
-    const char *wrong = fields_read(&reader, root, &line_table, &line, &bits);
+    const char *wrong = fields_read(&reader, root, &line_table, &line);
     if (wrong == wrong_keys) reader.key = "the proof";
     if (!wrong && line.version != 1) reader.key = "the proof", wrong = "is of another version than 1";
     if (!wrong && (!has_point(&line.uncovered) || !has_point(&line.excess)))

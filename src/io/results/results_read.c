@@ -82,17 +82,16 @@ static const char *check_together(ovoid_results_reader *r, uint64_t found) {
 }
 
 static ovoid_code read_record(ovoid_results_reader *r, const char *text, size_t length, ovoid_error *error) {
-    uint64_t found = 0;
     fields_reader_clear(&r->fields);
     r->line = (record_line){.record = {.frame = NAN, .part_a = OVOID_RECORD_NO_PART, .part_b = OVOID_RECORD_NO_PART},
                             .cover = &r->cover};
     ovoid_code code = load_line(r, text, length, error);
     if (code) return code;
-    const char *wrong = fields_read(&r->fields, r->json, &record_table, &r->line, &found);
+    const char *wrong = fields_read(&r->fields, r->json, &record_table, &r->line);
     if (r->fields.is_memory_out) return io_fail_memory(error, r->source.path);
     if (wrong == record_table.missing && strcmp(r->fields.key, "proof") == 0)
         wrong = "is missing: nothing can be checked without it";
-    if (!wrong) wrong = check_together(r, found);
+    if (!wrong) wrong = check_together(r, r->fields.bits);
     if (!wrong) return OVOID_OK;
     where at = {r->source.path, r->source.line, -1};
     return io_fail(error, OVOID_ERROR_FORMAT, at, "\"%.40s\" %s", r->fields.key, wrong);

@@ -26,7 +26,7 @@ ovoid_code ovoid_record_write_json(FILE *file, const ovoid_record *record) {
     if (record->exclusion_count + record->step_count + record->group_count > OVOID_RECORD_ITEMS_MAX)
         return OVOID_ERROR_LIMIT;
     const record_line line = make_line(record);
-    fields_write_json(file, "\"", &record_table, &line, record_find_bits(&line));
+    fields_write_json(file, "\"", (fields_item){&record_table, &line, record_find_bits(&line)});
     fputc('\n', file);
     return get_code(file);
 }
@@ -43,11 +43,11 @@ ovoid_code ovoid_record_write_csv_header(FILE *file, unsigned fields) {
 
 ovoid_code ovoid_record_write_csv(FILE *file, const ovoid_record *record) {
     const record_line line = make_line(record);
-    const uint64_t bits = record_find_bits(&line);
+    const fields_item item = {&record_table, &line, record_find_bits(&line)};
     const unsigned fields = record->fields;
-    const char *before = fields_write_csv(file, "", &record_table, &line, bits, (fields & ~LATE) | FIELD_COLUMN);
-    before = fields_write_csv(file, before, &record_table, &line, bits, fields & OVOID_RECORD_SOLIDS);
-    fields_write_csv(file, before, &record_table, &line, bits, fields & OVOID_RECORD_PROOF);
+    const char *before = fields_write_csv(file, "", item, (fields & ~LATE) | FIELD_COLUMN);
+    before = fields_write_csv(file, before, item, fields & OVOID_RECORD_SOLIDS);
+    fields_write_csv(file, before, item, fields & OVOID_RECORD_PROOF);
     fputc('\n', file);
     return get_code(file);
 }

@@ -44,20 +44,17 @@ void ovoid_pairs_reader_close(ovoid_pairs_reader *reader) {
     free(reader);
 }
 
-static ovoid_code read_index(ovoid_pairs_reader *reader, double value, char column, size_t *index, ovoid_error *error) {
-    if (!(value >= 0) || value >= (double)reader->shape_count || value != floor(value))
-        return io_fail(error, OVOID_ERROR_INDEX, here(reader), "column %c: there is no shape %.17g; the list has %zu",
-                       column, value, reader->shape_count);
-    *index = (size_t)value;
-    return OVOID_OK;
+static ovoid_code validate_index(const csv_line *line, double value, char column, size_t shape_count) {
+    if (value >= 0 && value < (double)shape_count && value == floor(value)) return OVOID_OK;
+    return io_fail(line->error, OVOID_ERROR_INDEX, line->place, "column %c: there is no shape %.17g; the list has %zu",
+                   column, value, shape_count);
 }
 
-static ovoid_code read_pose(ovoid_pairs_reader *reader, const double v[7], char body, ovoid_pose *pose,
-                            ovoid_error *error) {
+static ovoid_code read_pose(const csv_line *line, const double v[7], char body, ovoid_pose *pose) {
     *pose = (ovoid_pose){{v[0], v[1], v[2]}, {v[3], v[4], v[5], v[6]}};
     ovoid_code code = ovoid_pose_validate(pose);
     if (!code) return code;
-    return io_fail(error, code, here(reader), "the pose of %c has %s", body,
+    return io_fail(line->error, code, line->place, "the pose of %c has %s", body,
                    code == OVOID_ERROR_ROTATION ? "a quaternion of four zeros" : "a number out of range");
 }
 
@@ -144,17 +141,18 @@ ovoid_code ovoid_pairs_reader_skip(ovoid_pairs_reader *reader, uint64_t count, o
 
 /* ---- pairs */
 
-static ovoid_code read_pair(ovoid_pairs_reader *reader, const char *line, size_t length, ovoid_indexed_pair *pair,
-                            ovoid_error *error) {
+static ovoid_code read_pair(const ovoid_pairs_reader *reader, csv_line line, ovoid_indexed_pair *pair) {
     double v[COLUMNS];
-    csv_line columns_left = {line, line + length, columns, 0, COLUMNS, here(reader), error};
     ovoid_code code = OVOID_OK;
-    for (int i = 0; i < COLUMNS && !code; i++) code = csv_read_number(&columns_left, &v[i]);
-    if (!code) code = read_index(reader, v[0], 'a', &pair->a, error);
-    if (!code) code = read_index(reader, v[1], 'b', &pair->b, error);
-    if (!code) code = read_pose(reader, v + 2, 'a', &pair->pose_a, error);
-    if (!code) code = read_pose(reader, v + 9, 'b', &pair->pose_b, error);
-    return code;
+    for (int i = 0; i < COLUMNS && !code; i++) code = csv_read_number(&line, &v[i]);
+    if (!code) code = validate_index(&line, v[0], 'a', reader->shape_count);
+    if (!code) code = validate_index(&line, v[1], 'b', reader->shape_count);
+    if (!code) code = read_pose(&line, v + 2, 'a', &pair->pose_a);
+    if (!code) code = read_pose(&line, v + 9, 'b', &pair->pose_b);
+    if (code) return code;
+    pair->a = (size_t)v[0];
+    pair->b = (size_t)v[1];
+    return OVOID_OK;
 }
 
 int ovoid_pairs_reader_read(ovoid_pairs_reader *reader, ovoid_indexed_pair *pair, ovoid_error *error) {
@@ -162,10 +160,12 @@ int ovoid_pairs_reader_read(ovoid_pairs_reader *reader, ovoid_indexed_pair *pair
     size_t length;
     int got = next_line(reader, &line, &length, error);
     if (got <= 0) return got;
-    if (!read_pair(reader, line, length, pair, error)) return 1;
+    csv_line whole = {line, line + length, columns, 0, COLUMNS, here(reader), error};
+    if (!read_pair(reader, whole, pair)) return 1;
     if (reader->end && !reader->is_counted) {
         count_lines(reader);
-        (void)read_pair(reader, line, length, pair, error);
+        whole.place = here(reader);
+        (void)read_pair(reader, whole, pair);
     }
     return -1;
 }

@@ -63,10 +63,9 @@ static const field_table side_table = FIELD_TABLE_READ(ovoid_robot_proof_side, s
 
 static int read_side(const json_t *value, ovoid_robot_proof_side *side) {
     fields_reader reader = {.key = ""};
-    uint64_t found = 0;
     *side = (ovoid_robot_proof_side){.link = NULL};
-    if (fields_read(&reader, (json_t *)value, &side_table, side, &found)) return 0;
-    uint64_t wanted = side->link ? SIDE_LINK | (found & SIDE_NAME) : SIDE_OBSTACLE;
+    if (fields_read(&reader, (json_t *)value, &side_table, side)) return 0;
+    uint64_t wanted = side->link ? SIDE_LINK | (reader.bits & SIDE_NAME) : SIDE_OBSTACLE;
     return !fields_compare(&reader, value, &side_table, wanted) && (side->link || side->obstacle);
 }
 
@@ -291,8 +290,7 @@ static const char *make_step(const step_line *line, ovoid_robot_step *step) {
 static int read_step(ovoid_robot_proofs_reader *f, json_t *json, ovoid_robot_step *step) {
     fields_reader reader = {.key = "step"};
     step_line line = {.kind = 0};
-    uint64_t found = 0;
-    const char *wrong = fields_read(&reader, json, &step_table, &line, &found);
+    const char *wrong = fields_read(&reader, json, &step_table, &line);
     int has_normal = line.kind == OVOID_ROBOT_STEP_MIDDLE || line.kind == OVOID_ROBOT_STEP_ENDS;
     if (!wrong) wrong = fields_compare(&reader, json, &step_table, has_normal ? STEP_NORMAL : 0);
     if (!wrong) wrong = make_step(&line, step);
@@ -370,13 +368,12 @@ static uint64_t find_bits(ovoid_robot_status status, uint64_t found) {
 // Takes the line over. 1, or -1 with the error filled.
 static int read_path(ovoid_robot_proofs_reader *f, json_t *json, json_list *states, ovoid_robot_proof *p) {
     path_line line = {.proof = *p, .file = f};
-    uint64_t found = 0;
     json_decref(f->path_json);
     f->path_json = json;
     f->path_fields.key = "path";
-    const char *wrong = fields_read(&f->path_fields, json, &path_table, &line, &found);
+    const char *wrong = fields_read(&f->path_fields, json, &path_table, &line);
     ovoid_robot_status status = line.proof.answer.status;
-    uint64_t bits = find_bits(status, found);
+    uint64_t bits = find_bits(status, f->path_fields.bits);
     if (!wrong) wrong = fields_compare(&f->path_fields, json, &path_table, bits);
     *p = line.proof;
     p->source = f->source_count - 1;
@@ -395,13 +392,12 @@ static int read_path(ovoid_robot_proofs_reader *f, json_t *json, json_list *stat
 
 static int read_source(ovoid_robot_proofs_reader *f, json_t *json) {
     source_line line = {.file = f};
-    uint64_t found = 0;
     fields_reader_clear(&f->source_fields);
     json_decref(f->source_json);
     f->source_json = json;
     f->source_count++;
     f->path_count = 0;
-    const char *wrong = fields_read(&f->source_fields, json, &source_table, &line, &found);
+    const char *wrong = fields_read(&f->source_fields, json, &source_table, &line);
     if (!wrong && line.version != 2)
         f->source_fields.key = "path_proofs", wrong = "is not 2: they were written by another version";
     if (!wrong && !line.source.robot) f->source_fields.key = "robot", wrong = TEXT;
