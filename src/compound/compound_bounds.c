@@ -54,7 +54,7 @@ ovoid_ellipsoid ellipsoid_enlarge(ovoid_ellipsoid e, double r) {
 // 1: done. 0: no memory. -1: the points have no hull.
 static int fit_outer(ovoid_compound *c, const double *points, size_t count, double radius) {
     hull body_hull;
-    ovoid_code code = hull_create(points, count, &c->allocator, &body_hull, NULL);
+    ovoid_code code = hull_create((xyz_points){points, count}, &c->allocator, &body_hull, NULL);
     if (code != OVOID_OK) return code == OVOID_ERROR_MEMORY ? 0 : -1;
     ovoid_polytope polytope = hull_get_polytope(&body_hull);
     ovoid_fit fit;

@@ -157,7 +157,7 @@ static uint32_t split(builder *b, uint32_t first, uint32_t end) {
     int axis = 0;
     for (int i = 0; i < 3; i++) {
         along by = {b->boxes, i};
-        sort_indices(run, b->scratch, count, compare_along, &by);
+        sort_indices(run, b->scratch, count, (index_order){compare_along, &by});
         double cost = 0;
         uint32_t cut = find_cut(b, run, count, &cost);
         if (best > 0 && !(cost < least)) continue;
@@ -166,7 +166,7 @@ static uint32_t split(builder *b, uint32_t first, uint32_t end) {
         axis = i;
     }
     along by = {b->boxes, axis};
-    if (axis != 2) sort_indices(run, b->scratch, count, compare_along, &by);
+    if (axis != 2) sort_indices(run, b->scratch, count, (index_order){compare_along, &by});
     return first + best;
 }
 

@@ -117,7 +117,7 @@ static void climb_all(sampling *s, double step) {
 
 static ovoid_code estimate(sampling *s, const vec3 *points, uint32_t count, ovoid_error *error) {
     hull polytope;
-    ovoid_code code = hull_create(&points[0].x, count, &s->b->memory, &polytope, error);
+    ovoid_code code = hull_create((xyz_points){&points[0].x, count}, &s->b->memory, &polytope, error);
     if (code != OVOID_OK) return code;
     s->polytope = &polytope;
     box around = box_make_around(&points[0].x, count);

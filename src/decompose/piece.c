@@ -107,7 +107,7 @@ static ovoid_code find_points(const body *b, piece *p, ovoid_error *error) {
         if (piece_is_inside(b, corner, middle)) p->triangles.corners[count++] = corner;
     }
     hull polytope;
-    ovoid_code code = hull_create(&p->triangles.corners[0].x, count, &b->memory, &polytope, error);
+    ovoid_code code = hull_create((xyz_points){&p->triangles.corners[0].x, count}, &b->memory, &polytope, error);
     if (code != OVOID_OK) return code;
     p->points = allocator_allocate(&b->memory, polytope.vertex_count, sizeof *p->points);
     p->point_count = polytope.vertex_count;

@@ -10,6 +10,12 @@
 
 typedef ovoid_vec3 vec3;
 
+/// Points, x, y and z of each one after another.
+typedef struct xyz_points {
+    const double *xyz;
+    size_t count;
+} xyz_points;
+
 /// The unit roundoff u of doubles, 2^-53.
 #define ROUNDING 0x1p-53
 

@@ -157,7 +157,7 @@ static int order_triangles(joiner *j, const ovoid_allocator *allocator) {
     uint32_t count = j->s->triangle_count;
     if (count < RADIX_LEAST) {
         for (uint32_t t = 0; t < count; t++) j->order[t] = t;
-        sort_indices(j->order, j->queue, count, compare_areas, j->area);
+        sort_indices(j->order, j->queue, count, (index_order){compare_areas, j->area});
         return 1;
     }
     sort_entry *entries = allocator_allocate(allocator, 2 * (size_t)count, sizeof *entries);

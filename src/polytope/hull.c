@@ -242,12 +242,11 @@ static ovoid_code finish(builder *b, size_t count, ovoid_code code) {
     return code;
 }
 
-ovoid_code hull_create(const double *xyz, size_t count, const ovoid_allocator *allocator, hull *polytope,
-                       ovoid_error *error) {
+ovoid_code hull_create(xyz_points given, const ovoid_allocator *allocator, hull *polytope, ovoid_error *error) {
     *polytope = (hull){0};
-    builder b = {.xyz = xyz, .hull = polytope, .allocator = allocator, .error = error};
-    ovoid_code code = points_create(xyz, count, allocator, &b.p, error);
-    return code ? code : finish(&b, count, find_extreme(&b));
+    builder b = {.xyz = given.xyz, .hull = polytope, .allocator = allocator, .error = error};
+    ovoid_code code = points_create(given, allocator, &b.p, error);
+    return code ? code : finish(&b, given.count, find_extreme(&b));
 }
 
 ovoid_code hull_create_proven(const surface_claim *claim, const ovoid_allocator *allocator, hull *polytope,
@@ -255,7 +254,7 @@ ovoid_code hull_create_proven(const surface_claim *claim, const ovoid_allocator 
     *polytope = (hull){0};
     *flaw = (surface_flaw){"the vertices have no hull", 0, 1};
     builder b = {.xyz = claim->xyz, .hull = polytope, .allocator = allocator};
-    ovoid_code code = points_create_distinct(claim->xyz, claim->count, allocator, &b.p, NULL);
+    ovoid_code code = points_create_distinct((xyz_points){claim->xyz, claim->count}, allocator, &b.p, NULL);
     if (code) return code == OVOID_ERROR_MEMORY ? code : OVOID_ERROR_HULL;
     return finish(&b, claim->count, surface_create_proven(claim, &b.p, allocator, &b.s, flaw));
 }

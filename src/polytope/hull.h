@@ -19,8 +19,7 @@ typedef struct hull {
 /// the report and the origin depends on these vertices alone: the hull of a hull's vertices is that hull, bit for bit.
 /// Errors: EMPTY, LIMIT, NOT_FINITE and RANGE (place: the point), MEMORY, HULL; then *polytope needs no destroying.
 /// Cost: n log n for points in random order.
-ovoid_code hull_create(const double *xyz, size_t count, const ovoid_allocator *allocator, hull *polytope,
-                       ovoid_error *error);
+ovoid_code hull_create(xyz_points given, const ovoid_allocator *allocator, hull *polytope, ovoid_error *error);
 
 /// The hull of vertices whose surface is claimed: the claim is proven, then facets, planes and adjacency are computed
 /// from it. With the triangles of hull_create and its vertices the result is that hull, bit for bit, at a fraction of

@@ -132,16 +132,16 @@ vec3 points_to_grid(const points *p, vec3 v) {
     return (vec3){snap(v.x, p->factor), snap(v.y, p->factor), snap(v.z, p->factor)};
 }
 
-static ovoid_code create(const double *xyz, size_t count, const ovoid_allocator *allocator, points *p,
-                         ovoid_error *error) {
+static ovoid_code create(xyz_points given, const ovoid_allocator *allocator, points *p, ovoid_error *error) {
+    size_t count = given.count;
     *p = (points){0};
     if (count == 0) return error_set(error, OVOID_ERROR_EMPTY, -1, "no points");
     if (count > POINTS_MAX)
         return error_set(error, OVOID_ERROR_LIMIT, -1, "%zu points; at most %zu are taken", count, POINTS_MAX);
     bounds b;
-    ovoid_code code = validate_points(xyz, count, &b, error);
+    ovoid_code code = validate_points(given.xyz, count, &b, error);
     if (code) return code;
-    p->origin = make_origin(xyz, count, &b);
+    p->origin = make_origin(given.xyz, count, &b);
     p->source = allocator_allocate(allocator, count, sizeof *p->source);
     if (!p->source) return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for %zu points", count);
     p->count = (uint32_t)count;
@@ -149,28 +149,31 @@ static ovoid_code create(const double *xyz, size_t count, const ovoid_allocator 
     return OVOID_OK;
 }
 
-// Finishes the points in p->source with their grid; `good` is 0 if these could not be found.
-static ovoid_code finish(const double *xyz, int good, const ovoid_allocator *allocator, points *p, ovoid_error *error) {
-    if (good) p->grid = allocator_allocate(allocator, p->count, 3 * sizeof *p->grid);
-    if (!p->grid) {
-        uint32_t count = p->count;
-        points_destroy(p, allocator);
-        return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for %u points", count);
-    }
+
+static ovoid_code fail_memory(points *p, const ovoid_allocator *allocator, ovoid_error *error) {
+    uint32_t count = p->count;
+    points_destroy(p, allocator);
+    return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for %u points", count);
+}
+
+// The grid of the points in p->source.
+static ovoid_code finish(const double *xyz, const ovoid_allocator *allocator, points *p, ovoid_error *error) {
+    p->grid = allocator_allocate(allocator, p->count, 3 * sizeof *p->grid);
+    if (!p->grid) return fail_memory(p, allocator, error);
     fill_grid(xyz, p);
     return OVOID_OK;
 }
 
-ovoid_code points_create(const double *xyz, size_t count, const ovoid_allocator *allocator, points *p,
-                         ovoid_error *error) {
-    ovoid_code code = create(xyz, count, allocator, p, error);
-    return code ? code : finish(xyz, drop_duplicates(xyz, allocator, p), allocator, p, error);
+ovoid_code points_create(xyz_points given, const ovoid_allocator *allocator, points *p, ovoid_error *error) {
+    ovoid_code code = create(given, allocator, p, error);
+    if (code) return code;
+    if (!drop_duplicates(given.xyz, allocator, p)) return fail_memory(p, allocator, error);
+    return finish(given.xyz, allocator, p, error);
 }
 
-ovoid_code points_create_distinct(const double *xyz, size_t count, const ovoid_allocator *allocator, points *p,
-                                  ovoid_error *error) {
-    ovoid_code code = create(xyz, count, allocator, p, error);
-    return code ? code : finish(xyz, 1, allocator, p, error);
+ovoid_code points_create_distinct(xyz_points given, const ovoid_allocator *allocator, points *p, ovoid_error *error) {
+    ovoid_code code = create(given, allocator, p, error);
+    return code ? code : finish(given.xyz, allocator, p, error);
 }
 
 void points_destroy(points *p, const ovoid_allocator *allocator) {

@@ -19,11 +19,9 @@ typedef struct points {
 
 /// Fills *p. Errors: EMPTY, LIMIT, NOT_FINITE and RANGE (place: the point), MEMORY; *p needs no destroying then.
 /// Cost: linear.
-ovoid_code points_create(const double *xyz, size_t count, const ovoid_allocator *allocator, points *p,
-                         ovoid_error *error);
+ovoid_code points_create(xyz_points given, const ovoid_allocator *allocator, points *p, ovoid_error *error);
 /// points_create for points that are known to be distinct.
-ovoid_code points_create_distinct(const double *xyz, size_t count, const ovoid_allocator *allocator, points *p,
-                                  ovoid_error *error);
+ovoid_code points_create_distinct(xyz_points given, const ovoid_allocator *allocator, points *p, ovoid_error *error);
 /// A point of the body frame in units of the grid.
 vec3 points_to_grid(const points *p, vec3 v);
 void points_destroy(points *p, const ovoid_allocator *allocator);

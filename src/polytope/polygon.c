@@ -50,7 +50,7 @@ uint32_t polygon_find_loop(const points *p, int axis, uint32_t *loop, const ovoi
     chain c = {order + count, 0};
     projection q = {p->grid, (axis + 1) % 3, (axis + 2) % 3, axis};
     for (uint32_t i = 0; i < count; i++) order[i] = i;
-    sort_indices(order, c.items, count, compare_points, &q);
+    sort_indices(order, c.items, count, (index_order){compare_points, &q});
 
     // The lower chain rightward, then the upper one back; the last point is the first one again.
     for (uint32_t i = 0; i < count; i++) extend(&q, &c, 0, order[i]);

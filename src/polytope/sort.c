@@ -5,20 +5,26 @@
 
 #include <string.h>
 
-static void merge(const uint32_t *from, uint32_t middle, uint32_t count, uint32_t *to, index_order order,
-                  const void *context) {
+// Two sorted runs that follow one another: the first ends at `middle`.
+typedef struct two_runs {
+    const uint32_t *from;
+    uint32_t middle, count;
+} two_runs;
+
+static void merge(const two_runs *runs, uint32_t *to, index_order order) {
+    const uint32_t *from = runs->from, middle = runs->middle, count = runs->count;
     for (uint32_t i = 0, j = middle, k = 0; k < count; k++) {
-        int take_left = j >= count || (i < middle && order(context, from[i], from[j]) <= 0);
+        int take_left = j >= count || (i < middle && order.compare(order.context, from[i], from[j]) <= 0);
         to[k] = take_left ? from[i++] : from[j++];
     }
 }
 
-void sort_indices(uint32_t *index, uint32_t *scratch, uint32_t count, index_order order, const void *context) {
+void sort_indices(uint32_t *index, uint32_t *scratch, uint32_t count, index_order order) {
     for (uint64_t run = 1; run < count; run *= 2) {
         for (uint64_t start = 0; start < count; start += 2 * run) {
             uint32_t length = (uint32_t)(count - start < 2 * run ? count - start : 2 * run);
             uint32_t middle = (uint32_t)(run < length ? run : length);
-            merge(index + start, middle, length, scratch + start, order, context);
+            merge(&(two_runs){index + start, middle, length}, scratch + start, order);
         }
         memcpy(index, scratch, count * sizeof *index);
     }

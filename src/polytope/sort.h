@@ -4,11 +4,14 @@
 
 #include <stdint.h>
 
-/// Negative where a comes before b.
-typedef int (*index_order)(const void *context, uint32_t a, uint32_t b);
+/// The order of indices. compare: negative where a comes before b.
+typedef struct index_order {
+    int (*compare)(const void *context, uint32_t a, uint32_t b);
+    const void *context;
+} index_order;
 
 /// Sorts `count` indices; scratch has room for as many. Cost: n log n.
-void sort_indices(uint32_t *index, uint32_t *scratch, uint32_t count, index_order order, const void *context);
+void sort_indices(uint32_t *index, uint32_t *scratch, uint32_t count, index_order order);
 
 /// A key and its index.
 typedef struct sort_entry {

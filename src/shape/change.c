@@ -11,7 +11,7 @@
 
 static ovoid_shape *create_deformed(const ovoid_shape *shape, const double *xyz, const ovoid_shape_options *options,
                                     ovoid_error *error) {
-    if (shape) return shape_create_from_points(xyz, shape->vertex_count, options, shape, error);
+    if (shape) return shape_create_from_points((xyz_points){xyz, shape->vertex_count}, options, shape, error);
     error_write(error, OVOID_ERROR_ARGUMENT, -1, "no shape to deform");
     return NULL;
 }
@@ -84,7 +84,7 @@ static void find_cuts(division *d) {
     for (uint32_t v = 0; v < p.vertex_count && p.rank < 3; v++)
         for (uint32_t k = p.neighbor_starts[v]; k < p.neighbor_starts[v + 1]; k++) add_edge(d, v, p.neighbors[k], v);
     for (uint32_t i = 0; i < d->edge_count; i++) d->order[i] = i;
-    sort_indices(d->order, d->order + d->edge_count, d->edge_count, compare_crossings, d->edges);
+    sort_indices(d->order, d->order + d->edge_count, d->edge_count, (index_order){compare_crossings, d->edges});
     for (uint32_t i = 0; i + 1 < d->edge_count; i += 2) {
         const crossing *e = &d->edges[d->order[i]], *twin = &d->edges[d->order[i + 1]];
         if (p.rank == 3 && e->facet == twin->facet) continue;
@@ -109,7 +109,7 @@ static ovoid_code create_part(division *d, int side, ovoid_shape **part) {
     if (!inside) return OVOID_OK;
     for (size_t i = 0; i < 3 * (size_t)d->cut_count; i++) d->points[3 * count + i] = d->cuts[i];
     ovoid_error why = {0};
-    *part = shape_create_from_points(d->points, count + d->cut_count, d->options, NULL, &why);
+    *part = shape_create_from_points((xyz_points){d->points, count + d->cut_count}, d->options, NULL, &why);
     if (!*part && d->error) *d->error = why;
     return *part ? OVOID_OK : why.code;
 }

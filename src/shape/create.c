@@ -152,7 +152,7 @@ ovoid_shape *shape_create_block(const hull *polytope, const ovoid_allocator *all
     ovoid_allocator use = allocator_make(allocator);
     support_table support;
     simd_cell *cells;
-    ovoid_code code = support_table_create(p.vertices, p.vertex_count, &use, &support, &cells);
+    ovoid_code code = support_table_create((xyz_points){p.vertices, p.vertex_count}, &use, &support, &cells);
     if (code != OVOID_OK) {
         error_write(error, code, -1, "no memory for the table of supports of %u vertices", p.vertex_count);
         return NULL;
@@ -182,17 +182,17 @@ ovoid_shape *shape_create_from_hull(const hull *polytope, const ovoid_shape_opti
     return NULL;
 }
 
-ovoid_shape *shape_create_from_points(const double *xyz, size_t count, const ovoid_shape_options *options,
-                                      const ovoid_shape *near, ovoid_error *error) {
+ovoid_shape *shape_create_from_points(xyz_points given, const ovoid_shape_options *options, const ovoid_shape *near,
+                                      ovoid_error *error) {
     ovoid_shape_options o;
     if (shape_options_make(options, &o, error) != OVOID_OK) return NULL;
-    if (!xyz && count) {
+    if (!given.xyz && given.count) {
         error_write(error, OVOID_ERROR_ARGUMENT, -1, "the array of points is NULL");
         return NULL;
     }
     ovoid_allocator allocator = allocator_make(o.allocator);
     hull polytope;
-    if (hull_create(xyz, count, &allocator, &polytope, error) != OVOID_OK) return NULL;
+    if (hull_create(given, &allocator, &polytope, error) != OVOID_OK) return NULL;
     ovoid_shape *shape = shape_create_from_hull(&polytope, &o, near, error);
     hull_destroy(&polytope, &allocator);
     return shape;
@@ -200,5 +200,6 @@ ovoid_shape *shape_create_from_points(const double *xyz, size_t count, const ovo
 
 ovoid_shape *ovoid_shape_create_from_points(const double *xyz, size_t count, const ovoid_shape_options *options,
                                             ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_shape *, xyz, shape_create_from_points(xyz, count, options, NULL, error));
+    const xyz_points given = {xyz, count};
+    ENVIRONMENT_RETURN(ovoid_shape *, xyz, shape_create_from_points(given, options, NULL, error));
 }

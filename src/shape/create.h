@@ -27,7 +27,7 @@ ovoid_shape *shape_create_from_hull(const hull *polytope, const ovoid_shape_opti
 
 /// ovoid_shape_create_from_points, for callers that have set up the floating-point environment. near: a shape from
 /// whose ellipsoids the fits start, or NULL.
-ovoid_shape *shape_create_from_points(const double *xyz, size_t count, const ovoid_shape_options *options,
-                                      const ovoid_shape *near, ovoid_error *error);
+ovoid_shape *shape_create_from_points(xyz_points given, const ovoid_shape_options *options, const ovoid_shape *near,
+                                      ovoid_error *error);
 
 #endif

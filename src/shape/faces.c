@@ -264,8 +264,8 @@ static ovoid_shape *create_from_faces(const ovoid_faces *faces, const ovoid_shap
     ovoid_allocator allocator = allocator_make(o.allocator);
     checker c = {.faces = faces, .allocator = &allocator, .error = error};
     hull polytope;
-    if (validate_indices(&c) || hull_create(faces->vertices, faces->vertex_count, &allocator, &polytope, error))
-        return NULL;
+    const xyz_points given = {faces->vertices, faces->vertex_count};
+    if (validate_indices(&c) || hull_create(given, &allocator, &polytope, error)) return NULL;
     c.hull = &polytope;
     polytope.report.faces = faces->face_count;
     ovoid_shape *shape = validate_surface(&c) ? NULL : shape_create_from_hull(&polytope, &o, NULL, error);

@@ -341,7 +341,7 @@ static ovoid_shape *make_shape(const reader *r, const content *c, hull *polytope
 
 // The hull of the vertices, computed from the vertices alone.
 static ovoid_code find_hull(const reader *r, const content *c, const ovoid_allocator *allocator, hull *polytope) {
-    ovoid_code code = hull_create(c->vertices, c->vertex_count, allocator, polytope, r->error);
+    ovoid_code code = hull_create((xyz_points){c->vertices, c->vertex_count}, allocator, polytope, r->error);
     if (code == OVOID_OK || code == OVOID_ERROR_MEMORY) return code;
     return refuse(r, c->at.vertices_at, "the vertices have no hull");
 }

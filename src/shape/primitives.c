@@ -36,7 +36,7 @@ ovoid_shape *ovoid_shape_create_box(ovoid_vec3 half, const ovoid_shape_options *
 }
 
 // The shape of points, enlarged by a radius in addition to that of the options.
-static ovoid_shape *create_rounded(const double *xyz, size_t count, double radius, const ovoid_shape_options *options,
+static ovoid_shape *create_rounded(xyz_points given, double radius, const ovoid_shape_options *options,
                                    ovoid_error *error) {
     ovoid_shape_options o;
     if (shape_options_make(options, &o, error) != OVOID_OK) return NULL;
@@ -46,19 +46,19 @@ static ovoid_shape *create_rounded(const double *xyz, size_t count, double radiu
         return NULL;
     }
     o.radius += radius;
-    return ovoid_shape_create_from_points(xyz, count, &o, error);
+    return ovoid_shape_create_from_points(given.xyz, given.count, &o, error);
 }
 
 ovoid_shape *ovoid_shape_create_sphere(double radius, const ovoid_shape_options *options, ovoid_error *error) {
     const double xyz[3] = {0, 0, 0};
-    ENVIRONMENT_RETURN(ovoid_shape *, radius, create_rounded(xyz, 1, radius, options, error));
+    ENVIRONMENT_RETURN(ovoid_shape *, radius, create_rounded((xyz_points){xyz, 1}, radius, options, error));
 }
 
 static ovoid_shape *create_capsule(double radius, double half_length, const ovoid_shape_options *options,
                                    ovoid_error *error) {
     if (!is_length(half_length, "half length", error)) return NULL;
     const double xyz[6] = {0, 0, -half_length, 0, 0, half_length};
-    return create_rounded(xyz, 2, radius, options, error);
+    return create_rounded((xyz_points){xyz, 2}, radius, options, error);
 }
 
 ovoid_shape *ovoid_shape_create_capsule(double radius, double half_length, const ovoid_shape_options *options,

@@ -239,7 +239,9 @@ static int fill_all(builder *b) {
 }
 
 /// The root of the second moments, with radii of a ratio of at most 1e3, and its inverse.
-static void find_map(const double *xyz, uint32_t count, double size, sym3 *root, sym3 *inverse) {
+static void find_map(xyz_points given, double size, sym3 *root, sym3 *inverse) {
+    const double *xyz = given.xyz;
+    uint32_t count = (uint32_t)given.count;
     vec3 sum = {0, 0, 0};
     sym3 q = {0, 0, 0, 0, 0, 0};
     for (uint32_t i = 0; i < count; i++) sum = vec3_add(sum, vec3_scale(vec3_at(xyz, i), 1 / size));
@@ -278,8 +280,10 @@ static int make_room(builder *b, const double *xyz, uint32_t count, double **num
     return 1;
 }
 
-ovoid_code support_table_create(const double *xyz, uint32_t count, const ovoid_allocator *allocator,
-                                support_table *table, simd_cell **cells) {
+ovoid_code support_table_create(xyz_points given, const ovoid_allocator *allocator, support_table *table,
+                                simd_cell **cells) {
+    const double *xyz = given.xyz;
+    uint32_t count = (uint32_t)given.count;
     double size = 0, *numbers = NULL;
     *table = (support_table){.k = 0};
     *cells = NULL;
@@ -291,7 +295,7 @@ ovoid_code support_table_create(const double *xyz, uint32_t count, const ovoid_a
     while (6 * table->k * table->k > count && table->k > 1) table->k /= 2;
     ovoid_code code = make_room(&b, xyz, count, &numbers) ? OVOID_OK : OVOID_ERROR_MEMORY;
     if (code == OVOID_OK) {
-        find_map(xyz, count, size, &table->root, &b.inverse);
+        find_map(given, size, &table->root, &b.inverse);
         while (table->k && !fill_all(&b)) table->k /= 2;
     }
     allocator_release(allocator, numbers);

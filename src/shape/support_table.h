@@ -20,8 +20,8 @@ enum { SUPPORT_TABLE_LEAST = 96 };
 
 /// The table of count vertices and its array of cell_count blocks, which the caller releases. NULL and k = 0 if a table
 /// would not help or the lengths are unusual. OVOID_OK or MEMORY.
-ovoid_code support_table_create(const double *xyz, uint32_t count, const ovoid_allocator *allocator,
-                                support_table *table, simd_cell **cells);
+ovoid_code support_table_create(xyz_points given, const ovoid_allocator *allocator, support_table *table,
+                                simd_cell **cells);
 
 /// The vertex extreme along n, with the bits of simd_find_support over all vertices. Returns 0 without a result if n is
 /// zero, not finite or of extreme length.

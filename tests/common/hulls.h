@@ -153,7 +153,7 @@ static inline void check_again(const hull *h) {
     hull g;
     ovoid_allocator memory = allocator_make(NULL);
     ovoid_code code;
-    code = hull_create(h->vertices, h->vertex_count, &memory, &g, NULL);
+    code = hull_create((xyz_points){h->vertices, h->vertex_count}, &memory, &g, NULL);
     CHECK_EQ(code, OVOID_OK);
     CHECK_EQ(g.vertex_count, h->vertex_count);
     CHECK_EQ(g.triangle_count, h->triangle_count);
@@ -179,7 +179,7 @@ static inline hull check_hull(const double *xyz, size_t count) {
     hull h;
     ovoid_allocator memory = allocator_make(NULL);
     ovoid_error error = {0};
-    ovoid_code code = hull_create(xyz, count, &memory, &h, &error);
+    ovoid_code code = hull_create((xyz_points){xyz, count}, &memory, &h, &error);
     if (!CHECK_EQ(code, OVOID_OK)) {
         printf("%s\n", error.message);
         return h;

@@ -53,7 +53,7 @@ static void check_against_qhull(size_t count, const char *name) {
     ovoid_allocator memory = allocator_make(NULL);
     hull h;
     double seconds = -get_seconds();
-    ovoid_code code = hull_create(cloud, count, &memory, &h, NULL);
+    ovoid_code code = hull_create((xyz_points){cloud, count}, &memory, &h, NULL);
     seconds += get_seconds();
     outcome o = run_qhull(count);
     CHECK_EQ(code, OVOID_OK);

@@ -94,7 +94,7 @@ static void check_scales(void) {
         (void)frexp(scales[i], &e);
         for (size_t k = 0; k < 3 * n; k++) cloud[k] = ldexp(cloud[k], e);
         hull h;
-        ovoid_code code = hull_create(cloud, n, &allocator, &h, NULL);
+        ovoid_code code = hull_create((xyz_points){cloud, n}, &allocator, &h, NULL);
         CHECK_EQ(code, OVOID_OK);
         check_counts(&h, cloud, n);
         check_planes(&h);
@@ -168,7 +168,7 @@ static void check_round_face(void) {
         put(5000, (vec3){0, 0, 2});
         rotate_cloud(5001, random_rotation(&s));
         hull h;
-        if (!CHECK_EQ(hull_create(cloud, 5001, &allocator, &h, NULL), OVOID_OK)) continue;
+        if (!CHECK_EQ(hull_create((xyz_points){cloud, 5001}, &allocator, &h, NULL), OVOID_OK)) continue;
         double off = 0, flatness = FLATNESS * compute_extent_of(&h);
         for (uint32_t t = 0; t < h.triangle_count; t++)
             for (int k = 0; k < 3; k++) {
@@ -185,7 +185,7 @@ static void check_round_face(void) {
 static void check_states(size_t count, size_t extreme) {
     points p;
     surface s, first = {0};
-    if (!CHECK_EQ(points_create(cloud, count, &allocator, &p, NULL), OVOID_OK)) return;
+    if (!CHECK_EQ(points_create((xyz_points){cloud, count}, &allocator, &p, NULL), OVOID_OK)) return;
     if (CHECK_EQ(quickhull_create(&p, &allocator, &s, NULL), OVOID_OK)) {
         size_t found = 0;
         for (uint32_t i = 0; i < p.count; i++) found += s.state[i] == POINT_EXTREME && p.source[i] % 3 != 0;
@@ -305,7 +305,7 @@ static void check_tiny_differences(void) {
             put(k, v);
         }
         hull h;
-        ovoid_code code = hull_create(cloud, 30, &allocator, &h, NULL);
+        ovoid_code code = hull_create((xyz_points){cloud, 30}, &allocator, &h, NULL);
         CHECK_EQ(code, OVOID_OK);
         check_counts(&h, cloud, 30);
         check_adjacency(&h);
@@ -365,7 +365,7 @@ static void check_memory(void) {
             countdown c = {k, 0};
             ovoid_allocator counted = countdown_make_allocator(&c);
             hull h;
-            code = hull_create(cloud, n, &counted, &h, NULL);
+            code = hull_create((xyz_points){cloud, n}, &counted, &h, NULL);
             if (code)
                 CHECK_EQ(code, OVOID_ERROR_MEMORY);
             else
@@ -381,19 +381,19 @@ static void check_errors(void) {
     ovoid_code code;
     uint64_t s = 9;
     put_sphere(&s, 10, 1);
-    code = hull_create(cloud, 0, &allocator, &h, &error);
+    code = hull_create((xyz_points){cloud, 0}, &allocator, &h, &error);
     CHECK_EQ(code, OVOID_ERROR_EMPTY);
-    code = hull_create(cloud, POINTS_MAX + 1, &allocator, &h, &error);
+    code = hull_create((xyz_points){cloud, POINTS_MAX + 1}, &allocator, &h, &error);
     CHECK_EQ(code, OVOID_ERROR_LIMIT);
     cloud[3 * 7 + 1] = NAN;
-    code = hull_create(cloud, 10, &allocator, &h, &error);
+    code = hull_create((xyz_points){cloud, 10}, &allocator, &h, &error);
     CHECK_EQ(code, OVOID_ERROR_NOT_FINITE);
     CHECK_EQ(error.place, 7);
     cloud[3 * 7 + 1] = -INFINITY;
-    code = hull_create(cloud, 10, &allocator, &h, &error);
+    code = hull_create((xyz_points){cloud, 10}, &allocator, &h, &error);
     CHECK_EQ(code, OVOID_ERROR_NOT_FINITE);
     cloud[3 * 7 + 1] = -1.1e50;
-    code = hull_create(cloud, 10, &allocator, &h, &error);
+    code = hull_create((xyz_points){cloud, 10}, &allocator, &h, &error);
     CHECK_EQ(code, OVOID_ERROR_RANGE);
     CHECK_EQ(error.place, 7);
 }

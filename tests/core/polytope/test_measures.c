@@ -21,7 +21,7 @@ static void put(size_t i, vec3 v) {
 
 static ovoid_measures measure(size_t count, uint32_t rank) {
     hull h;
-    ovoid_code code = hull_create(cloud, count, &allocator, &h, NULL);
+    ovoid_code code = hull_create((xyz_points){cloud, count}, &allocator, &h, NULL);
     CHECK_EQ(code, OVOID_OK);
     CHECK_EQ(h.rank, rank);
     ovoid_polytope p = hull_get_polytope(&h);

@@ -88,7 +88,7 @@ static void check_table(const char *name, uint32_t count, uint64_t *state, int w
     ovoid_allocator allocator = allocator_make(NULL);
     support_table t;
     simd_cell *cells;
-    ovoid_code code = support_table_create(xyz, count, &allocator, &t, &cells);
+    ovoid_code code = support_table_create((xyz_points){xyz, count}, &allocator, &t, &cells);
     CHECK_EQ(code, OVOID_OK);
     CHECK((t.k > 0) == wanted && (cells != NULL) == wanted);
     if (wanted && !t.k) printf("%s: no table of %u vertices\n", name, count);
@@ -134,7 +134,7 @@ static void check_clusters(uint64_t *state) {
         }
         support_table t;
         simd_cell *cells;
-        CHECK_EQ(support_table_create(xyz, count, &allocator, &t, &cells), OVOID_OK);
+        CHECK_EQ(support_table_create((xyz_points){xyz, count}, &allocator, &t, &cells), OVOID_OK);
         if (!t.k) continue;
         for (int i = 0; i < 40000; i++) {
             vec3 p = vec3_at(xyz, random_next(state) % count);
@@ -166,7 +166,7 @@ static void check_lattices(uint64_t *state) {
     simd_cell *cells;
     support_table t;
     ovoid_allocator allocator = allocator_make(NULL);
-    ovoid_code code = support_table_create(xyz, 512, &allocator, &t, &cells);
+    ovoid_code code = support_table_create((xyz_points){xyz, 512}, &allocator, &t, &cells);
     CHECK_EQ(code, OVOID_OK);
     allocator_release(&allocator, cells);
     for (uint32_t i = 0; i < 512; i++) set(i, (vec3){1e-200, 0, 0});
