@@ -47,12 +47,12 @@ static int is_later(const void *a, const void *b) { return compare(a, b) > 0; }
 static void sort(ovoid_exclusion *items, size_t count) {
     for (size_t i = count / 2; i-- > 0;) {
         ovoid_exclusion moved = items[i];
-        heap_sink(items, count, sizeof moved, i, &moved, is_later);
+        heap_sink((heap){items, count, sizeof moved, is_later}, i, &moved);
     }
     for (size_t end = count; end-- > 1;) {
         ovoid_exclusion last = items[end];
         items[end] = items[0];
-        heap_sink(items, end, sizeof last, 0, &last, is_later);
+        heap_sink((heap){items, end, sizeof last, is_later}, 0, &last);
     }
 }
 

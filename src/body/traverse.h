@@ -30,14 +30,14 @@ static inline int waiting_is_nearer(const void *a, const void *b) {
 /// 0 where the heap is full.
 static inline int waiting_push_heap(waiting *q, const waiting_pair *w) {
     if (q->heaped >= q->heap_room) return 0;
-    heap_push(q->heap, q->heaped++, sizeof *w, w, waiting_is_nearer);
+    heap_push((heap){q->heap, q->heaped++, sizeof *w, waiting_is_nearer}, w);
     return 1;
 }
 
 static inline waiting_pair waiting_pop(waiting *q) {
     waiting_pair top;
     if (q->stacked) return q->stack[--q->stacked];
-    heap_pop(q->heap, q->heaped--, sizeof top, &top, waiting_is_nearer);
+    heap_pop((heap){q->heap, q->heaped--, sizeof top, waiting_is_nearer}, &top);
     return top;
 }
 

@@ -139,11 +139,10 @@ ovoid_code piece_estimate(const body *b, piece *p, ovoid_error *error) {
     return code;
 }
 
-ovoid_code points_estimate(const body *b, const vec3 *points, uint32_t count, double enough, double *excess,
-                           ovoid_error *error) {
+ovoid_code points_estimate(const body *b, const estimated_points *of, double *excess, ovoid_error *error) {
     outlier kept[OUTLIERS];
-    sampling s = {.b = b, .outliers = kept, .enough = enough};
-    ovoid_code code = estimate(&s, points, count, error);
+    sampling s = {.b = b, .outliers = kept, .enough = of->enough};
+    ovoid_code code = estimate(&s, of->points, of->count, error);
     *excess = s.excess;
     return code;
 }

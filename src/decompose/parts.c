@@ -53,6 +53,7 @@ typedef struct parts_work {
     size_t count, room;
     double error; ///< in the body's unit; 0: as many parts as asked for
     size_t wanted;
+    double enough; ///< the most excess that a joined piece may have
     double *costs; ///< of joining pieces i > k, at i (i - 1) / 2 + k
     size_t steps;
 } parts_work;
@@ -113,31 +114,35 @@ static int is_far_apart(const body *b, const piece *p, const piece *q, double en
     return 0;
 }
 
-static ovoid_code join_points(const body *b, const piece *p, const piece *q, vec3 **points, ovoid_error *error) {
-    *points = allocator_allocate(&b->memory, (size_t)p->point_count + q->point_count, sizeof **points);
-    if (!*points) return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for the points of two parts");
-    memcpy(*points, p->points, p->point_count * sizeof **points);
-    memcpy(*points + p->point_count, q->points, q->point_count * sizeof **points);
-    return OVOID_OK;
+// The points of both pieces; NULL where there is no memory.
+static vec3 *join_points(const body *b, const piece *p, const piece *q, ovoid_error *error) {
+    vec3 *points = allocator_allocate(&b->memory, (size_t)p->point_count + q->point_count, sizeof *points);
+    if (!points) {
+        error_write(error, OVOID_ERROR_MEMORY, -1, "no memory for the points of two parts");
+        return NULL;
+    }
+    memcpy(points, p->points, p->point_count * sizeof *points);
+    memcpy(points + p->point_count, q->points, q->point_count * sizeof *points);
+    return points;
 }
 
-static ovoid_code find_cost(parts_work *m, size_t i, size_t k, double enough, ovoid_error *error) {
+static ovoid_code find_cost(parts_work *m, size_t i, size_t k, ovoid_error *error) {
     double *cost = get_cost(m, i, k);
     const piece *p = &m->pieces[i], *q = &m->pieces[k];
     *cost = INFINITY;
-    if (watch_is_stopped(&m->o->watch) || is_far_apart(m->b, p, q, enough)) return OVOID_OK;
-    vec3 *points;
-    ovoid_code code = join_points(m->b, p, q, &points, error);
-    if (code != OVOID_OK) return code;
-    code = points_estimate(m->b, points, p->point_count + q->point_count, enough, cost, error);
+    if (watch_is_stopped(&m->o->watch) || is_far_apart(m->b, p, q, m->enough)) return OVOID_OK;
+    vec3 *points = join_points(m->b, p, q, error);
+    if (!points) return OVOID_ERROR_MEMORY;
+    const estimated_points both = {points, p->point_count + q->point_count, m->enough};
+    ovoid_code code = points_estimate(m->b, &both, cost, error);
     allocator_release(&m->b->memory, points);
     return code;
 }
 
-static ovoid_code find_costs(parts_work *m, double enough, ovoid_error *error) {
+static ovoid_code find_costs(parts_work *m, ovoid_error *error) {
     for (size_t i = 1; i < m->count; i++) {
         for (size_t k = 0; k < i; k++) {
-            ovoid_code code = find_cost(m, i, k, enough, error);
+            ovoid_code code = find_cost(m, i, k, error);
             if (code != OVOID_OK) return code;
         }
         report(m, i * i, m->count * m->count);
@@ -145,21 +150,20 @@ static ovoid_code find_costs(parts_work *m, double enough, ovoid_error *error) {
     return OVOID_OK;
 }
 
-static int find_cheapest(parts_work *m, double enough, size_t *first, size_t *second) {
+static int find_cheapest(parts_work *m, size_t *first, size_t *second) {
     double least = INFINITY;
     for (size_t i = 1; i < m->count; i++)
         for (size_t k = 0; k < i; k++)
-            if (*get_cost(m, i, k) <= enough && *get_cost(m, i, k) < least)
+            if (*get_cost(m, i, k) <= m->enough && *get_cost(m, i, k) < least)
                 least = *get_cost(m, i, k), *first = k, *second = i;
     return least < INFINITY;
 }
 
 // Joins the second piece to the first; the last piece takes the second's place.
-static ovoid_code join(parts_work *m, size_t first, size_t second, double enough, ovoid_error *error) {
+static ovoid_code join(parts_work *m, size_t first, size_t second, ovoid_error *error) {
     piece *p = &m->pieces[first], *q = &m->pieces[second];
-    vec3 *points;
-    ovoid_code code = join_points(m->b, p, q, &points, error);
-    if (code != OVOID_OK) return code;
+    vec3 *points = join_points(m->b, p, q, error);
+    if (!points) return OVOID_ERROR_MEMORY;
     allocator_release(&m->b->memory, p->points);
     p->points = points;
     p->point_count += q->point_count;
@@ -171,8 +175,9 @@ static ovoid_code join(parts_work *m, size_t first, size_t second, double enough
         for (size_t k = 0; k < last; k++)
             if (k != second) *get_cost(m, second, k) = *get_cost(m, last, k);
     }
+    ovoid_code code = OVOID_OK;
     for (size_t k = 0; k < m->count && code == OVOID_OK; k++)
-        if (k != first) code = find_cost(m, first, k, enough, error);
+        if (k != first) code = find_cost(m, first, k, error);
     return code;
 }
 
@@ -181,14 +186,14 @@ static ovoid_code join_pieces(parts_work *m, ovoid_error *error) {
     m->costs = allocator_allocate(&m->b->memory, m->count * (m->count - 1) / 2, sizeof *m->costs);
     if (!m->costs) return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for %zu pieces", m->count);
     // If a number of parts is wanted, the allowed excess grows until there are so few; otherwise it is the given error.
-    double enough = m->wanted ? max2(m->error, 2 * m->pieces[find_worst(m) % m->room].excess) : m->error;
+    m->enough = m->wanted ? max2(m->error, 2 * m->pieces[find_worst(m) % m->room].excess) : m->error;
     for (;;) {
-        ovoid_code code = find_costs(m, enough, error);
+        ovoid_code code = find_costs(m, error);
         size_t first = 0, second = 0;
-        while (code == OVOID_OK && (!m->wanted || m->count > m->wanted) && find_cheapest(m, enough, &first, &second))
-            code = join(m, first, second, enough, error);
+        while (code == OVOID_OK && (!m->wanted || m->count > m->wanted) && find_cheapest(m, &first, &second))
+            code = join(m, first, second, error);
         if (code != OVOID_OK || !m->wanted || m->count <= m->wanted || watch_is_stopped(&m->o->watch)) return code;
-        enough = max2(2 * enough, 1e-3 * m->b->diagonal);
+        m->enough = max2(2 * m->enough, 1e-3 * m->b->diagonal);
     }
 }
 

@@ -29,7 +29,8 @@ static int soup_reserve(const body *b, soup *s, size_t more) {
 }
 
 // Adds the part of a triangle on one side: d are the corners' heights above the plane, as seen from that side.
-static int clip(const body *b, const vec3 t[3], const double d[3], double margin, soup *s) {
+static int clip(const body *b, const vec3 t[3], const double d[3], soup *s) {
+    double margin = ON_PLANE * b->diagonal;
     if (!(max2(d[0], max2(d[1], d[2])) > margin)) return 1;
     vec3 polygon[6];
     int count = 0;
@@ -76,8 +77,8 @@ static int divide_soup(const body *b, const soup *whole, const ovoid_plane *plan
         }
         int is_in_plane = max2(max2(fabs(above[0]), fabs(above[1])), fabs(above[2])) <= margin;
         if (is_in_plane && !add_in_plane(b, t, plane, sides)) return 0;
-        if (!clip(b, t, below, margin, &sides[0])) return 0;
-        if (!clip(b, t, above, margin, &sides[1])) return 0;
+        if (!clip(b, t, below, &sides[0])) return 0;
+        if (!clip(b, t, above, &sides[1])) return 0;
     }
     return 1;
 }

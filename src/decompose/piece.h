@@ -42,9 +42,15 @@ void piece_destroy(const body *b, piece *p);
 
 /// Fills the outliers and the estimate from the hull of the points. Errors: MEMORY and those of hulls.
 ovoid_code piece_estimate(const body *b, piece *p, ovoid_error *error);
-/// The estimate for the hull of points alone; if it is above `enough`, the result is some number above that.
-ovoid_code points_estimate(const body *b, const vec3 *points, uint32_t count, double enough, double *excess,
-                           ovoid_error *error);
+/// Points whose hull is estimated. If the estimate is above `enough`, the result is some number above that.
+typedef struct estimated_points {
+    const vec3 *points;
+    uint32_t count;
+    double enough;
+} estimated_points;
+
+/// The estimate for the hull of points alone.
+ovoid_code points_estimate(const body *b, const estimated_points *of, double *excess, ovoid_error *error);
 
 /// The plane with the least cost, and that cost as in piece_compute_cost, plus a small amount for planes far from the
 /// middle: the cost counts the outliers that remain in the hulls of both sides. Infinite if there is no plane.

@@ -13,6 +13,7 @@
 enum { ROUND = 128, DIRECTIONS = ROUND + 6, CORNERS = 6144, STEPS = 11, FARTHEST = 8 };
 
 typedef struct supports {
+    const ovoid_plane *plane;
     float h[2][DIRECTIONS];
 } supports;
 
@@ -56,7 +57,8 @@ static int is_within(const choice *c, const float h[DIRECTIONS], vec3 x) {
 }
 
 // Adds a point of the piece to its side, or to both.
-static void add_point(const choice *c, supports *s, const ovoid_plane *plane, double margin, vec3 x) {
+static void add_point(const choice *c, supports *s, double margin, vec3 x) {
+    const ovoid_plane *plane = s->plane;
     double d = vec3_dot(plane->normal, x) - plane->offset;
     if (d <= margin) add_support(c, s->h[0], x);
     if (d >= -margin) add_support(c, s->h[1], x);
@@ -67,7 +69,8 @@ static vec3 cross(vec3 a, vec3 b, const ovoid_plane *plane) {
     return vec3_add_scaled(a, vec3_sub(b, a), da / (da - db));
 }
 
-static void add_triangle(const choice *c, supports *s, const ovoid_plane *plane, double margin, const vec3 t[3]) {
+static void add_triangle(const choice *c, supports *s, double margin, const vec3 t[3]) {
+    const ovoid_plane *plane = s->plane;
     double d[3];
     for (int k = 0; k < 3; k++) d[k] = vec3_dot(plane->normal, t[k]) - plane->offset;
     for (int side = 0; side < 2; side++) {
@@ -85,7 +88,8 @@ static void add_triangle(const choice *c, supports *s, const ovoid_plane *plane,
 
 // Adds the points that belong to the cell: its corners inside the solid, and the points where the plane cuts its edges
 // inside.
-static void add_frame(const choice *c, supports *s, const ovoid_plane *plane) {
+static void add_frame(const choice *c, supports *s) {
+    const ovoid_plane *plane = s->plane;
     const ovoid_polytope *f = &c->frame;
     for (uint32_t i = 0; i < f->vertex_count; i++) {
         vec3 x = piece_get_frame_point(c->b, f, i);
@@ -96,19 +100,20 @@ static void add_frame(const choice *c, supports *s, const ovoid_plane *plane) {
             vec3 y = piece_get_frame_point(c->b, f, f->neighbors[k]);
             if ((vec3_dot(plane->normal, y) > plane->offset) == (d > 0)) continue;
             vec3 at = cross(x, y, plane);
-            if (piece_is_inside(c->b, at, c->frame_middle)) add_point(c, s, plane, INFINITY, at);
+            if (piece_is_inside(c->b, at, c->frame_middle)) add_point(c, s, INFINITY, at);
         }
     }
 }
 
 static double compute_cost(const choice *c, const ovoid_plane *plane) {
     supports s;
+    s.plane = plane;
     for (int i = 0; i < DIRECTIONS; i++) s.h[0][i] = s.h[1][i] = -INFINITY;
     double margin = 1e-9 * c->b->diagonal;
     const soup *all = &c->p->triangles;
     size_t step = all->count / 3 / (CORNERS / 3) + 1;
-    for (size_t t = 0; t < all->count / 3; t += step) add_triangle(c, &s, plane, margin, all->corners + 3 * t);
-    add_frame(c, &s, plane);
+    for (size_t t = 0; t < all->count / 3; t += step) add_triangle(c, &s, margin, all->corners + 3 * t);
+    add_frame(c, &s);
     if (s.h[0][0] == -INFINITY || s.h[1][0] == -INFINITY) return INFINITY;
     double cost = 0;
     for (uint32_t i = 0; i < c->p->outlier_count; i++) {

@@ -20,21 +20,25 @@ double cell_compute_radius(const cell *c, vec3 x) {
 
 box cell_compute_box(const cell *c) { return box_make_around(&c->corner[0].x, 4); }
 
-static uint32_t add_piece(const cell *c, vec3 a, vec3 b, vec3 d, vec3 e, cell *pieces, uint32_t count) {
-    pieces[count] = *c;
-    pieces[count].depth = c->depth + 1;
-    pieces[count].corner[0] = a;
-    pieces[count].corner[1] = b;
-    pieces[count].corner[2] = d;
-    pieces[count].corner[3] = e;
-    return count + 1;
+// The pieces of a cell so far.
+typedef struct division {
+    const cell *whole;
+    cell *pieces;
+    uint32_t count;
+} division;
+
+static void add_piece(division *d, const vec3 corner[4]) {
+    cell *piece = &d->pieces[d->count++];
+    *piece = *d->whole;
+    piece->depth = d->whole->depth + 1;
+    for (int i = 0; i < 4; i++) piece->corner[i] = corner[i];
 }
 
 // The prism over two triangles with corresponding corners, as three tetrahedra.
-static uint32_t add_prism(const cell *c, const vec3 a[3], const vec3 b[3], cell *pieces, uint32_t count) {
-    count = add_piece(c, a[0], a[1], a[2], b[0], pieces, count);
-    count = add_piece(c, a[1], a[2], b[0], b[1], pieces, count);
-    return add_piece(c, a[2], b[0], b[1], b[2], pieces, count);
+static void add_prism(division *d, const vec3 a[3], const vec3 b[3]) {
+    add_piece(d, (vec3[]){a[0], a[1], a[2], b[0]});
+    add_piece(d, (vec3[]){a[1], a[2], b[0], b[1]});
+    add_piece(d, (vec3[]){a[2], b[0], b[1], b[2]});
 }
 
 // The point of the edge from a, below the plane by da < 0, to b, above it.
@@ -58,45 +62,48 @@ uint32_t cell_cut(const cell *c, const ovoid_plane *plane, cell pieces[CELL_PIEC
     for (int i = 0; i < below; i++) deepest = max2(deepest, -dl[i]);
     for (int i = 0; i < above; i++) highest = max2(highest, dh[i]);
     if (min2(deepest, highest) <= CELL_TOUCH) return 0;
-    uint32_t count = 0;
+    division d = {c, pieces, 0};
     if (below == 2) {
         vec3 x[2][2];
         for (int i = 0; i < 2; i++)
             for (int j = 0; j < 2; j++) x[i][j] = cross_edge(low[i], dl[i], high[j], dh[j]);
         *first_above = 3;
-        count = add_prism(c, (vec3[]){low[0], x[0][0], x[0][1]}, (vec3[]){low[1], x[1][0], x[1][1]}, pieces, count);
-        return add_prism(c, (vec3[]){high[0], x[0][0], x[1][0]}, (vec3[]){high[1], x[0][1], x[1][1]}, pieces, count);
+        add_prism(&d, (vec3[]){low[0], x[0][0], x[0][1]}, (vec3[]){low[1], x[1][0], x[1][1]});
+        add_prism(&d, (vec3[]){high[0], x[0][0], x[1][0]}, (vec3[]){high[1], x[0][1], x[1][1]});
+        return d.count;
     }
     // One corner alone: a tetrahedron, and a prism over what is left of the opposite side.
     vec3 x[3];
     *first_above = below == 1 ? 1 : 3;
     if (below == 1) {
         for (int i = 0; i < 3; i++) x[i] = cross_edge(low[0], dl[0], high[i], dh[i]);
-        count = add_piece(c, low[0], x[0], x[1], x[2], pieces, count);
-        return add_prism(c, x, high, pieces, count);
+        add_piece(&d, (vec3[]){low[0], x[0], x[1], x[2]});
+        add_prism(&d, x, high);
+        return d.count;
     }
     for (int i = 0; i < 3; i++) x[i] = cross_edge(low[i], dl[i], high[0], dh[0]);
-    count = add_prism(c, x, low, pieces, count);
-    return add_piece(c, high[0], x[0], x[1], x[2], pieces, count);
+    add_prism(&d, x, low);
+    add_piece(&d, (vec3[]){high[0], x[0], x[1], x[2]});
+    return d.count;
 }
 
 uint32_t cell_halve(const cell *c, cell pieces[CELL_PIECES]) {
     vec3 halves[2][4];
+    division d = {c, pieces, 0};
     (void)tetrahedron_halve(c->corner, halves);
-    for (int k = 0; k < 2; k++)
-        add_piece(c, halves[k][0], halves[k][1], halves[k][2], halves[k][3], pieces, (uint32_t)k);
-    return 2;
+    for (int k = 0; k < 2; k++) add_piece(&d, halves[k]);
+    return d.count;
 }
 
 // ---- the heap
 
 static int is_worse(const void *a, const void *b) { return ((const cell *)a)->bound > ((const cell *)b)->bound; }
 
-static void push(cell_search *s, const cell *c) { heap_push(s->heap, s->count++, sizeof *c, c, is_worse); }
+static void push(cell_search *s, const cell *c) { heap_push((heap){s->heap, s->count++, sizeof *c, is_worse}, c); }
 
 static cell pop(cell_search *s) {
     cell top;
-    heap_pop(s->heap, s->count--, sizeof top, &top, is_worse);
+    heap_pop((heap){s->heap, s->count--, sizeof top, is_worse}, &top);
     return top;
 }
 

@@ -282,8 +282,8 @@ static int take_hull(growth *g) {
     const expansion *e = &g->e;
     int taken = take_tetrahedron(s, e), kept[OVOID_PROOF_PAIRS];
     if (!(taken && search_is_done(s)) && e->points <= HULL_POINTS_MAX && e->faces <= 3 * HULL_POINTS_MAX) {
-        evidence found = {
-            .count = hull_find_reduced(&g->room.few.reduced, e->w, (int)e->points, s->frame->claim, e->slack, kept)};
+        const hull_points points = {e->w, (int)e->points, s->frame->claim, e->slack};
+        evidence found = {.count = hull_find_reduced(&g->room.few.reduced, &points, kept)};
         for (int i = 0; i < found.count; i++) found.p[i] = (difference){e->w[kept[i]], e->a[kept[i]], e->b[kept[i]]};
         evidence_set_weights(&found);
         if (found.count > 0) taken |= search_take_hull(s, &found);

@@ -4,16 +4,15 @@
 #include "pair/cover.h"
 
 // The hull of the points that are not dropped; its depth around the origin, 0 if it does not contain it.
-static double depth_without(hull_memory *memory, const vec3 *w, int count, const int *dropped, double error,
-                            double slack) {
+static double depth_without(hull_memory *memory, const hull_points *points, const int *dropped) {
     expansion *e = &memory->hull;
     int n = 0;
-    for (int i = 0; i < count; i++)
-        if (!dropped[i]) memory->left[n++] = w[i];
-    if (!expansion_make_hull(e, memory->left, n, slack)) return 0;
+    for (int i = 0; i < points->count; i++)
+        if (!dropped[i]) memory->left[n++] = points->w[i];
+    if (!expansion_make_hull(e, memory->left, n, points->slack)) return 0;
     uint32_t triangles = expansion_pack(e);
     surface s = {e->w, (const uint16_t(*)[3])e->triangles, e->points, triangles};
-    return surface_compute_depth(&s, error);
+    return surface_compute_depth(&s, points->error);
 }
 
 // The order of a double pyramid: two corners that no triangle joins, then the ring around the first.
@@ -47,14 +46,16 @@ static int order_as_double_pyramid(const expansion *e, int kept[6]) {
     return 0;
 }
 
-int hull_find_reduced(hull_memory *memory, const vec3 *w, int count, double error, double slack, int kept[6]) {
+int hull_find_reduced(hull_memory *memory, const hull_points *points, int kept[6]) {
+    const vec3 *w = points->w;
+    const int count = points->count;
     expansion *e = &memory->hull;
     hull_room_give(&memory->room, e);
     int dropped[HULL_POINTS_MAX] = {0}, left[HULL_POINTS_MAX], n = count;
-    if (count > HULL_POINTS_MAX || !(depth_without(memory, w, count, dropped, error, slack) > 0)) return 0;
+    if (count > HULL_POINTS_MAX || !(depth_without(memory, points, dropped) > 0)) return 0;
     for (int i = 0; i < count && n > 4; i++) {
         dropped[i] = 1;
-        if (depth_without(memory, w, count, dropped, error, slack) > 0)
+        if (depth_without(memory, points, dropped) > 0)
             n--;
         else
             dropped[i] = 0;
@@ -68,7 +69,8 @@ int hull_find_reduced(hull_memory *memory, const vec3 *w, int count, double erro
     for (int i = 0; i < n; i++) few[i] = w[left[i]];
     // The hull lists the corners in the order in which it took them.
     if (n > 4) {
-        if (!expansion_make_hull(e, few, n, slack) || e->points != (uint32_t)n || !order_as_double_pyramid(e, order))
+        if (!expansion_make_hull(e, few, n, points->slack) || e->points != (uint32_t)n ||
+            !order_as_double_pyramid(e, order))
             return 0;
         for (int i = 0; i < n; i++) kept[i] = left[e->a[order[i]]];
     } else {

@@ -149,7 +149,6 @@ static ovoid_code create(xyz_points given, const ovoid_allocator *allocator, poi
     return OVOID_OK;
 }
 
-
 static ovoid_code fail_memory(points *p, const ovoid_allocator *allocator, ovoid_error *error) {
     uint32_t count = p->count;
     points_destroy(p, allocator);

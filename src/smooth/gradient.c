@@ -67,9 +67,9 @@ static double find_slope(const feature *own) {
     return sqrt(least);
 }
 
-feature feature_make(const ovoid_shape *shape, vec3 n, const uint32_t *index, const double *weight, uint32_t count) {
+feature feature_make(const ovoid_shape *shape, vec3 n, weighted_vertices of) {
     feature own = {.shape = shape, .n = n};
-    take_vertices(&own, index, weight, count);
+    take_vertices(&own, of.index, of.weight, of.count);
     if (own.count == 2) {
         vec3 e = vec3_sub(vec3_at(shape_vertices(shape), own.v[1]), vec3_at(shape_vertices(shape), own.v[0]));
         own.edge = vec3_unit(vec3_add_scaled(e, n, -vec3_dot(n, e)));
@@ -151,8 +151,10 @@ void gradient_put(const pair_frame *f, vec3 n, vec3 point_a, vec3 point_b, ovoid
 // The torques, and whether the derivative by rotations exists.
 static void add_rotation(const pair_frame *f, const ovoid_proof *p, vec3 n, double excess, double off,
                          ovoid_gradient *out) {
-    feature a = feature_make(f->a, mat3_mul_transposed_vec3(f->world, n), p->a, p->weight_a, p->count);
-    feature b = feature_make(f->b, vec3_neg(mat3_mul_transposed_vec3(f->world_b, n)), p->b, p->weight_b, p->count);
+    feature a =
+        feature_make(f->a, mat3_mul_transposed_vec3(f->world, n), (weighted_vertices){p->a, p->weight_a, p->count});
+    feature b = feature_make(f->b, vec3_neg(mat3_mul_transposed_vec3(f->world_b, n)),
+                             (weighted_vertices){p->b, p->weight_b, p->count});
     put(out->gradient + 3, vec3_cross(n, find_lever(f->a, &f->world, a.point)));
     put(out->gradient + 9, vec3_cross(find_lever(f->b, &f->world_b, b.point), n));
     out->slope = min2(join_slopes(f, &a, &b), 1);

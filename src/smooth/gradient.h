@@ -16,8 +16,15 @@ typedef struct feature {
     double slope;
 } feature;
 
-/// The feature of vertices with weights; its slope: the least of the edges that leave it, along n.
-feature feature_make(const ovoid_shape *shape, vec3 n, const uint32_t *index, const double *weight, uint32_t count);
+/// Vertices with weights.
+typedef struct weighted_vertices {
+    const uint32_t *index;
+    const double *weight;
+    uint32_t count;
+} weighted_vertices;
+
+/// The feature of vertices; its slope: the least of the edges that leave it, along n.
+feature feature_make(const ovoid_shape *shape, vec3 n, weighted_vertices of);
 
 /// An upper bound of the angle whose cosine is 1 - rest; pi where rest is not below 2.
 double gradient_find_angle_above(double rest);

@@ -113,7 +113,8 @@ static int ask_point(const round_body *hull, nearest *result) {
     answer_find_internal(&pair, &(query_request){&options, &goal, NULL, NULL}, &found);
     const ovoid_proof *proof = &found.proof;
     if (proof->kind != OVOID_PROOF_POINTS || !proof->count) return 0;
-    result->of_q = feature_make(hull->shape, (vec3){0, 0, 0}, proof->b, proof->weight_b, proof->count);
+    result->of_q =
+        feature_make(hull->shape, (vec3){0, 0, 0}, (weighted_vertices){proof->b, proof->weight_b, proof->count});
     result->q = vec3_add(hull->base, mat3_mul_vec3(hull->rotation, result->of_q.point));
     result->upper = vec3_norm(vec3_sub(result->q, result->p));
     return result->upper > 0;
@@ -232,13 +233,23 @@ static double find_round_slide(const round_body *b, vec3 n, double turn, double 
     return radius * turn / (across - turn);
 }
 
-static double find_slide(const round_body *b, const nearest *found, vec3 n, double turn, double *angle) {
-    if (b->form.kind != ROUND_NONE) return find_round_slide(b, n, turn, angle);
+// How far a point may slide, and by which slope it is held there, as in ovoid_gradient.
+typedef struct sliding {
+    double slide, slope;
+} sliding;
+
+static sliding find_slide(const round_body *b, const nearest *found, vec3 n, double turn) {
+    sliding s;
+    if (b->form.kind != ROUND_NONE) {
+        s.slide = find_round_slide(b, n, turn, &s.slope);
+        return s;
+    }
     const double weight[OVOID_PROOF_PAIRS] = {1, 1, 1, 1, 1, 1};
-    feature f = feature_make(b->shape, mat3_mul_transposed_vec3(b->rotation, n), found->of_q.v, weight,
-                             (uint32_t)found->of_q.count);
-    *angle = f.count == 1 ? min2(f.slope, 1) : 0;
-    return *angle > 2 * turn + 256 * ROUNDING ? 0 : INFINITY;
+    const weighted_vertices all = {found->of_q.v, weight, (uint32_t)found->of_q.count};
+    feature f = feature_make(b->shape, mat3_mul_transposed_vec3(b->rotation, n), all);
+    s.slope = f.count == 1 ? min2(f.slope, 1) : 0;
+    s.slide = s.slope > 2 * turn + 256 * ROUNDING ? 0 : INFINITY;
+    return s;
 }
 
 // The room along a cylinder's side to its ends, of a point with the normal n there; below zero where it is not there.
@@ -259,27 +270,28 @@ static double find_crossing(const round_body bodies[2], const nearest *found, do
     if (found->of_q.count != 2) return 0;
     const double weight[2] = {1, 1};
     vec3 n = mat3_mul_transposed_vec3(other->rotation, vec3_neg(found->n));
-    feature f = feature_make(other->shape, n, found->of_q.v, weight, 2);
+    feature f = feature_make(other->shape, n, (weighted_vertices){found->of_q.v, weight, 2});
     return min2(f.slope, 1) * vec3_norm(vec3_cross(mat3_mul_vec3(other->rotation, f.edge), bodies[0].axis));
 }
 
-// Of the first body, which is round, and the second; *slide and *slope as in ovoid_gradient.
-static void find_points(const round_body bodies[2], const nearest *found, double turn, double excess, double off,
-                        double *slope, double *slide) {
-    double angle;
-    *slide = INFINITY;
-    *slope = 0;
+// What is not known of a distance: the angle that its normal may be off by, the bracket's width, and how far the points
+// may be off the normal.
+typedef struct doubt {
+    double turn, excess, off;
+} doubt;
+
+// Of the first body, which is round, and the second.
+static sliding find_points(const round_body bodies[2], const nearest *found, const doubt *d) {
+    double turn = d->turn;
+    sliding least = {INFINITY, 0};
     for (int k = 0; k < 2; k++) {
-        double own = find_slide(&bodies[k], found, k ? vec3_neg(found->n) : found->n, turn, &angle);
-        if (!(own + off < *slide)) continue;
-        *slide = own + off;
-        *slope = angle;
+        sliding own = find_slide(&bodies[k], found, k ? vec3_neg(found->n) : found->n, turn);
+        if (own.slide + d->off < least.slide) least = (sliding){own.slide + d->off, own.slope};
     }
-    if (*slide < INFINITY) return;
+    if (least.slide < INFINITY) return least;
     double room, cross = find_crossing(bodies, found, turn, &room);
-    if (!(cross > 2 * turn + 256 * ROUNDING) || !((excess + off) / cross < room)) return;
-    *slide = (excess + off) / cross;
-    *slope = cross;
+    if (!(cross > 2 * turn + 256 * ROUNDING) || !((d->excess + d->off) / cross < room)) return least;
+    return (sliding){(d->excess + d->off) / cross, cross};
 }
 
 void gradient_refine_round(const pair_frame *f, const ovoid_pair *pair, const ovoid_proof *proof, ovoid_gradient *out) {
@@ -292,8 +304,9 @@ void gradient_refine_round(const pair_frame *f, const ovoid_pair *pair, const ov
     bodies[is_swapped] = make_body(f->a, &f->world, pair->pose_a.rotation, (vec3){0, 0, 0});
     bodies[!is_swapped] = make_body(f->b, &f->world_b, pair->pose_b.rotation, f->offset);
     nearest found = {.upper = 0};
-    feature start = is_swapped ? feature_make(f->a, (vec3){0, 0, 0}, proof->a, proof->weight_a, proof->count)
-                               : feature_make(f->b, (vec3){0, 0, 0}, proof->b, proof->weight_b, proof->count);
+    feature start =
+        is_swapped ? feature_make(f->a, (vec3){0, 0, 0}, (weighted_vertices){proof->a, proof->weight_a, proof->count})
+                   : feature_make(f->b, (vec3){0, 0, 0}, (weighted_vertices){proof->b, proof->weight_b, proof->count});
     vec3 q = vec3_add(bodies[1].base, mat3_mul_vec3(bodies[1].rotation, start.point));
     int is_found = bodies[1].form.kind == ROUND_NONE ? find_with_hull(&bodies[0], &bodies[1], q, &found)
                                                      : find_with_round(&bodies[0], &bodies[1], q, &found);
@@ -302,16 +315,17 @@ void gradient_refine_round(const pair_frame *f, const ovoid_pair *pair, const ov
     double gap = -find_support(&bodies[1], vec3_neg(found.n)) - find_support(&bodies[0], found.n);
     double lower = gap - 2 * f->check, upper = found.upper + 2 * f->check;
     if (!(lower > 0)) return;
-    double turn = gradient_find_angle_above((upper - lower) / upper), slope, slide;
-    if (!(turn < out->turn)) return;
-    find_points(bodies, &found, turn, upper - lower, sqrt(max2((upper - lower) * (upper + lower), 0)), &slope, &slide);
+    const doubt d = {gradient_find_angle_above((upper - lower) / upper), upper - lower,
+                     sqrt(max2((upper - lower) * (upper + lower), 0))};
+    if (!(d.turn < out->turn)) return;
+    sliding points = find_points(bodies, &found, &d);
     vec3 n = is_swapped ? vec3_neg(found.n) : found.n, to_p = vec3_sub(found.p, bodies[0].base),
          to_q = vec3_sub(found.q, bodies[1].base);
     gradient_put(f, n, is_swapped ? to_q : to_p, is_swapped ? to_p : to_q, out);
-    out->turn = turn;
+    out->turn = d.turn;
     out->margin = INFINITY;
-    out->slope = min2(slope, 1);
-    out->slide = slide;
+    out->slope = min2(points.slope, 1);
+    out->slide = points.slide;
     out->has_translation = 1;
-    out->has_rotation = slide < INFINITY;
+    out->has_rotation = points.slide < INFINITY;
 }

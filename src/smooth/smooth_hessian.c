@@ -22,10 +22,16 @@ static mat2 mat2_mul(const mat2 *a, const mat2 *b) {
                   a->yx * b->xy + a->yy * b->yy};
 }
 static mat2 mat2_adjugate(const mat2 *a) { return (mat2){a->yy, -a->xy, -a->yx, a->xx}; }
-/// r a + s b + t c
-static mat2 mat2_sum(const mat2 *a, double r, const mat2 *b, double s, const mat2 *c, double t) {
-    return (mat2){(r * a->xx + s * b->xx) + t * c->xx, (r * a->xy + s * b->xy) + t * c->xy,
-                  (r * a->yx + s * b->yx) + t * c->yx, (r * a->yy + s * b->yy) + t * c->yy};
+// A matrix times a number.
+typedef struct scaled2 {
+    double by;
+    const mat2 *m;
+} scaled2;
+
+static mat2 mat2_sum(scaled2 a, scaled2 b, scaled2 c) {
+    return (mat2){
+        (a.by * a.m->xx + b.by * b.m->xx) + c.by * c.m->xx, (a.by * a.m->xy + b.by * b.m->xy) + c.by * c.m->xy,
+        (a.by * a.m->yx + b.by * b.m->yx) + c.by * c.m->yx, (a.by * a.m->yy + b.by * b.m->yy) + c.by * c.m->yy};
 }
 
 // The springs at the meeting point, eliminated: K = A + B + g.
@@ -42,7 +48,7 @@ typedef struct springs {
 static mat2 find_own(const curvature *a, const curvature *b, double g, double scale) {
     mat2 one = {1, 0, 0, 1}, ma = mat2_from(a, 1), mb = mat2_from(b, 1);
     double rest = b->det + g * ((b->xx + b->yy) + g);
-    return mat2_sum(&ma, rest * scale, &mb, a->det * scale, &one, g * a->det * scale);
+    return mat2_sum((scaled2){rest * scale, &ma}, (scaled2){a->det * scale, &mb}, (scaled2){g * a->det * scale, &one});
 }
 
 static springs springs_make(const curvature *a, const curvature *b, double g) {
@@ -52,27 +58,28 @@ static springs springs_make(const curvature *a, const curvature *b, double g) {
     mat2 adj_a = mat2_adjugate(&ma), adj_b = mat2_adjugate(&mb);
     mat2 ba = mat2_mul(&adj_b, &ma), ab = mat2_mul(&adj_a, &mb), product = mat2_mul(&ma, &mb);
     springs s = {.inverse = mat2_adjugate(&mk), .least = curvature_compute_least(&k)};
-    s.by_a = mat2_sum(&one, a->det * scale, &ba, scale, &ma, g * scale);
-    s.by_b = mat2_sum(&one, b->det * scale, &ab, scale, &mb, g * scale);
+    s.by_a = mat2_sum((scaled2){a->det * scale, &one}, (scaled2){scale, &ba}, (scaled2){g * scale, &ma});
+    s.by_b = mat2_sum((scaled2){b->det * scale, &one}, (scaled2){scale, &ab}, (scaled2){g * scale, &mb});
     s.own_a = find_own(a, b, g, scale);
     s.own_b = find_own(b, a, g, scale);
-    s.cross = mat2_sum(&mb, a->det * scale, &ma, b->det * scale, &product, g * scale);
+    s.cross = mat2_sum((scaled2){a->det * scale, &mb}, (scaled2){b->det * scale, &ma}, (scaled2){g * scale, &product});
     s.stiffest = max2(fabs(s.own_a.xx + s.own_a.yy), fabs(s.own_b.xx + s.own_b.yy));
     return s;
 }
 
 static void put(double *to, vec3 v) { to[0] = v.x, to[1] = v.y, to[2] = v.z; }
 
-// The entries of a row that are not zero, among the twelve numbers.
-typedef struct span {
+// Two rows over the twelve numbers, which are zero but from `first` to `end`.
+typedef struct rows2 {
+    double (*row)[12];
     int first, end;
-} span;
+} rows2;
 
-// Adds u' M v to the matrix for rows u[2][12], v[2][12] that are zero outside of their spans.
-static void add_form(double h[12][12], double u[2][12], span in_u, const mat2 *m, double v[2][12], span in_v) {
-    for (int i = in_u.first; i < in_u.end; i++) {
-        double x = u[0][i] * m->xx + u[1][i] * m->yx, y = u[0][i] * m->xy + u[1][i] * m->yy;
-        for (int j = in_v.first; j < in_v.end; j++) h[i][j] += x * v[0][j] + y * v[1][j];
+// Adds u' M v to the matrix.
+static void add_form(double h[12][12], rows2 u, const mat2 *m, rows2 v) {
+    for (int i = u.first; i < u.end; i++) {
+        double x = u.row[0][i] * m->xx + u.row[1][i] * m->yx, y = u.row[0][i] * m->xy + u.row[1][i] * m->yy;
+        for (int j = v.first; j < v.end; j++) h[i][j] += x * v.row[0][j] + y * v.row[1][j];
     }
 }
 
@@ -103,13 +110,13 @@ static void fill_hessian(const springs *s, const tangents *plane, vec3 n, const 
     mat2 own_b = {-0.5 * s->own_b.xx, -0.5 * s->own_b.xy, -0.5 * s->own_b.yx, -0.5 * s->own_b.yy};
     mat2 half = {0.5 * s->inverse.xx, 0.5 * s->inverse.xy, 0.5 * s->inverse.yx, 0.5 * s->inverse.yy};
     double g[12][12] = {{0}};
-    const span all = {0, 12}, in_a = {3, 6}, in_b = {9, 12};
-    add_form(g, t, all, &half, t, all);
-    add_form(g, t, all, &s->by_a, a, in_a);
-    add_form(g, t, all, &s->by_b, b, in_b);
-    add_form(g, a, in_a, &s->cross, b, in_b);
-    add_form(g, a, in_a, &own_a, a, in_a);
-    add_form(g, b, in_b, &own_b, b, in_b);
+    const rows2 across = {t, 0, 12}, turns_a = {a, 3, 6}, turns_b = {b, 9, 12};
+    add_form(g, across, &half, across);
+    add_form(g, across, &s->by_a, turns_a);
+    add_form(g, across, &s->by_b, turns_b);
+    add_form(g, turns_a, &s->cross, turns_b);
+    add_form(g, turns_a, &own_a, turns_a);
+    add_form(g, turns_b, &own_b, turns_b);
     for (int i = 0; i < 12; i++)
         for (int j = 0; j < 12; j++) h[i][j] = g[i][j] + g[j][i];
     add_turning(h, 3, lever[0], n);

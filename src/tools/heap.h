@@ -11,31 +11,39 @@ typedef int heap_order(const void *a, const void *b);
 
 #define HEAP_INLINE static inline __attribute__((always_inline))
 
-/// Adds an item to a heap of `count`; there must be room for it.
-HEAP_INLINE void heap_push(void *items, size_t count, size_t size, const void *item, heap_order *is_above) {
-    char *all = items;
-    size_t at = count;
-    for (size_t parent; at > 0 && is_above(item, all + (parent = (at - 1) / 2) * size); at = parent)
-        memcpy(all + at * size, all + parent * size, size);
-    memcpy(all + at * size, item, size);
+/// A heap in an array of `count` items, `size` bytes each.
+typedef struct heap {
+    void *items;
+    size_t count, size;
+    heap_order *is_above;
+} heap;
+
+/// Adds an item; there must be room for it.
+HEAP_INLINE void heap_push(heap h, const void *item) {
+    char *all = h.items;
+    size_t at = h.count;
+    for (size_t parent; at > 0 && h.is_above(item, all + (parent = (at - 1) / 2) * h.size); at = parent)
+        memcpy(all + at * h.size, all + parent * h.size, h.size);
+    memcpy(all + at * h.size, item, h.size);
 }
 
-/// Puts an item, which is not in the array, at `at` or below it, where the heap of `count` has a hole.
-HEAP_INLINE void heap_sink(void *items, size_t count, size_t size, size_t at, const void *item, heap_order *is_above) {
-    char *all = items;
-    for (size_t child; (child = 2 * at + 1) < count; at = child) {
-        if (child + 1 < count && is_above(all + (child + 1) * size, all + child * size)) child++;
-        if (!is_above(all + child * size, item)) break;
-        memcpy(all + at * size, all + child * size, size);
+/// Puts an item, which is not in the array, at `at` or below it, where the heap has a hole.
+HEAP_INLINE void heap_sink(heap h, size_t at, const void *item) {
+    char *all = h.items;
+    for (size_t child; (child = 2 * at + 1) < h.count; at = child) {
+        if (child + 1 < h.count && h.is_above(all + (child + 1) * h.size, all + child * h.size)) child++;
+        if (!h.is_above(all + child * h.size, item)) break;
+        memcpy(all + at * h.size, all + child * h.size, h.size);
     }
-    memcpy(all + at * size, item, size);
+    memcpy(all + at * h.size, item, h.size);
 }
 
-/// Moves the top of a heap of `count`, at least one, to *top; count - 1 items remain.
-HEAP_INLINE void heap_pop(void *items, size_t count, size_t size, void *top, heap_order *is_above) {
-    char *all = items;
-    memcpy(top, all, size);
-    if (count > 1) heap_sink(items, count - 1, size, 0, all + (count - 1) * size, is_above);
+/// Moves the top of a heap of at least one item to *top; count - 1 items remain.
+HEAP_INLINE void heap_pop(heap h, void *top) {
+    char *all = h.items;
+    memcpy(top, all, h.size);
+    h.count--;
+    if (h.count > 0) heap_sink(h, 0, all + h.count * h.size);
 }
 
 #endif

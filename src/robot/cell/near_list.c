@@ -11,9 +11,9 @@ static int is_before(near_key a, near_key b) { return a.lower < b.lower || (a.lo
 // The farthest belongs above.
 static int is_farther(const void *a, const void *b) { return is_before(*(const near_key *)b, *(const near_key *)a); }
 
-static void sink(near_key *heap, size_t count, size_t at) {
-    near_key moved = heap[at];
-    heap_sink(heap, count, sizeof moved, at, &moved, is_farther);
+static void sink(near_key *keys, size_t count, size_t at) {
+    near_key moved = keys[at];
+    heap_sink((heap){keys, count, sizeof moved, is_farther}, at, &moved);
 }
 
 uint32_t near_list_find_slot(near_list *list, double lower) {

@@ -51,13 +51,13 @@ static int is_worse(const void *a, const void *b) {
     return ((const spheres_cell *)a)->key > ((const spheres_cell *)b)->key;
 }
 
-void spheres_heap_push(spheres_heap *heap, const spheres_cell *cell) {
-    heap_push(heap->cells, heap->count++, sizeof *cell, cell, is_worse);
+void spheres_heap_push(spheres_heap *all, const spheres_cell *cell) {
+    heap_push((heap){all->cells, all->count++, sizeof *cell, is_worse}, cell);
 }
 
-spheres_cell spheres_heap_pop(spheres_heap *heap) {
+spheres_cell spheres_heap_pop(spheres_heap *all) {
     spheres_cell top;
-    heap_pop(heap->cells, heap->count--, sizeof top, &top, is_worse);
+    heap_pop((heap){all->cells, all->count--, sizeof top, is_worse}, &top);
     return top;
 }
 

@@ -14,19 +14,19 @@ static int compare_numbers(const void *a, const void *b) { return is_above(b, a)
 
 // What is pushed comes out in order, also where numbers are equal and where pushing goes on in between.
 static void test_heap(void) {
-    uint64_t s = 1, heap[MOST], sorted[MOST], top;
+    uint64_t s = 1, items[MOST], sorted[MOST], top;
     for (size_t count = 1; count <= MOST; count++) {
         check_seed = count;
         for (size_t i = 0; i < count; i++) {
             sorted[i] = random_next(&s) % count;
-            heap_push(heap, i, sizeof *heap, &sorted[i], is_above);
+            heap_push((heap){items, i, sizeof *items, is_above}, &sorted[i]);
         }
         qsort(sorted, count, sizeof *sorted, compare_numbers);
         for (size_t i = 0; i < count; i++) {
-            heap_pop(heap, count - i, sizeof *heap, &top, is_above);
+            heap_pop((heap){items, count - i, sizeof *items, is_above}, &top);
             CHECK_EQ(top, sorted[i]);
-            heap_push(heap, count - i - 1, sizeof *heap, &top, is_above);
-            heap_pop(heap, count - i, sizeof *heap, &top, is_above);
+            heap_push((heap){items, count - i - 1, sizeof *items, is_above}, &top);
+            heap_pop((heap){items, count - i, sizeof *items, is_above}, &top);
             CHECK_EQ(top, sorted[i]);
         }
     }
