@@ -82,15 +82,13 @@ box_gap tree_frame_find_parting(const tree_frame *f, const body_tree *a, const b
 
 solid8_other tree_frame_turn(const tree_frame *f, int side, const tree_box *rest, vec3 normal) {
     // A box of b beside nodes of a, or the other way round; the normal goes from a to b.
-    solid8_other o = {.unit = 0};
-    o.center = side ? mat3_mul_vec3(f->to_b, vec3_sub(rest->center, f->between))
-                    : vec3_add(f->between, mat3_mul_vec3(f->to_a, rest->center));
-    o.rotation = side ? f->to_a : f->to_b;
-    o.absolute = side ? f->absolute_a : f->absolute_b;
-    o.turned = mat3_mul_vec3(side ? f->absolute_b : f->absolute_a, rest->half);
-    o.half = rest->half;
     vec3 in_b = mat3_mul_vec3(f->to_b, normal);
-    o.normal = side ? vec3_neg(in_b) : normal;
-    o.reach = find_reach(rest->half, side ? normal : in_b);
-    return o;
+    return (solid8_other){.center = side ? mat3_mul_vec3(f->to_b, vec3_sub(rest->center, f->between))
+                                         : vec3_add(f->between, mat3_mul_vec3(f->to_a, rest->center)),
+                          .turned = mat3_mul_vec3(side ? f->absolute_b : f->absolute_a, rest->half),
+                          .half = rest->half,
+                          .rotation = side ? f->to_a : f->to_b,
+                          .absolute = side ? f->absolute_a : f->absolute_b,
+                          .normal = side ? vec3_neg(in_b) : normal,
+                          .reach = find_reach(rest->half, side ? normal : in_b)};
 }

@@ -85,22 +85,20 @@ LANES_INLINE void take_edges(nearest *best, const edge *p, const edge *q) {
 
 // A triangle: its edges, and the cross product of the first two.
 typedef struct sides {
-    edge of[3];
+    const edge *of;
     lane3 normal;
 } sides;
 
-LANES_INLINE sides make_sides(const lane3 corner[3]) {
-    sides s;
-    for (int i = 0; i < 3; i++) s.of[i] = make_edge(corner[i], corner[(i + 1) % 3]);
-    s.normal = lane3_cross(s.of[0].along, s.of[1].along);
-    return s;
+LANES_INLINE sides make_sides(const lane3 corner[3], edge of[3]) {
+    for (int i = 0; i < 3; i++) of[i] = make_edge(corner[i], corner[(i + 1) % 3]);
+    return (sides){of, lane3_cross(of[0].along, of[1].along)};
 }
 
 // A corner above the inside of a triangle: sign 1 where the corner is of the other body, whose points are subtracted
 // from.
-LANES_INLINE void take_corner(nearest *best, lane3 corner, const sides *s, lane sign) {
-    const edge *of = s->of;
-    lane3 normal = s->normal;
+LANES_INLINE void take_corner(nearest *best, lane3 corner, sides s, lane sign) {
+    const edge *of = s.of;
+    lane3 normal = s.normal;
     lane zero = lane_set(0), square = lane3_dot(normal, normal);
     lane_mask inside = lane_greater(square, zero);
     for (int i = 0; i < 3; i++) {
@@ -151,11 +149,12 @@ LANES_INLINE int run_directions(const solid8_triangle *one, const lane3 p[3], co
 
 LANES_TARGET static void run_triangles(const solid8_triangle *one, const solid8_triangles *eight, solid8_gaps *out) {
     lane3 p[3], q[3];
+    edge a[3], b[3];
     lane_gaps gaps;
     lane9 rotation = spread9(&one->rotation);
     lane3 translation = spread(one->translation);
     for (int i = 0; i < 3; i++) p[i] = spread(one->corner[i]);
-    sides a = make_sides(p);
+    sides side_a = make_sides(p, a);
     for (int at = 0; at < BOX8; at += LANES) {
         for (int i = 0; i < 3; i++) {
             lane3 own = {lane_load(eight->corner[i][0] + at), lane_load(eight->corner[i][1] + at),
@@ -166,13 +165,13 @@ LANES_TARGET static void run_triangles(const solid8_triangle *one, const solid8_
             put_gaps(out, at, &gaps);
             continue;
         }
-        sides b = make_sides(q);
+        sides side_b = make_sides(q, b);
         nearest best = {lane_set(INFINITY), {lane_set(0), lane_set(0), lane_set(0)}};
         for (int i = 0; i < 3; i++)
-            for (int j = 0; j < 3; j++) take_edges(&best, &a.of[i], &b.of[j]);
+            for (int j = 0; j < 3; j++) take_edges(&best, &a[i], &b[j]);
         for (int i = 0; i < 3; i++) {
-            take_corner(&best, q[i], &a, lane_set(1));
-            take_corner(&best, p[i], &b, lane_set(-1));
+            take_corner(&best, q[i], side_a, lane_set(1));
+            take_corner(&best, p[i], side_b, lane_set(-1));
         }
         lane_mask good = always();
         lane3 n = lane3_unit(best.d, &good);
