@@ -71,8 +71,8 @@ corner_step simd_step_from_corner_scalar(const corner_lanes *old, unsigned valid
 #include "simd/kernels/corner_avx2.h"
 
 __attribute__((target("avx2"))) static corner_step step_avx2(const corner_lanes *old, unsigned valid, vec3 a) {
-    lanes3 corners = {_mm256_load_pd(old->x), _mm256_load_pd(old->y), _mm256_load_pd(old->z)};
-    return corner_step_avx2(corners, valid, (lanes3){_mm256_set1_pd(a.x), _mm256_set1_pd(a.y), _mm256_set1_pd(a.z)});
+    vectors4 corners = {_mm256_load_pd(old->x), _mm256_load_pd(old->y), _mm256_load_pd(old->z)};
+    return corner_step_avx2(corners, valid, vectors4_spread(a));
 }
 
 corner_step simd_step_from_corner(const corner_lanes *old, unsigned valid, vec3 a) {

@@ -23,21 +23,21 @@ void simd_pose_points_scalar(const simd_points *from, const double rows[9], cons
 
 #if defined(__x86_64__) && defined(__GNUC__)
 
-#include <immintrin.h>
+#include "simd/vectors.h"
 
 enum { MOST = 64 };
 
 #define AVX2 __attribute__((target("avx2")))
 
 AVX2 static inline __attribute__((always_inline)) support_result find_avx2(const simd_points *p, vec3 n) {
-    __m256d value[MOST / 4], ax = _mm256_set1_pd(n.x), ay = _mm256_set1_pd(n.y), az = _mm256_set1_pd(n.z);
+    vectors4 along = vectors4_spread(n);
+    __m256d value[MOST / 4];
     __m256d even = _mm256_set1_pd(-__builtin_inf()), odd = even;
     uint32_t count = p->padded_count / 4;
     for (uint32_t i = 0; i < count; i += 2) {
         for (uint32_t k = 0; k < 2; k++)
-            value[i + k] = _mm256_add_pd(_mm256_add_pd(_mm256_mul_pd(_mm256_loadu_pd(p->x + 4 * (i + k)), ax),
-                                                       _mm256_mul_pd(_mm256_loadu_pd(p->y + 4 * (i + k)), ay)),
-                                         _mm256_mul_pd(_mm256_loadu_pd(p->z + 4 * (i + k)), az));
+            value[i + k] =
+                vectors4_dot(vectors4_load(p->x + 4 * (i + k), p->y + 4 * (i + k), p->z + 4 * (i + k)), along);
         even = _mm256_max_pd(even, value[i]);
         odd = _mm256_max_pd(odd, value[i + 1]);
     }
@@ -74,19 +74,12 @@ AVX2 static void pose_points_avx2(const simd_points *from, const double rows[9],
 
 #define AVX512 __attribute__((target("avx512f")))
 
-/// Eight vectors.
-typedef struct vectors8 {
-    __m512d x, y, z;
-} vectors8;
-
 AVX512 static inline __m512d dot8(const simd_points *p, uint32_t i, vectors8 n) {
-    return _mm512_add_pd(_mm512_add_pd(_mm512_mul_pd(_mm512_loadu_pd(p->x + 8 * i), n.x),
-                                       _mm512_mul_pd(_mm512_loadu_pd(p->y + 8 * i), n.y)),
-                         _mm512_mul_pd(_mm512_loadu_pd(p->z + 8 * i), n.z));
+    return vectors8_dot(vectors8_load(p->x + 8 * i, p->y + 8 * i, p->z + 8 * i), n);
 }
 
 AVX512 static inline __attribute__((always_inline)) support_result find_avx512(const simd_points *p, vec3 n) {
-    vectors8 along = {_mm512_set1_pd(n.x), _mm512_set1_pd(n.y), _mm512_set1_pd(n.z)};
+    vectors8 along = vectors8_spread(n);
     __m512d value[MOST / 8];
     uint32_t count = p->padded_count / 8;
     __m512d m = value[0] = dot8(p, 0, along);

@@ -23,46 +23,32 @@ void simd_compute_cone_scalar(simd_cone *c, uint32_t count, vec3 apex) {
 
 #if defined(__x86_64__) && defined(__GNUC__)
 
-#include <immintrin.h>
+#include "simd/vectors.h"
 
 #define AVX2 __attribute__((target("avx2"))) static inline
 
-/// Four vectors.
-typedef struct vectors {
-    __m256d x, y, z;
-} vectors;
-
-AVX2 vectors load(double (*edge)[SIMD_CONE + 4], uint32_t i) {
-    return (vectors){_mm256_loadu_pd(edge[0] + i), _mm256_loadu_pd(edge[1] + i), _mm256_loadu_pd(edge[2] + i)};
-}
-AVX2 __m256d dot(vectors a, vectors b) {
-    __m256d xy = _mm256_add_pd(_mm256_mul_pd(a.x, b.x), _mm256_mul_pd(a.y, b.y));
-    return _mm256_add_pd(xy, _mm256_mul_pd(a.z, b.z));
-}
-AVX2 vectors cross(vectors a, vectors b) {
-    return (vectors){_mm256_sub_pd(_mm256_mul_pd(a.y, b.z), _mm256_mul_pd(a.z, b.y)),
-                     _mm256_sub_pd(_mm256_mul_pd(a.z, b.x), _mm256_mul_pd(a.x, b.z)),
-                     _mm256_sub_pd(_mm256_mul_pd(a.x, b.y), _mm256_mul_pd(a.y, b.x))};
+AVX2 vectors4 load(double (*edge)[SIMD_CONE + 4], uint32_t i) {
+    return vectors4_load(edge[0] + i, edge[1] + i, edge[2] + i);
 }
 
-AVX2 void compute_four(simd_cone *c, uint32_t i, vectors apex) {
+AVX2 void compute_four(simd_cone *c, uint32_t i, vectors4 apex) {
     const __m256d one = _mm256_set1_pd(1);
-    vectors u = load(c->edge, i), v = load(c->edge, i + 1), n = cross(u, v);
-    __m256d area = dot(n, n), uu = dot(u, u), vv = dot(v, v);
+    vectors4 u = load(c->edge, i), v = load(c->edge, i + 1), n = vectors4_cross(u, v);
+    __m256d area = vectors4_dot(n, n), uu = vectors4_dot(u, u), vv = vectors4_dot(v, v);
     __m256d is_wide = _mm256_cmp_pd(area, _mm256_set1_pd(SIMD_AREA_MIN), _CMP_GT_OQ);
     __m256d scale = _mm256_div_pd(one, _mm256_sqrt_pd(_mm256_blendv_pd(one, area, is_wide)));
-    n = (vectors){_mm256_mul_pd(n.x, scale), _mm256_mul_pd(n.y, scale), _mm256_mul_pd(n.z, scale)};
+    n = (vectors4){_mm256_mul_pd(n.x, scale), _mm256_mul_pd(n.y, scale), _mm256_mul_pd(n.z, scale)};
     _mm256_storeu_pd(c->n[0] + i, n.x);
     _mm256_storeu_pd(c->n[1] + i, n.y);
     _mm256_storeu_pd(c->n[2] + i, n.z);
-    _mm256_storeu_pd(c->offset + i, dot(n, apex));
+    _mm256_storeu_pd(c->offset + i, vectors4_dot(n, apex));
     _mm256_storeu_pd(c->area + i, area);
     _mm256_storeu_pd(c->product + i, _mm256_mul_pd(uu, vv));
     _mm256_storeu_pd(c->sum + i, _mm256_add_pd(uu, vv));
 }
 
 __attribute__((target("avx2"))) static void compute_cone_avx2(simd_cone *c, uint32_t count, vec3 apex) {
-    vectors all = {_mm256_set1_pd(apex.x), _mm256_set1_pd(apex.y), _mm256_set1_pd(apex.z)};
+    vectors4 all = vectors4_spread(apex);
     for (uint32_t i = 0; i < count; i += 4) compute_four(c, i, all);
 }
 

@@ -25,7 +25,7 @@ support_result simd_find_support_scalar(const simd_points *p, vec3 n) {
 
 #if defined(__x86_64__) && defined(__GNUC__)
 
-#include <immintrin.h>
+#include "simd/vectors.h"
 
 /// Lowest of the indices whose lane is set in mask (not 0).
 static inline uint32_t find_lowest(const uint64_t *indices, unsigned mask) {
@@ -105,24 +105,13 @@ AVX2 static inline lanes4 step4(lanes4 best, __m256d value, __m256i index) {
     return best;
 }
 
-/// A direction, the same in all lanes.
-typedef struct direction4 {
-    __m256d x, y, z;
-} direction4;
-
-AVX2 static inline direction4 spread4(vec3 n) {
-    return (direction4){_mm256_set1_pd(n.x), _mm256_set1_pd(n.y), _mm256_set1_pd(n.z)};
-}
-
 /// The values of four points from the i-th on.
-AVX2 static inline __m256d dot4(const simd_points *p, size_t i, direction4 n) {
-    return _mm256_add_pd(
-        _mm256_add_pd(_mm256_mul_pd(_mm256_loadu_pd(p->x + i), n.x), _mm256_mul_pd(_mm256_loadu_pd(p->y + i), n.y)),
-        _mm256_mul_pd(_mm256_loadu_pd(p->z + i), n.z));
+AVX2 static inline __m256d dot4(const simd_points *p, size_t i, vectors4 n) {
+    return vectors4_dot(vectors4_load(p->x + i, p->y + i, p->z + i), n);
 }
 
 AVX2 static support_result find_support_avx2(const simd_points *p, vec3 along) {
-    direction4 n = spread4(along);
+    vectors4 n = vectors4_spread(along);
     __m256i index = _mm256_set_epi64x(3, 2, 1, 0), four = _mm256_set1_epi64x(4);
     lanes4 even = {dot4(p, 0, n), index};
     index = _mm256_add_epi64(index, four);
@@ -160,24 +149,13 @@ AVX512 static inline lanes8 step8(lanes8 best, __m512d value, __m512i index) {
     return best;
 }
 
-/// A direction, the same in all lanes.
-typedef struct direction8 {
-    __m512d x, y, z;
-} direction8;
-
-AVX512 static inline direction8 spread8(vec3 n) {
-    return (direction8){_mm512_set1_pd(n.x), _mm512_set1_pd(n.y), _mm512_set1_pd(n.z)};
-}
-
 /// The values of eight points from the i-th on.
-AVX512 static inline __m512d dot8(const simd_points *p, size_t i, direction8 n) {
-    return _mm512_add_pd(
-        _mm512_add_pd(_mm512_mul_pd(_mm512_loadu_pd(p->x + i), n.x), _mm512_mul_pd(_mm512_loadu_pd(p->y + i), n.y)),
-        _mm512_mul_pd(_mm512_loadu_pd(p->z + i), n.z));
+AVX512 static inline __m512d dot8(const simd_points *p, size_t i, vectors8 n) {
+    return vectors8_dot(vectors8_load(p->x + i, p->y + i, p->z + i), n);
 }
 
 AVX512 static support_result find_support_avx512(const simd_points *p, vec3 along) {
-    direction8 n = spread8(along);
+    vectors8 n = vectors8_spread(along);
     __m512i index = _mm512_set_epi64(7, 6, 5, 4, 3, 2, 1, 0), eight = _mm512_set1_epi64(8);
     lanes8 even = {dot8(p, 0, n), index}, odd = even;
     size_t i = 8;

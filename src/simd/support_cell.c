@@ -44,27 +44,13 @@ void simd_find_unbeaten_scalar(const simd_cull *by, const simd_points *points, u
 
 #if defined(__x86_64__) && defined(__GNUC__)
 
-#include <immintrin.h>
+#include "simd/vectors.h"
 
 #define AVX2 __attribute__((target("avx2")))
 
-/// Four vectors.
-typedef struct vectors4 {
-    __m256d x, y, z;
-} vectors4;
-
-AVX2 static inline vectors4 load4(const double *x, const double *y, const double *z) {
-    return (vectors4){_mm256_loadu_pd(x), _mm256_loadu_pd(y), _mm256_loadu_pd(z)};
-}
-AVX2 static inline vectors4 spread4(vec3 n) {
-    return (vectors4){_mm256_set1_pd(n.x), _mm256_set1_pd(n.y), _mm256_set1_pd(n.z)};
-}
-AVX2 static inline __m256d dot4(vectors4 a, vectors4 b) {
-    return _mm256_add_pd(_mm256_add_pd(_mm256_mul_pd(a.x, b.x), _mm256_mul_pd(a.y, b.y)), _mm256_mul_pd(a.z, b.z));
-}
-
 AVX2 static inline simd_extreme find_avx2(const simd_cell *c, vectors4 n) {
-    __m256d low = dot4(load4(c->x, c->y, c->z), n), high = dot4(load4(c->x + 4, c->y + 4, c->z + 4), n);
+    __m256d low = vectors4_dot(vectors4_load(c->x, c->y, c->z), n),
+            high = vectors4_dot(vectors4_load(c->x + 4, c->y + 4, c->z + 4), n);
     __m256d m = _mm256_max_pd(low, high);
     m = _mm256_max_pd(m, _mm256_permute2f128_pd(m, m, 1));
     m = _mm256_max_pd(m, _mm256_permute_pd(m, 5));
@@ -75,7 +61,7 @@ AVX2 static inline simd_extreme find_avx2(const simd_cell *c, vectors4 n) {
 
 AVX2 static simd_extreme find_in_cell_avx2(const simd_cell *first, const simd_cell *more, uint32_t count,
                                            const vec3 *n) {
-    vectors4 along = spread4(*n);
+    vectors4 along = vectors4_spread(*n);
     simd_extreme best = find_avx2(first, along);
     for (; count > SIMD_CELL; count = count > 2 * SIMD_CELL ? count - SIMD_CELL : 0) {
         simd_extreme other = find_avx2(more++, along);
@@ -87,11 +73,11 @@ AVX2 static simd_extreme find_in_cell_avx2(const simd_cell *first, const simd_ce
 AVX2 static void find_unbeaten_avx2(const simd_cull *by, const simd_points *points, uint8_t *bits) {
     const double *x = points->x, *y = points->y, *z = points->z;
     vectors4 d[4];
-    for (int k = 0; k < 4; k++) d[k] = spread4(vec3_at(by->corners[k], 0));
+    for (int k = 0; k < 4; k++) d[k] = vectors4_spread(vec3_at(by->corners[k], 0));
     for (uint32_t i = 0; i < points->padded_count; i += 4) {
         __m256d v[4], beaten = _mm256_setzero_pd();
-        vectors4 p = load4(x + i, y + i, z + i);
-        for (int k = 0; k < 4; k++) v[k] = dot4(p, d[k]);
+        vectors4 p = vectors4_load(x + i, y + i, z + i);
+        for (int k = 0; k < 4; k++) v[k] = vectors4_dot(p, d[k]);
         for (uint32_t w = 0; w < by->limit_count; w++) {
             const double *limit = by->limits[w];
             __m256d a = _mm256_and_pd(_mm256_cmp_pd(v[0], _mm256_set1_pd(limit[0]), _CMP_LT_OQ),
@@ -107,30 +93,15 @@ AVX2 static void find_unbeaten_avx2(const simd_cull *by, const simd_points *poin
 
 #define AVX512 __attribute__((target("avx512f")))
 
-/// Eight vectors.
-typedef struct vectors8 {
-    __m512d x, y, z;
-} vectors8;
-
-AVX512 static inline vectors8 load8(const double *x, const double *y, const double *z) {
-    return (vectors8){_mm512_loadu_pd(x), _mm512_loadu_pd(y), _mm512_loadu_pd(z)};
-}
-AVX512 static inline vectors8 spread8(vec3 n) {
-    return (vectors8){_mm512_set1_pd(n.x), _mm512_set1_pd(n.y), _mm512_set1_pd(n.z)};
-}
-AVX512 static inline __m512d dot8(vectors8 a, vectors8 b) {
-    return _mm512_add_pd(_mm512_add_pd(_mm512_mul_pd(a.x, b.x), _mm512_mul_pd(a.y, b.y)), _mm512_mul_pd(a.z, b.z));
-}
-
 AVX512 static void find_unbeaten_avx512(const simd_cull *by, const simd_points *points, uint8_t *bits) {
     const double *x = points->x, *y = points->y, *z = points->z;
     vectors8 d[4];
-    for (int k = 0; k < 4; k++) d[k] = spread8(vec3_at(by->corners[k], 0));
+    for (int k = 0; k < 4; k++) d[k] = vectors8_spread(vec3_at(by->corners[k], 0));
     for (uint32_t i = 0; i < points->padded_count; i += 8) {
         __m512d v[4];
         unsigned beaten = 0;
-        vectors8 p = load8(x + i, y + i, z + i);
-        for (int k = 0; k < 4; k++) v[k] = dot8(p, d[k]);
+        vectors8 p = vectors8_load(x + i, y + i, z + i);
+        for (int k = 0; k < 4; k++) v[k] = vectors8_dot(p, d[k]);
         for (uint32_t w = 0; w < by->limit_count; w++) {
             const double *limit = by->limits[w];
             __mmask8 all = _mm512_cmp_pd_mask(v[0], _mm512_set1_pd(limit[0]), _CMP_LT_OQ);

@@ -9,7 +9,7 @@
 
 // The difference in all lanes.
 typedef struct met {
-    lanes3 w;
+    vectors4 w;
     double gap;
     uint32_t a, b;
 } met;
@@ -20,26 +20,24 @@ SMALL_GJK_INLINE void met_get(const met *m, double w[3]) {
     w[2] = _mm256_cvtsd_f64(m->w.z);
 }
 
-SMALL_GJK_INLINE void met_set(met *m, const double w[3]) {
-    m->w = (lanes3){_mm256_set1_pd(w[0]), _mm256_set1_pd(w[1]), _mm256_set1_pd(w[2])};
-}
+SMALL_GJK_INLINE void met_set(met *m, const double w[3]) { m->w = vectors4_spread(vec3_at(w, 0)); }
 
-SMALL_GJK_INLINE __m256d turn(const double row[3], lanes3 p, double t) {
+SMALL_GJK_INLINE __m256d turn(const double row[3], vectors4 p, double t) {
     __m256d sum = _mm256_add_pd(_mm256_mul_pd(_mm256_set1_pd(row[0]), p.x), _mm256_mul_pd(_mm256_set1_pd(row[1]), p.y));
     sum = _mm256_add_pd(sum, _mm256_mul_pd(_mm256_set1_pd(row[2]), p.z));
     return _mm256_add_pd(sum, _mm256_set1_pd(t));
 }
 
 // Four points; the smaller body of a pair repeats its first ones: the lowest index among equals is the same.
-SMALL_GJK_INLINE lanes3 load_points(const simd_points *from, uint32_t i) {
+SMALL_GJK_INLINE vectors4 load_points(const simd_points *from, uint32_t i) {
     uint32_t at = i < from->padded_count ? i : i & 4;
-    return (lanes3){_mm256_loadu_pd(from->x + at), _mm256_loadu_pd(from->y + at), _mm256_loadu_pd(from->z + at)};
+    return vectors4_load(from->x + at, from->y + at, from->z + at);
 }
 
 SMALL_GJK_INLINE void pose_points(small_gjk_body *p, const placed_points *from, uint32_t blocks) {
     const double *rows = from->rows, *t = from->at;
     for (uint32_t i = 0; i < 8 * blocks; i += 4) {
-        lanes3 v = load_points(&from->points, i);
+        vectors4 v = load_points(&from->points, i);
         _mm256_store_pd(p->x + i, turn(rows, v, t[0]));
         _mm256_store_pd(p->y + i, turn(rows + 3, v, t[1]));
         _mm256_store_pd(p->z + i, turn(rows + 6, v, t[2]));
@@ -49,9 +47,9 @@ SMALL_GJK_INLINE void pose_points(small_gjk_body *p, const placed_points *from, 
 // Moves points that are turned already; the bits are those of posing them.
 SMALL_GJK_INLINE void move_points(small_gjk_body *p, const placed_points *from, uint32_t blocks) {
     const double *t = from->at;
-    lanes3 by = {_mm256_set1_pd(t[0]), _mm256_set1_pd(t[1]), _mm256_set1_pd(t[2])};
+    vectors4 by = vectors4_spread(vec3_at(t, 0));
     for (uint32_t i = 0; i < 8 * blocks; i += 4) {
-        lanes3 v = load_points(&from->points, i);
+        vectors4 v = load_points(&from->points, i);
         _mm256_store_pd(p->x + i, _mm256_add_pd(v.x, by.x));
         _mm256_store_pd(p->y + i, _mm256_add_pd(v.y, by.y));
         _mm256_store_pd(p->z + i, _mm256_add_pd(v.z, by.z));
@@ -79,25 +77,25 @@ SMALL_GJK_INLINE support_result find_best(const __m256d *v, uint32_t blocks, int
 }
 
 // The lowest index among the points that are extreme along n, and their value.
-SMALL_GJK_INLINE support_result find_extreme(const small_gjk_body *p, lanes3 n, uint32_t blocks, int is_least) {
+SMALL_GJK_INLINE support_result find_extreme(const small_gjk_body *p, vectors4 n, uint32_t blocks, int is_least) {
     __m256d v[SMALL_GJK_POINTS / 4];
     for (uint32_t i = 0; i < 2 * blocks; i++)
-        v[i] =
-            dot4((lanes3){_mm256_load_pd(p->x + 4 * i), _mm256_load_pd(p->y + 4 * i), _mm256_load_pd(p->z + 4 * i)}, n);
+        v[i] = vectors4_dot(
+            (vectors4){_mm256_load_pd(p->x + 4 * i), _mm256_load_pd(p->y + 4 * i), _mm256_load_pd(p->z + 4 * i)}, n);
     return find_best(v, blocks, is_least);
 }
 
 // The extreme point of a body whose points are in its own frame.
 SMALL_GJK_INLINE support_result find_extreme_point(const simd_points *p, vec3 n, uint32_t blocks, int is_least) {
-    lanes3 along = {_mm256_set1_pd(n.x), _mm256_set1_pd(n.y), _mm256_set1_pd(n.z)};
+    vectors4 along = vectors4_spread(n);
     __m256d v[SMALL_GJK_POINTS / 4];
-    for (uint32_t i = 0; i < 2 * blocks; i++) v[i] = dot4(load_points(p, 4 * i), along);
+    for (uint32_t i = 0; i < 2 * blocks; i++) v[i] = vectors4_dot(load_points(p, 4 * i), along);
     return find_best(v, blocks, is_least);
 }
 
 SMALL_GJK_INLINE void measure(met *m, const small_gjk_bodies *bodies, uint32_t blocks, vec3 along) {
     const small_gjk_body *a = &bodies->a, *b = &bodies->b;
-    lanes3 n = {_mm256_set1_pd(along.x), _mm256_set1_pd(along.y), _mm256_set1_pd(along.z)};
+    vectors4 n = vectors4_spread(along);
     support_result high = find_extreme(a, n, blocks, 0), low = find_extreme(b, n, blocks, 1);
     uint32_t i = m->a = high.index, k = m->b = low.index;
     m->gap = low.value - high.value;
@@ -106,7 +104,7 @@ SMALL_GJK_INLINE void measure(met *m, const small_gjk_bodies *bodies, uint32_t b
     m->w.z = _mm256_sub_pd(_mm256_set1_pd(b->z[k]), _mm256_set1_pd(a->z[i]));
 }
 
-typedef lanes3 corners;
+typedef vectors4 corners;
 
 SMALL_GJK_INLINE void corners_fill(corners *c, const met *m) { *c = m->w; }
 
@@ -119,14 +117,14 @@ SMALL_GJK_INLINE void corners_put(corners *c, unsigned i, const met *m) {
     c->z = _mm256_blendv_pd(c->z, m->w.z, lane);
 }
 
-SMALL_GJK_INLINE lanes3 gather_points(const simd_points *p, const uint32_t at[4]) {
-    return (lanes3){_mm256_setr_pd(p->x[at[0]], p->x[at[1]], p->x[at[2]], p->x[at[3]]),
-                    _mm256_setr_pd(p->y[at[0]], p->y[at[1]], p->y[at[2]], p->y[at[3]]),
-                    _mm256_setr_pd(p->z[at[0]], p->z[at[1]], p->z[at[2]], p->z[at[3]])};
+SMALL_GJK_INLINE vectors4 gather_points(const simd_points *p, const uint32_t at[4]) {
+    return (vectors4){_mm256_setr_pd(p->x[at[0]], p->x[at[1]], p->x[at[2]], p->x[at[3]]),
+                      _mm256_setr_pd(p->y[at[0]], p->y[at[1]], p->y[at[2]], p->y[at[3]]),
+                      _mm256_setr_pd(p->z[at[0]], p->z[at[1]], p->z[at[2]], p->z[at[3]])};
 }
 
 SMALL_GJK_INLINE void corners_meet(corners *c, const small_gjk_query *q, const uint32_t a[4], const uint32_t b[4]) {
-    lanes3 in_a = gather_points(&q->a, a), in_b = gather_points(&q->b, b);
+    vectors4 in_a = gather_points(&q->a, a), in_b = gather_points(&q->b, b);
     c->x = _mm256_sub_pd(turn(q->rows_b, in_b, q->offset[0]), turn(q->rows_a, in_a, 0));
     c->y = _mm256_sub_pd(turn(q->rows_b + 3, in_b, q->offset[1]), turn(q->rows_a + 3, in_a, 0));
     c->z = _mm256_sub_pd(turn(q->rows_b + 6, in_b, q->offset[2]), turn(q->rows_a + 6, in_a, 0));
