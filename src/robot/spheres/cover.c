@@ -23,6 +23,7 @@ enum {
 typedef struct cover_work {
     const spheres_link *link;
     spheres_samples now, scratch;
+    box *boxes;                  ///< all of the samples' boxes
     ovoid_robot_sphere *written; ///< the balls in the caller's unit, for the audit
     spheres_heap heap;
     size_t moves;
@@ -37,13 +38,21 @@ static void close_work(cover_work *m) {
     allocator_release(memory, m->scratch.point_hits);
     allocator_release(memory, m->scratch.balls);
     allocator_release(memory, m->now.own);
-    allocator_release(memory, m->now.outside_boxes);
-    allocator_release(memory, m->now.point_boxes);
+    allocator_release(memory, m->boxes);
     allocator_release(memory, m->now.balls);
     allocator_release(memory, m->now.outside_hits);
     allocator_release(memory, m->now.point_hits);
     allocator_release(memory, m->now.outside);
     allocator_release(memory, m->now.points);
+}
+
+static void open_boxes(cover_work *m, const ovoid_allocator *memory, size_t points) {
+    const size_t counts[] = {points / BLOCK + 1, points / GROUP + 1, OUTSIDE / BLOCK + 1, OUTSIDE / GROUP + 1};
+    m->boxes = allocator_allocate(memory, counts[0] + counts[1] + counts[2] + counts[3], sizeof *m->boxes);
+    if (!m->boxes) return;
+    m->now.point_boxes = (sample_boxes){m->boxes, m->boxes + counts[0]};
+    box *outside = m->now.point_boxes.groups + counts[1];
+    m->now.outside_boxes = (sample_boxes){outside, outside + counts[2]};
 }
 
 static ovoid_code open_work(cover_work *m, const spheres_link *link, size_t balls, ovoid_error *error) {
@@ -56,16 +65,15 @@ static ovoid_code open_work(cover_work *m, const spheres_link *link, size_t ball
     m->now.point_hits = allocator_allocate(memory, room, sizeof *m->now.point_hits);
     m->now.outside_hits = allocator_allocate(memory, OUTSIDE, sizeof *m->now.outside_hits);
     m->now.balls = allocator_allocate(memory, balls, sizeof *m->now.balls);
-    m->now.point_boxes = allocator_allocate(memory, room / BLOCK + 1, sizeof *m->now.point_boxes);
-    m->now.outside_boxes = allocator_allocate(memory, OUTSIDE / BLOCK + 1, sizeof *m->now.outside_boxes);
+    open_boxes(m, memory, room);
     m->now.own = allocator_allocate(memory, room + 1, sizeof *m->now.own);
     m->scratch.balls = allocator_allocate(memory, balls, sizeof *m->scratch.balls);
     m->scratch.point_hits = allocator_allocate(memory, room, sizeof *m->scratch.point_hits);
     m->scratch.outside_hits = allocator_allocate(memory, OUTSIDE, sizeof *m->scratch.outside_hits);
     m->written = allocator_allocate(memory, balls, sizeof *m->written);
-    if (m->now.point_boxes && m->now.outside_boxes && m->now.points && m->now.outside && m->now.point_hits &&
-        m->now.outside_hits && m->now.balls && m->now.own && m->scratch.balls && m->scratch.point_hits &&
-        m->scratch.outside_hits && m->written && spheres_heap_open(&m->heap, link, CELLS, NULL) == OVOID_OK)
+    if (m->boxes && m->now.points && m->now.outside && m->now.point_hits && m->now.outside_hits && m->now.balls &&
+        m->now.own && m->scratch.balls && m->scratch.point_hits && m->scratch.outside_hits && m->written &&
+        spheres_heap_open(&m->heap, link, CELLS, NULL) == OVOID_OK)
         return OVOID_OK;
     close_work(m);
     return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for a cover of %zu spheres", balls);

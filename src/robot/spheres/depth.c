@@ -9,6 +9,8 @@
 // before, so a bracket of width w costs about log(1 / w); where f is the same along curves, about 1 / w.
 #include "robot/spheres/spheres.h"
 
+#include <string.h>
+
 enum { LEVELS = 110, LOOKS = 16 };
 
 // A search.
@@ -20,13 +22,16 @@ typedef struct search {
     double settled; ///< the greatest bound of cells that are too small to be halved
 } search;
 
-// A point that is within `off` of the true body of the part.
-static void try_point(search *s, uint32_t part, vec3 x, double off) {
-    uint32_t nearest;
+// A point that is within `off` of the true body of the part; `of`: its cell, with a sphere that is likely
+// to hold it.
+static void try_point(search *s, const spheres_cell *of, vec3 x, double off) {
+    uint32_t nearest = of->sphere;
+    // Most points are no deeper than the deepest: one sphere shows that.
+    if (!(spheres_tree_measure_value(s->tree, nearest, x) - off - s->link->pad > s->found.lower)) return;
     double value = spheres_tree_find_value(s->tree, x, &nearest) - off - s->link->pad;
     if (value > s->found.lower) {
         s->found.lower = value, s->found.point = x;
-        s->found.part = part, s->found.sphere = nearest;
+        s->found.part = of->part, s->found.sphere = nearest;
     }
 }
 
@@ -34,12 +39,13 @@ static void try_point(search *s, uint32_t part, vec3 x, double off) {
 // from one sphere grows with each step, as the part is convex; where another sphere is nearer then, nothing is lost.
 static void climb(search *s, uint32_t index) {
     const spheres_part *part = &s->link->parts[index];
+    const spheres_cell at = {.part = index};
     for (int step = 0; step < 4; step++) {
         double before = s->found.lower;
         vec3 away = vec3_unit(vec3_sub(s->found.point, s->tree->items[s->found.sphere].center));
         vec3 x = vec3_add_scaled(s->found.point, away, 4 * part->beyond);
         ovoid_answer a = spheres_part_probe(s->link, part, x);
-        if (a.status == OVOID_SEPARATED) try_point(s, index, vec3_scale(a.point_a, 1 / s->link->unit), part->inside);
+        if (a.status == OVOID_SEPARATED) try_point(s, &at, vec3_scale(a.point_a, 1 / s->link->unit), part->inside);
         if (!(s->found.lower > before)) return;
     }
 }
@@ -66,9 +72,9 @@ static int try_probe(search *s, spheres_cell *cell) {
     ovoid_answer a = spheres_part_probe(s->link, part, around.middle);
     double before = s->found.lower;
     if (a.upper <= 0)
-        try_point(s, cell->part, around.middle, 0);
+        try_point(s, cell, around.middle, 0);
     else if (a.status == OVOID_SEPARATED)
-        try_point(s, cell->part, vec3_scale(a.point_a, 1 / s->link->unit), part->inside);
+        try_point(s, cell, vec3_scale(a.point_a, 1 / s->link->unit), part->inside);
     if (s->found.lower > before) climb(s, cell->part);
     if (a.lower / s->link->unit - around.radius > s->link->pad) return 0;
     // The distance at x is at least that at the middle and the way along its normal.
@@ -78,21 +84,25 @@ static int try_probe(search *s, spheres_cell *cell) {
             a.lower / s->link->unit + vec3_dot(a.normal, vec3_sub(cell->corner[k], around.middle)) - s->link->pad;
     vec3 left[6];
     int count = clip(cell, value, left);
-    uint32_t nearest;
+    uint32_t nearest = cell->sphere;
     if (count == 0) return 0;
     cell->key = min2(cell->key, spheres_tree_find_least(s->tree, left, count, &nearest) + s->link->pad);
     return cell->key > s->found.lower;
 }
 
-static void add_cell(search *s, spheres_cell *cell, double parent) {
+// is_new: a bit for each corner that was not tried as one of the cell around this one.
+static void add_cell(search *s, spheres_cell *cell, double parent, unsigned is_new) {
     const spheres_part *part = &s->link->parts[cell->part];
-    uint32_t nearest;
     s->found.cells++;
-    cell->key = min2(parent, spheres_tree_find_least(s->tree, cell->corner, 4, &nearest) + s->link->pad);
+    // The sphere that held the cell around this one best may show that no point of it is deeper than the deepest.
+    double hinted = spheres_tree_measure_greatest(s->tree, cell->sphere, cell->corner);
+    if (min2(parent, hinted + s->link->pad) <= s->found.lower) return;
+    cell->key = min2(parent, spheres_tree_find_least(s->tree, cell->corner, 4, &cell->sphere) + s->link->pad);
     if (cell->key <= s->found.lower) return;
     if (part->triangles) {
-        for (int k = 0; k < 4; k++) try_point(s, cell->part, cell->corner[k], part->inside);
-        try_point(s, cell->part, spheres_cell_find_around(cell).middle, part->inside);
+        for (int k = 0; k < 4; k++)
+            if (is_new >> k & 1) try_point(s, cell, cell->corner[k], part->inside);
+        try_point(s, cell, spheres_cell_find_around(cell).middle, part->inside);
     } else if (!try_probe(s, cell))
         return;
     spheres_heap_push(s->heap, cell);
@@ -104,15 +114,16 @@ static void add_fan(search *s, uint32_t index, double bound) {
         spheres_cell cell = {.part = index};
         cell.corner[0] = part->middle;
         for (int k = 0; k < 3; k++) cell.corner[k + 1] = part->points[part->triangles[3 * (size_t)t + (size_t)k]];
-        add_cell(s, &cell, bound);
+        add_cell(s, &cell, bound, 15);
     }
 }
 
 static void add_part(search *s, uint32_t index) {
     const spheres_part *part = &s->link->parts[index];
-    for (uint32_t i = 0; i < part->point_count; i++) try_point(s, index, part->points[i], part->inside);
+    const spheres_cell at = {.part = index};
+    for (uint32_t i = 0; i < part->point_count; i++) try_point(s, &at, part->points[i], part->inside);
     // One sphere for the whole part: exact for a rounded one, too.
-    uint32_t nearest;
+    uint32_t nearest = 0;
     double whole = spheres_tree_find_least(s->tree, part->points, (int)part->point_count, &nearest);
     whole += (part->beyond + s->link->pad) * (1 + 4 * ROUNDING);
     if (part->triangles) {
@@ -123,8 +134,15 @@ static void add_part(search *s, uint32_t index) {
     spheres_cell_make_box(part->box, cells);
     for (int i = 0; i < 6; i++) {
         cells[i].part = index;
-        add_cell(s, &cells[i], whole);
+        add_cell(s, &cells[i], whole, 15);
     }
+}
+
+static unsigned find_new(const spheres_cell *cell, const spheres_cell *half) {
+    unsigned found = 0;
+    for (unsigned k = 0; k < 4; k++)
+        found |= (unsigned)(memcmp(&cell->corner[k], &half->corner[k], sizeof(vec3)) != 0) << k;
+    return found;
 }
 
 static void divide(search *s) {
@@ -134,8 +152,7 @@ static void divide(search *s) {
         s->settled = max2(s->settled, cell.key);
         return;
     }
-    add_cell(s, &half[0], cell.key);
-    add_cell(s, &half[1], cell.key);
+    for (int i = 0; i < 2; i++) add_cell(s, &half[i], cell.key, find_new(&cell, &half[i]));
 }
 
 spheres_depth spheres_find_depth(const spheres_link *link, const spheres_tree *tree, double tolerance,

@@ -48,71 +48,133 @@ void spheres_sort_blocks(vec3 *points, uint32_t count) {
     spheres_sort_blocks(points + half, count - half);
 }
 
-static void find_boxes(const vec3 *points, uint32_t count, box *boxes) {
+static void find_boxes(const vec3 *points, uint32_t count, sample_boxes *boxes) {
     for (uint32_t i = 0; i < count; i += BLOCK)
-        boxes[i / BLOCK] = box_make_around(&points[i].x, count - i < BLOCK ? count - i : BLOCK);
-}
-
-// The end of the block that begins at i; i itself where no point of the block is in the ball.
-static uint32_t find_end(const box *boxes, uint32_t i, uint32_t count, const sphere *ball) {
-    box center = {ball->center, ball->center};
-    if (box_compute_distance(&center, &boxes[i / BLOCK]) > ball->radius) return i;
-    return count - i < BLOCK ? count : i + BLOCK;
+        boxes->blocks[i / BLOCK] = box_make_around(&points[i].x, count - i < BLOCK ? count - i : BLOCK);
+    for (uint32_t i = 0; i < count; i += GROUP)
+        boxes->groups[i / GROUP] = box_make_around(&points[i].x, count - i < GROUP ? count - i : GROUP);
 }
 
 static int is_in(const sphere *ball, vec3 x) {
     return vec3_norm_squared(vec3_sub(x, ball->center)) <= ball->radius * ball->radius;
 }
 
-static void count_outside(spheres_samples *s, const sphere *ball, int by) {
-    for (uint32_t block = 0; block < s->outside_count; block += BLOCK) {
-        uint32_t end = find_end(s->outside_boxes, block, s->outside_count, ball);
-        for (uint32_t i = block; i < end; i++) {
-            if (!is_in(ball, s->outside[i])) continue;
-            long before = s->outside_hits[i] > 0;
-            s->outside_hits[i] = (uint16_t)(s->outside_hits[i] + by);
-            s->excess += (s->outside_hits[i] > 0) - before;
-        }
-    }
+// 1 where is_in says no of every point of the box.
+static int is_away(const sphere *ball, const box *b) {
+    vec3 c = ball->center;
+    double x = max2(max2(b->min.x - c.x, c.x - b->max.x), 0), y = max2(max2(b->min.y - c.y, c.y - b->max.y), 0),
+           z = max2(max2(b->min.z - c.z, c.z - b->max.z), 0);
+    return (x * x + y * y) + z * z > ball->radius * ball->radius * (1 + 0x1p-40);
 }
 
-void spheres_samples_count(spheres_samples *s, const sphere *ball, int by) {
-    if (ball->radius < 0) return;
-    for (uint32_t block = 0; block < s->point_count; block += BLOCK) {
-        uint32_t end = find_end(s->point_boxes, block, s->point_count, ball);
-        for (uint32_t i = block; i < end; i++)
-            if (is_in(ball, s->points[i])) s->point_hits[i] = (uint16_t)(s->point_hits[i] + by);
+// 1 where is_in says yes of every point of the box.
+static int is_around(const sphere *ball, const box *b) {
+    vec3 c = ball->center;
+    double x = max2(b->max.x - c.x, c.x - b->min.x), y = max2(b->max.y - c.y, c.y - b->min.y),
+           z = max2(b->max.z - c.z, c.z - b->min.z);
+    return (x * x + y * y) + z * z < ball->radius * ball->radius * (1 - 0x1p-40);
+}
+
+// Where a ball is to a box: is_in says no of all its points, or yes of all, or not the same of all. One of negative
+// radius is no ball.
+typedef enum ball_place { BALL_AWAY, BALL_AROUND, BALL_ACROSS } ball_place;
+
+static ball_place find_place(const sphere *ball, const box *b) {
+    if (ball->radius < 0 || is_away(ball, b)) return BALL_AWAY;
+    return is_around(ball, b) ? BALL_AROUND : BALL_ACROSS;
+}
+
+// A block of points, and whether all of them are in a ball.
+typedef struct block_range {
+    uint32_t first, end;
+    int is_whole;
+} block_range;
+
+// The next block after *found of which a ball may hold a point; 0: there is none.
+static int find_block(const sample_boxes *boxes, uint32_t count, const sphere *ball, block_range *found) {
+    for (uint32_t i = found->end; i < count;) {
+        if (i % GROUP == 0 && find_place(ball, &boxes->groups[i / GROUP]) == BALL_AWAY) {
+            i += GROUP;
+            continue;
+        }
+        ball_place place = find_place(ball, &boxes->blocks[i / BLOCK]);
+        *found = (block_range){i, count - i < BLOCK ? count : i + BLOCK, place == BALL_AROUND};
+        if (place != BALL_AWAY) return 1;
+        i += BLOCK;
     }
-    count_outside(s, ball, by);
+    return 0;
+}
+
+// A ball that takes the place of another.
+typedef struct ball_change {
+    const sphere *old, *new;
+} ball_change;
+
+// 1 where both balls hold the same points of a box.
+static int is_unchanged(const ball_change *c, const box *b) {
+    ball_place old = find_place(c->old, b);
+    return old != BALL_ACROSS && find_place(c->new, b) == old;
+}
+
+// The next block after *found of which one ball may hold a point and the other not.
+static int find_changed(const sample_boxes *boxes, uint32_t count, const ball_change *c, block_range *found) {
+    for (uint32_t i = found->end; i < count;) {
+        if (i % GROUP == 0 && is_unchanged(c, &boxes->groups[i / GROUP])) {
+            i += GROUP;
+            continue;
+        }
+        *found = (block_range){i, count - i < BLOCK ? count : i + BLOCK, 0};
+        if (!is_unchanged(c, &boxes->blocks[i / BLOCK])) return 1;
+        i += BLOCK;
+    }
+    return 0;
+}
+
+// By how much the change alters the number of balls that hold a point.
+static int count_change(const ball_change *c, vec3 x) {
+    return (c->new->radius >= 0 && is_in(c->new, x)) - (c->old->radius >= 0 && is_in(c->old, x));
+}
+
+static void change_hits(spheres_samples *s, const ball_change *c) {
+    block_range r = {0, 0, 0};
+    while (find_changed(&s->point_boxes, s->point_count, c, &r))
+        for (uint32_t i = r.first; i < r.end; i++)
+            s->point_hits[i] = (uint16_t)(s->point_hits[i] + count_change(c, s->points[i]));
+    r = (block_range){0, 0, 0};
+    while (find_changed(&s->outside_boxes, s->outside_count, c, &r))
+        for (uint32_t i = r.first; i < r.end; i++) {
+            long before = s->outside_hits[i] > 0;
+            s->outside_hits[i] = (uint16_t)(s->outside_hits[i] + count_change(c, s->outside[i]));
+            s->excess += (s->outside_hits[i] > 0) - before;
+        }
 }
 
 void spheres_samples_recount(spheres_samples *s) {
-    find_boxes(s->points, s->point_count, s->point_boxes);
-    find_boxes(s->outside, s->outside_count, s->outside_boxes);
+    find_boxes(s->points, s->point_count, &s->point_boxes);
+    find_boxes(s->outside, s->outside_count, &s->outside_boxes);
     memset(s->point_hits, 0, s->point_count * sizeof *s->point_hits);
     memset(s->outside_hits, 0, s->outside_count * sizeof *s->outside_hits);
     s->excess = 0;
-    for (uint32_t i = 0; i < s->ball_count; i++) spheres_samples_count(s, &s->balls[i], 1);
+    static const sphere none = {{0, 0, 0}, -1};
+    for (uint32_t i = 0; i < s->ball_count; i++) change_hits(s, &(ball_change){&none, &s->balls[i]});
 }
 
 void spheres_samples_gather(spheres_samples *s, uint32_t i) {
     const sphere *ball = &s->balls[i];
     s->own_count = 0;
-    if (ball->radius < 0) return;
-    for (uint32_t block = 0; block < s->point_count; block += BLOCK) {
-        uint32_t end = find_end(s->point_boxes, block, s->point_count, ball);
-        for (uint32_t k = block; k < end; k++)
-            if (s->point_hits[k] == 1 && is_in(ball, s->points[k])) s->own[s->own_count++] = s->points[k];
-    }
+    block_range r = {0, 0, 0};
+    while (find_block(&s->point_boxes, s->point_count, ball, &r))
+        for (uint32_t k = r.first; k < r.end; k++)
+            if (s->point_hits[k] == 1 && (r.is_whole || is_in(ball, s->points[k])))
+                s->own[s->own_count++] = s->points[k];
 }
 
 // A radius whose square, rounded, is not below that of any point it was made for.
 static sphere widen(sphere ball) { return (sphere){ball.center, ball.radius * (1 + 0x1p-40)}; }
 
 static void replace(spheres_samples *s, uint32_t i, sphere ball) {
-    spheres_samples_count(s, &s->balls[i], -1);
+    change_hits(s, &(ball_change){&s->balls[i], &ball});
     s->balls[i] = ball;
-    spheres_samples_count(s, &ball, 1);
 }
 
 void spheres_samples_fit(spheres_samples *s, uint32_t i, const vec3 *also) {

@@ -6,7 +6,12 @@
 #include "robot/spheres/spheres.h"
 #include "tools/random.h"
 
-enum { SPHERES_MOST = 4096, SAMPLES = 12000, OUTSIDE = 16000, SAMPLES_MORE = 4096, BLOCK = 32 };
+enum { SPHERES_MOST = 4096, SAMPLES = 12000, OUTSIDE = 16000, SAMPLES_MORE = 4096, BLOCK = 32, GROUP = 8 * BLOCK };
+
+/// Boxes around each block of points, and each group of blocks.
+typedef struct sample_boxes {
+    box *blocks, *groups;
+} sample_boxes;
 
 /// Points that must be covered, points outside the link that should not be, and the balls. Each point knows how many
 /// balls hold it.
@@ -21,13 +26,11 @@ typedef struct spheres_samples {
     uint64_t random; ///< the state of the random numbers
     vec3 *own;       ///< scratch: the points that one ball alone holds
     uint32_t own_count;
-    box region;                       ///< the points outside are of it, and no ball leaves it
-    box *point_boxes, *outside_boxes; ///< of each block of points
-    const ovoid_watch *watch;         ///< asked before each move
+    box region; ///< the points outside are of it, and no ball leaves it
+    sample_boxes point_boxes, outside_boxes;
+    const ovoid_watch *watch; ///< asked before each move
 } spheres_samples;
 
-/// Adds a ball's hits (by 1) or takes them away (by -1). One of negative radius is no ball.
-void spheres_samples_count(spheres_samples *s, const sphere *ball, int by);
 /// Puts points that are near each other into one block.
 void spheres_sort_blocks(vec3 *points, uint32_t count);
 /// Boxes and hits anew.

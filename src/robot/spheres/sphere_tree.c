@@ -114,12 +114,29 @@ static double distance_to(vec3 a, vec3 b) {
     return size < 1e100 ? vec3_norm(d) : size * vec3_norm(vec3_scale(d, 1 / size));
 }
 
+static double find_far(const least_search *s, vec3 center) {
+    double most = 0;
+    for (int k = 0; k < s->count; k++) most = max2(most, distance_to(s->corners[k], center));
+    return most;
+}
+
+// The greatest distance of a sphere's surface from the corners. The root of the greatest square is the greatest root.
+static double measure(const least_search *s, uint32_t i) {
+    const ovoid_robot_sphere *ball = &s->tree->items[i];
+    double square = 0;
+    for (int k = 0; k < s->count; k++) square = max2(square, vec3_norm_squared(vec3_sub(s->corners[k], ball->center)));
+    double most = square < 1e200 ? sqrt(square) : find_far(s, ball->center);
+    return most - ball->radius + s->sign * spheres_round(most, ball->radius);
+}
+
 static void look_at_leaf(least_search *s, const spheres_node *node) {
     for (uint32_t i = node->first; i < node->first + node->count; i++) {
+        // One corner is too far: the others need not be measured.
         const ovoid_robot_sphere *ball = &s->tree->items[i];
-        double most = 0;
-        for (int k = 0; k < s->count; k++) most = max2(most, distance_to(s->corners[k], ball->center));
-        double value = most - ball->radius + s->sign * spheres_round(most, ball->radius);
+        double reach = (s->least + ball->radius) + 64 * ROUNDING * (fabs(s->least) + 2 * ball->radius),
+               square = vec3_norm_squared(vec3_sub(s->corners[0], ball->center));
+        if (reach >= 0 && square * (1 - 0x1p-40) > reach * reach) continue;
+        double value = measure(s, i);
         if (value < s->least) s->least = value, s->nearest = i;
     }
 }
@@ -145,18 +162,26 @@ static void look_below(least_search *s, uint32_t i) {
     if (max2(a, b) < s->least) look_below(s, second);
 }
 
-static double find_least(const spheres_tree *tree, const vec3 *corners, int count, double sign, uint32_t *nearest) {
-    least_search s = {tree, corners, count, sign, INFINITY, 0};
+double spheres_tree_find_least(const spheres_tree *tree, const vec3 *corners, int count, uint32_t *nearest) {
+    least_search s = {tree, corners, count, 1, INFINITY, *nearest};
+    s.least = measure(&s, s.nearest);
     look_below(&s, 0);
     *nearest = s.nearest;
     return s.least;
 }
 
-double spheres_tree_find_least(const spheres_tree *tree, const vec3 *corners, int count, uint32_t *nearest) {
-    return find_least(tree, corners, count, 1, nearest);
-}
 double spheres_tree_find_value(const spheres_tree *tree, vec3 x, uint32_t *nearest) {
-    return find_least(tree, &x, 1, -1, nearest);
+    least_search s = {tree, &x, 1, -1, INFINITY, 0};
+    look_below(&s, 0);
+    *nearest = s.nearest;
+    return s.least;
+}
+
+double spheres_tree_measure_greatest(const spheres_tree *tree, uint32_t sphere, const vec3 corners[4]) {
+    return measure(&(least_search){tree, corners, 4, 1, INFINITY, 0}, sphere);
+}
+double spheres_tree_measure_value(const spheres_tree *tree, uint32_t sphere, vec3 x) {
+    return measure(&(least_search){tree, &x, 1, -1, INFINITY, 0}, sphere);
 }
 
 // Adds what the spheres at a leaf hold of a cell. Of a ball, |x - c|^2 - r^2 is at most its linear interpolant between

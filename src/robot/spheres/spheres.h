@@ -69,10 +69,13 @@ void spheres_tree_close(spheres_tree *tree);
 static inline double spheres_round(double distance, double radius) { return 12 * ROUNDING * (distance + radius); }
 
 /// The least over the spheres of the greatest over the corners (1 or 4) of |corner - c| - r, rounded up; *nearest is
-/// the sphere in the tree.
+/// a sphere in the tree to begin with, and the one that was found.
 double spheres_tree_find_least(const spheres_tree *tree, const vec3 *corners, int count, uint32_t *nearest);
 /// The least over the spheres of |x - c| - r, rounded down.
 double spheres_tree_find_value(const spheres_tree *tree, vec3 x, uint32_t *nearest);
+/// What one sphere of the tree adds to these: of a cell's four corners, and of a point.
+double spheres_tree_measure_greatest(const spheres_tree *tree, uint32_t sphere, const vec3 corners[4]);
+double spheres_tree_measure_value(const spheres_tree *tree, uint32_t sphere, vec3 x);
 
 /// The share of a cell of four corners where a function that is linear in it, and has these values there, is <= 0.
 double spheres_compute_share(const double value[4]);
@@ -89,6 +92,7 @@ typedef struct spheres_cell {
     double volume;
     spheres_volumes holds;
     uint32_t part, level;
+    uint32_t sphere; ///< of the tree: the one that held the cell best, or the cell around it
 } spheres_cell;
 
 /// A ball around a cell.
