@@ -1,21 +1,56 @@
-// The bounds that proofs of paths stand on, for robots that are made to break them: long thin links, wrists that turn
-// many times, hinges one above the other, slides, planar bases, mimics with factors, at three scales. Truth: kinematics
-// in long double, straight from the description, at states of the exact path: no vertex may come farther than `moved`
-// says, no gap along a normal may fall below its chord by more than `curved` says, and no gap that is measured may be
-// above the true one. Long double's own error, some 1e-18 of the lengths, is allowed for by 1e-15; bounds must be
-// reached to 0.9 in some trials, so that they are not merely large. Then whole paths are swept: no state before
-// free_until may overlap.
+// The bounds that proofs of paths and of matrices stand on, for robots that are made to break them: long thin links,
+// wrists that turn many times, hinges one above the other, slides, planar bases, mimics with factors, at three scales.
+// Truth: kinematics in long double, straight from the description, at states of the exact path: no vertex may come
+// farther than `moved` says, no gap along a normal may fall below its chord by more than `curved` says, and no gap that
+// is measured may be above the true one. Long double's own error, some 1e-18 of the lengths, is allowed for by 1e-15;
+// bounds must be reached to 0.9 in some trials, so that they are not merely large. In a cell of joint space no gap may
+// fall below cell_gap_compute in any state, at its corners or between; that is reached to 0.9 too. Then whole paths are
+// swept: no state before free_until may overlap.
 #include "check.h"
 #include "options.h"
 #include "path_machines.h"
 
-enum { TRIALS = 400, SAMPLES = 16, SWEEPS = 40, SWEEP = 300, OBSTACLES = 6 };
+#include "robot/matrix/cell_gap.h"
+#include "robot/matrix/narrow.h"
 
-static double moved_most, curved_most; // of what is allowed
+enum { TRIALS = 400, SAMPLES = 16, SWEEPS = 40, SWEEP = 300, STATES = 24, OBSTACLES = 6 };
+
+static double moved_most, curved_most, fallen_most; // of what is allowed
 static long frees, hits;
 
 // ---- the bounds of an interval
 
+<<<<<<< HEAD
+=======
+// The vertices of an item in a state, in the frame of a link, or the world's (NONE).
+static void place_in_state(const machine *m, const cell_item *item, const real *q, uint32_t in, real3 *vertices) {
+    frame links[JOINTS + 1], own = make_frame(&item->in_link);
+    place(m->r, q, links);
+    frame at = multiply(&links[item->side.link], &own);
+    ovoid_polytope p = ovoid_shape_get_polytope(item->shape);
+    for (uint32_t i = 0; i < VERTICES; i++) {
+        const double *v = p.vertices + 3 * (size_t)i;
+        real3 x = apply(&at, (real3){v[0], v[1], v[2]});
+        if (in != OVOID_ROBOT_NONE) {
+            const frame *f = &links[in];
+            real3 d = {x.x - f->p.x, x.y - f->p.y, x.z - f->p.z};
+            x = (real3){f->m[0][0] * d.x + f->m[1][0] * d.y + f->m[2][0] * d.z,
+                        f->m[0][1] * d.x + f->m[1][1] * d.y + f->m[2][1] * d.z,
+                        f->m[0][2] * d.x + f->m[1][2] * d.y + f->m[2][2] * d.z};
+        }
+        vertices[i] = x;
+    }
+}
+
+// The same at s of the exact path.
+static void place_vertices(const machine *m, const cell_item *item, real s, uint32_t in, real3 *vertices) {
+    real q[3 * JOINTS];
+    for (size_t i = 0; i < ovoid_robot_get_variable_count(m->r); i++)
+        q[i] = m->q[0][i] + s * ((real)m->q[1][i] - m->q[0][i]);
+    place_in_state(m, item, q, in, vertices);
+}
+
+>>>>>>> 13e0041 (Matrices proven by gaps along a direction, common points and corners)
 static real dot(ovoid_vec3 n, real3 v) { return n.x * v.x + n.y * v.y + n.z * v.z; }
 
 // The gap of two items along a normal of any length, for a unit one.
@@ -106,6 +141,104 @@ static void test_bounds(int rounds) {
     CHECK(curved_most > 0.9 && curved_most <= 1.0000001);
 }
 
+// ---- the bounds of a cell
+
+// A direction in a frame, of the pair's bodies; a pair in a cell between two states.
+typedef struct cell_normal {
+    uint32_t frame;
+    ovoid_vec3 in_frame;
+} cell_normal;
+typedef struct cell_check {
+    uint32_t pair;
+    const path_state *middle;
+    const double *ends[2];
+} cell_check;
+
+static real measure_in_state(const machine *m, item_pair of, const real *q, const cell_normal *n) {
+    real3 a[VERTICES], b[VERTICES];
+    place_in_state(m, &cell_items(m->cell)[of.a], q, n->frame, a);
+    place_in_state(m, &cell_items(m->cell)[of.b], q, n->frame, b);
+    return measure(a, b, n->in_frame);
+}
+
+// Mostly corners.
+static void draw_state(uint64_t *s, const machine *m, const double *const ends[2], real *q) {
+    uint32_t kind = random_below(s, 4);
+    for (size_t i = 0; i < ovoid_robot_get_variable_count(m->r); i++) {
+        real t = kind ? (real)random_below(s, 2) : (real)random_uniform(s, 0, 1);
+        q[i] = ends[0][i] + t * ((real)ends[1][i] - ends[0][i]);
+    }
+}
+
+static void check_cell(uint64_t *s, const machine *m, const path_work *w, const cell_check *c) {
+    item_pair of = cell_pairs(m->cell)[c->pair];
+    cell_gap g;
+    CHECK(cell_gap_make(&g, w, c->middle, c->pair));
+    cell_normal n = {w->pairs[c->pair].frame, vec3_unit(random_vec3(s, 1))};
+    const vec3 world =
+        n.frame == OVOID_ROBOT_NONE ? n.in_frame : mat3_mul_vec3(c->middle->frames[n.frame].matrix, n.in_frame);
+    double least = cell_gap_compute(&g, vec3_unit(world), -INFINITY), off = w->errors[of.a] + w->errors[of.b];
+    real q[3 * JOINTS], middle[3 * JOINTS], allowed = 1e-15L * (1 + 100 * (real)m->scale);
+    for (size_t i = 0; i < ovoid_robot_get_variable_count(m->r); i++) middle[i] = w->state[i];
+    real gap = measure_in_state(m, of, middle, &n), fallen = 0;
+    // The normal that is turned into the world and back is off by some roundings.
+    real turned = 1e-14L * (1 + 100 * (real)m->scale) +
+                  2 * w->frame_errors[n.frame == OVOID_ROBOT_NONE ? 0 : n.frame].quaternion * 100 * (real)m->scale;
+    for (int k = 0; k < STATES; k++) {
+        draw_state(s, m, c->ends, q);
+        real now = measure_in_state(m, of, q, &n);
+        CHECK(now >= least - off - turned - allowed);
+        fallen = fmaxl(fallen, gap - now);
+    }
+    if (gap - least > 1e-6L * m->scale) fallen_most = fmax(fallen_most, (double)(fallen / (gap - least)));
+}
+
+static void check_cells(uint64_t *s, const machine *m, path_work *whole, void *room) {
+    size_t count = ovoid_robot_get_variable_count(m->r);
+    double ends[2][3 * JOINTS], part = ldexp(1, -(int)random_below(s, 12));
+    for (size_t i = 0; i < count; i++) {
+        double from = random_uniform(s, 0, 1 - part), way = fmin(fmax(m->q[1][i] - m->q[0][i], -3), 3);
+        ends[0][i] = m->q[0][i] + from * way;
+        ends[1][i] = m->q[0][i] + (from + part) * way;
+    }
+    path_state middle = path_place_state(m->cell, room);
+    narrow_work narrow;
+    CHECK(narrow_create(&narrow, whole));
+    for (uint32_t k = 0; k < m->cell->group_pairs.count; k++) {
+        const group_pair *g = &cell_group_pairs(m->cell)[k];
+        const uint32_t groups[2] = {g->a, g->b};
+        narrow_choose(&narrow, g->a, g->b);
+        CHECK_EQ(path_set_segment(&narrow.w, ends[0], ends[1], INFINITY, &error), OVOID_OK);
+        path_compute_frames(&narrow.w, ends[0], ends[1], 0.5, &middle);
+        for (int side = 0; side < 2; side++)
+            for (uint32_t i = cell_groups(m->cell)[groups[side]].first; i < cell_groups(m->cell)[groups[side]].end; i++)
+                path_set_item(&narrow.w, &middle, i, 0.5);
+        cell_check check = {g->first, &middle, {ends[0], ends[1]}};
+        if (random_below(s, 3) == 0 || m->cell->pairs.count < 4) check_cell(s, m, &narrow.w, &check);
+    }
+    narrow_destroy(&narrow);
+}
+
+static void test_cells(int rounds) {
+    uint64_t s = 77;
+    for (int i = 0; i < TRIALS * rounds; i++) {
+        check_seed = (uint64_t)i;
+        machine m;
+        path_work w;
+        make_machine(&s, &m);
+        ovoid_allocator memory = m.cell->allocator;
+        CHECK_EQ(path_work_create(&w, m.cell, &memory, &error), OVOID_OK);
+        char *room = malloc(path_get_state_size(m.cell) + 1);
+        check_cells(&s, &m, &w, room);
+        free(room);
+        path_work_destroy(&w);
+        destroy_machine(&m);
+    }
+    check_seed = 0;
+    printf("of the bounds of cells are reached: %.3g\n", fallen_most);
+    CHECK(fallen_most > 0.9 && fallen_most <= 1.0000001);
+}
+
 // ---- whole paths
 
 static void test_sweeps(int rounds) {
@@ -148,6 +281,7 @@ int main(int argc, char **argv) {
     if (code >= 0) return code;
     int rounds = (int)wanted;
     test_bounds(rounds);
+    test_cells(rounds);
     test_sweeps(rounds);
     return check_end();
 }

@@ -55,11 +55,21 @@ static void take_open(const sampler *s, uint32_t both) {
     mark->open = s->state;
 }
 
+// What lies inside both bodies proves most hits; it is asked where the pair was not apart in the last state.
+static int is_overlap_proven(const sampler *s, const checker_pair *p, pair_name name) {
+    double lower, upper;
+    return !pair_was_apart(s->checker, p) && checker_prove_overlap(s->checker, name, &lower, &upper) &&
+           upper_outward(p, upper) <= 0;
+}
+
 // What the boxes leave; what they do not is apart.
 static int ask_pair(void *context, const checker_pair *p, pair_name name) {
     sampler *s = context;
     uint32_t both = s->owner[name.index];
-    if (s->marks[both].hit == s->state) return 1;
+    if (s->marks[both].hit == s->state || is_overlap_proven(s, p, name)) {
+        take_hit(s, both);
+        return 1;
+    }
     ovoid_answer answer = ovoid_within(&p->pair, p->error, NULL, pair_get_earlier(s->checker, p));
     pair_remember(s->checker, p, &answer.proof);
     if (sides_have_solid(&p->solids) && !(answer.lower > p->error)) {
