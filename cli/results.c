@@ -34,12 +34,8 @@ int results_settle_part(const cli_command *command, output_settings *settings, s
     const char *path = settings->path;
     if (code >= 0 || !part.count) return code;
     if (!path || strcmp(path, "-") == 0)
-        return args_complain(command, "%s: --shard writes a file: --output, for example %u.shard", command->name,
-                             part.index);
-    if (outputs_has_extension(path, "csv") || outputs_has_extension(path, "json") ||
-        outputs_has_extension(path, "jsonl") || outputs_has_extension(path, "txt"))
-        return args_complain(command, "%s: --output %s: a shard has a format of its own; choose a name as %u.shard",
-                             command->name, path, part.index);
+        return args_complain(command, "%s: --shard writes a file: --output, for example %u.%s", command->name,
+                             part.index, settings->csv ? "csv" : "jsonl");
     if (!settings->csv && !settings->json)
         return args_complain(command, "%s: --shard needs --csv or --json: a table is laid out by all of its rows",
                              command->name);
@@ -62,39 +58,24 @@ int results_open(cli_results *results, const output_settings *settings, unsigned
     return 0;
 }
 
-int results_open_shard_with(cli_results *results, const output_settings *settings, shard_job *job, const char *head,
-                            size_t head_size) {
-    *results = (cli_results){.settings = settings, .fields = settings->proofs ? OVOID_RECORD_PROOF : 0};
+int results_open_shard(cli_results *results, const output_settings *settings, unsigned fields, shard_job *job) {
+    *results = (cli_results){.settings = settings, .fields = fields};
+    if (settings->proofs) results->fields |= OVOID_RECORD_PROOF;
     job->path = settings->path;
     job->is_json = settings->json;
-    results->shard = malloc(sizeof *results->shard);
-    if (!results->shard) return message_error("out of memory"), EXIT_INPUT;
-    int code = shard_writer_open(results->shard, job, head, head_size);
-    if (!code) return 0;
-    free(results->shard);
-    results->shard = NULL;
-    return code;
-}
-
-int results_open_shard(cli_results *results, const output_settings *settings, unsigned fields, shard_job *job) {
-    char *head = NULL;
-    size_t size = 0;
-    if (settings->proofs) fields |= OVOID_RECORD_PROOF;
-    FILE *file = open_memstream(&head, &size);
-    if (file && settings->csv) ovoid_record_write_csv_header(file, fields);
-    int code = EXIT_INPUT;
-    if (file && fclose(file) == 0)
-        code = results_open_shard_with(results, settings, job, head, size);
-    else
-        message_error("out of memory");
-    results->fields = fields;
-    free(head);
-    return code;
+    shard_writer *shard = malloc(sizeof *shard);
+    if (!shard) return message_error("out of memory"), EXIT_INPUT;
+    int code = shard_writer_open(shard, job);
+    if (code) return free(shard), code;
+    results->shard = shard;
+    results->file = shard->file;
+    results->header_due = settings->csv && !shard->progress.bytes;
+    return 0;
 }
 
 uint64_t results_get_done(const cli_results *results) {
     if (!results->shard) return 0;
-    return results->shard->is_whole ? UINT64_MAX : results->shard->kept;
+    return results->shard->progress.is_done ? UINT64_MAX : results->shard->kept;
 }
 
 int results_are_lines(const cli_results *results) { return results->settings->json || results->settings->csv; }
@@ -110,6 +91,12 @@ static void write_rows(cli_results *results) {
 static void write_header(cli_results *results) {
     if (results->header_due) ovoid_record_write_csv_header(results->file, results->fields);
     results->header_due = 0;
+}
+
+/// What was written are whole lines. 0, or EXIT_INPUT, of a shard after a message.
+static int end_lines(const cli_results *results) {
+    if (!ferror(results->file)) return 0;
+    return results->shard ? shard_writer_complain(results->shard) : EXIT_INPUT;
 }
 
 int results_write_line(FILE *file, const output_settings *settings, const ovoid_record *record) {
@@ -129,7 +116,7 @@ int results_add(cli_results *results, const ovoid_record *record) {
             results_report_long(record->a ? record->a : "a pair", record->b ? record->b : "");
             return EXIT_INPUT;
         }
-        return ferror(results->file) ? EXIT_INPUT : 0;
+        return end_lines(results);
     }
     if (!results->rows) results->rows = malloc(BLOCK_ROWS * sizeof *results->rows);
     if (!results->rows) {
@@ -145,27 +132,8 @@ int results_add(cli_results *results, const ovoid_record *record) {
 
 int results_add_text(cli_results *results, const char *text, size_t size) {
     write_header(results);
-    return fwrite(text, 1, size, results->file) == size ? 0 : EXIT_INPUT;
-}
-
-int results_add_keyed(cli_results *results, const shard_key *key, const char *text, size_t size) {
-    return results->shard ? shard_writer_add(results->shard, key, text, size) : results_add_text(results, text, size);
-}
-
-int results_add_record(cli_results *results, const shard_key *key, const ovoid_record *record) {
-    char *text = NULL;
-    size_t size = 0;
-    FILE *file = open_memstream(&text, &size);
-    int written = file && results_write_line(file, results->settings, record);
-    int code = EXIT_INPUT;
-    if (!file || fclose(file) != 0)
-        message_error("out of memory");
-    else if (!written)
-        results_report_long(record->a ? record->a : "a pair", record->b ? record->b : "");
-    else
-        code = results_add_keyed(results, key, text, size);
-    free(text);
-    return code;
+    (void)fwrite(text, 1, size, results->file);
+    return end_lines(results);
 }
 
 void results_count(cli_results *results, exit_code side) {
@@ -178,6 +146,7 @@ int results_end_units(cli_results *results, uint64_t units) {
 
 int results_close(cli_results *results, int code) {
     if (results->shard) {
+        if (code != EXIT_INPUT) write_header(results);
         code = shard_writer_close(results->shard, code);
         free(results->shard);
         results->shard = NULL;

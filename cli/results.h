@@ -35,7 +35,7 @@ typedef struct output_settings {
 /// EXIT_USAGE.
 int results_settle(const cli_command *command, output_settings *settings);
 
-/// The same for a command whose work can be cut: a shard needs a file, whose name says no format, and a format.
+/// The same for a command whose work can be cut: a shard needs a file, and a format.
 int results_settle_part(const cli_command *command, output_settings *settings, shard_part part);
 
 /// An open stream of results.
@@ -48,18 +48,16 @@ typedef struct cli_results {
     ovoid_record *rows; ///< of the table, until there are enough to be written
     size_t row_count;
     int header_due;      ///< the CSV header is not written yet
-    shard_writer *shard; ///< where the results go instead of a file; NULL: they do not
+    shard_writer *shard; ///< which writes `file`; NULL: the results are no shard
 } cli_results;
 
 /// Opens a stream of results whose records have these fields; unit: of the table's lengths, "" for none. 0, or
 /// EXIT_INPUT after a message.
 int results_open(cli_results *results, const output_settings *settings, unsigned fields, const char *unit);
 
-/// The same for a shard: the job, whose path and format are set here, must live as long. head: what the output begins
-/// with; NULL: the CSV header of these fields. Where the shard is whole already nothing is left to do.
+/// The same for a shard: the job, whose path and format are set here, must live as long. Where the shard is whole
+/// already nothing is left to do.
 int results_open_shard(cli_results *results, const output_settings *settings, unsigned fields, shard_job *job);
-int results_open_shard_with(cli_results *results, const output_settings *settings, shard_job *job, const char *head,
-                            size_t head_size);
 
 /// What of a shard an earlier run has done: units of work, all of them or UINT64_MAX where it is whole; 0 without one.
 uint64_t results_get_done(const cli_results *results);
@@ -76,11 +74,6 @@ int results_have_proofs(const cli_results *results);
 
 /// Writes text made of such lines.
 int results_add_text(cli_results *results, const char *text, size_t size);
-
-/// The same of what a shard has in the order of its keys; without a shard the key is not used.
-int results_add_keyed(cli_results *results, const shard_key *key, const char *text, size_t size);
-
-int results_add_record(cli_results *results, const shard_key *key, const ovoid_record *record);
 
 /// Counts an answer of a shard, and ends units of its work; nothing without one. 0, or EXIT_INPUT after a message.
 void results_count(cli_results *results, exit_code side);

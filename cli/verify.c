@@ -26,6 +26,8 @@
 static const cli_option options[] = {
     {"shapes", 0, OPTION_FILE, offsetof(verify_settings, list), "LIST", NULL, "the shapes of ovoid batch"},
     {"pairs", 0, OPTION_FILE, offsetof(verify_settings, pairs), "PAIRS.csv", NULL, "the pairs of ovoid batch"},
+    {"shard", 0, OPTION_PART, offsetof(verify_settings, part), "I/N", NULL,
+     "the results are those of ovoid batch --shard I/N; of check and run, give --partial"},
     {"query", 0, OPTION_CHOICE, offsetof(verify_settings, query), "QUERY", QUERY_CHOICES,
      "the query of ovoid batch or run; for distance, it is also checked that the witness points differ "
      "by the distance along the normal (default: distance; of a batch: within)"},
@@ -251,6 +253,7 @@ static int run_results(verify *v) {
 static int validate_inputs(const cli_command *command, const verify_settings *s, const cli_operands *paths) {
     int has_list = s->list || s->pairs;
     if (has_list && (!s->list || !s->pairs)) return args_complain(command, "verify: --shapes and --pairs go together");
+    if (s->part.count && !has_list) return args_complain(command, "verify: --shard goes with --shapes and --pairs");
     if (has_list && paths->count > 1)
         return args_complain(command, "verify: --shapes takes the place of %s", paths->items[1]);
     if (!has_list && paths->count < 2)

@@ -21,6 +21,7 @@ typedef struct verify_settings {
     int query, json, partial, continuous;
     double margin, tolerance; ///< of the question; margin negative: not given
     unsigned threads;
+    shard_part part; ///< of the pairs of a batch
     ovoid_pose pose_a, pose_b;
 #ifdef OVOID_HAVE_ROBOT
     path_verify_settings paths;

@@ -25,8 +25,12 @@ static int open_list(body_source *bodies, const verify_settings *s) {
     bodies->list = inputs_read_list(s->list, &read);
     if (!bodies->list) return EXIT_INPUT;
     bodies->pairs = ovoid_pairs_reader_open(s->pairs, ovoid_shapes_get_count(bodies->list), &error);
-    if (!bodies->pairs) message_error("%s", error.message);
-    return bodies->pairs ? 0 : EXIT_INPUT;
+    ovoid_code code = OVOID_OK;
+    if (bodies->pairs && s->part.count)
+        code = ovoid_pairs_reader_set_part(bodies->pairs, s->part.index - 1, s->part.count, &error);
+    if (bodies->pairs && !code) return 0;
+    message_error("%s", error.message);
+    return EXIT_INPUT;
 }
 
 /// Opens the bodies of ovoid distance. 0, or EXIT_INPUT after a message.

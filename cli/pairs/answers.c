@@ -16,7 +16,6 @@ typedef struct chunk {
     answer_room room;
     char *text;
     size_t size;
-    size_t ends[CHUNK];       ///< of the records' lines, for shards
     int failed;               ///< no memory
     const char *long_pair[2]; ///< the names of a pair whose proof is too long for a line; NULL: none
 } chunk;
@@ -145,7 +144,6 @@ static void work(void *context, void *slot) {
             k->long_pair[0] = k->records[i].a;
             k->long_pair[1] = k->records[i].b;
         }
-        if (lines && job->results->shard && !k->failed) k->failed = fflush(file) != 0, k->ends[i] = k->size;
         // The room is reused for the next pair.
         k->records[i].cover = NULL;
         k->records[i].exclusions = NULL;
@@ -153,18 +151,6 @@ static void work(void *context, void *slot) {
         k->records[i].solid = NULL;
     }
     if (file && fclose(file) != 0) k->failed = 1;
-}
-
-/// Writes the chunk's lines: at once, or each with its key.
-static int write_lines(const answers_job *job, const chunk *k) {
-    if (!job->results->shard) return results_add_text(job->results, k->text, k->size);
-    int code = 0;
-    for (size_t i = 0; i < k->count && !code; i++) {
-        const shard_key key = job->make_key(job->context, k->first + i);
-        size_t begin = i ? k->ends[i - 1] : 0;
-        code = results_add_keyed(job->results, &key, k->text + begin, k->ends[i] - begin);
-    }
-    return code;
 }
 
 static int drain(void *context, void *slot) {
@@ -179,13 +165,14 @@ static int drain(void *context, void *slot) {
         results_report_long(k->long_pair[0], k->long_pair[1]);
         return EXIT_INPUT;
     }
-    if (lines) code = write_lines(job, k);
+    if (lines) code = results_add_text(job->results, k->text, k->size);
     for (size_t i = 0; i < k->count && !code; i++) {
         if (job->results && !lines) code = results_add(job->results, &k->records[i]);
         if (job->take) job->take(job->context, k->first + i, &k->records[i]);
     }
     free(k->text);
     k->text = NULL;
+    if (!code && job->are_units) code = results_end_units(job->results, k->count);
     return code;
 }
 

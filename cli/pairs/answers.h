@@ -52,8 +52,7 @@ typedef struct answers_job {
     size_t stride, count;
     double time;
     cli_results *results; ///< where records are written; NULL: nowhere
-    /// The place of a record's line among those of all shards; called for shards only.
-    shard_key (*make_key)(void *context, size_t i);
+    int are_units;        ///< 1: each pair is a unit of a shard's work
     /// Receives each record in order (without cover and exclusions); i: of the couple. May be NULL.
     void (*take)(void *context, size_t i, const ovoid_record *record);
     void *context;

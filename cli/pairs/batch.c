@@ -137,9 +137,7 @@ static int drain(void *context, void *slot) {
         message_error("out of memory");
         return EXIT_INPUT;
     }
-    // The parts of a file come one after another.
-    const shard_key key = {{b->settings->part.index, b->done}};
-    if (lines) code = results_add_keyed(&b->results, &key, c->text, c->size);
+    if (lines) code = results_add_text(&b->results, c->text, c->size);
     for (size_t i = 0; i < c->count && !code; i++) {
         ovoid_record record = make_record(b, &c->pairs[i], &c->answers[i], NULL);
         if (!lines) code = results_add(&b->results, &record);

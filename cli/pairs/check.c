@@ -168,20 +168,6 @@ static unsigned get_fields(const check *c) {
 
 /* ---- a shard */
 
-/// Lines of all shards are in the order of their rows.
-static shard_key make_key(void *context, size_t i) {
-    const check *c = context;
-    const row *r = &c->rows[c->kept + i];
-    return (shard_key){
-        {shard_key_from_number(r->lower), shard_key_from_number(r->upper), (uint64_t)r->couple.a << 32 | r->couple.b}};
-}
-
-static void end_row(void *context, size_t i, const ovoid_record *record) {
-    check *c = context;
-    (void)i, (void)record;
-    (void)results_end_units(&c->results, 1); // a failure is stored, and reported with the next line
-}
-
 /// Counts all rows, including those that are not listed.
 static void count_sides(check *c) {
     for (size_t i = 0; i < c->row_count; i++) results_count(&c->results, c->rows[i].code);
@@ -190,9 +176,14 @@ static void count_sides(check *c) {
 /// Answers the pairs of a shard and writes them in their order, after those that an earlier run wrote.
 static int run_shard(check *c, const cli_command *command, const cli_operands *paths) {
     const settings *s = c->settings;
-    shard_job shard = {
-        command,         s, paths, s->part, .most = s->top == TOP_UNSET ? 0 : s->top, .seen = shard_digest_make(),
-        .units = "pairs"};
+    shard_job shard = {.command = command,
+                       .settings = s,
+                       .operands = paths,
+                       .part = s->part,
+                       .scene = c->scene,
+                       .most = s->top == TOP_UNSET ? 0 : s->top,
+                       .seen = shard_digest_make(),
+                       .units = "pairs"};
     shard_digest_add_scene(&shard.seen, c->scene);
     if (results_open_shard(&c->results, &s->out, get_fields(c), &shard)) return EXIT_INPUT;
     uint64_t done = results_get_done(&c->results);
@@ -203,8 +194,7 @@ static int run_shard(check *c, const cli_command *command, const cli_operands *p
     job.couples = c->kept ? c->rows + c->kept : c->rows;
     job.count -= c->kept;
     job.results = &c->results;
-    job.make_key = make_key;
-    job.take = end_row;
+    job.are_units = 1;
     if (!code) code = answers_run(&job);
     if (!code && done != UINT64_MAX) count_sides(c);
     return results_close(&c->results, code);

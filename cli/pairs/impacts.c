@@ -285,15 +285,6 @@ static int is_arrival(const cli_impacts *impacts, const impact *item) {
     return within > 0 || (within < 0 && at_end.limit == OVOID_LIMIT_NONE);
 }
 
-/// Writes the line of an impact. Impacts before a frame are written before its own lines, in the order of
-/// compare_impacts.
-static int write_impact(cli_impacts *impacts, const impact *item, const ovoid_record *record) {
-    if (!impacts->results->shard) return results_add(impacts->results, record);
-    const shard_key key = {{2 * (uint64_t)impacts->frames->count, shard_key_from_number(get_time(item)),
-                            (uint64_t)item->couple.a << 32 | item->couple.b}};
-    return results_add_record(impacts->results, &key, record);
-}
-
 static int write_impacts(cli_impacts *impacts, const impact *items) {
     answer_room room = {.cover = NULL};
     int code = 0;
@@ -310,7 +301,7 @@ static int write_impacts(cli_impacts *impacts, const impact *items) {
         if (!make_record(impacts, &items[i], &room, &record)) code = EXIT_INPUT, message_error("out of memory");
         if (arrives)
             record.hit_after = impacts->frames->time - impacts->frames->earlier, record.time = impacts->frames->time;
-        if (!code && !arrives) code = write_impact(impacts, &items[i], &record);
+        if (!code && !arrives) code = results_add(impacts->results, &record);
         if (!code) impacts->take(impacts->context, items[i].couple, &record);
     }
     answer_room_clear(&room);

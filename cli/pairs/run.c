@@ -101,13 +101,6 @@ static void take_record(void *context, size_t i, const ovoid_record *record) {
     take_held(r, i, record);
 }
 
-/// The lines of a frame are in the order of their pairs, after the impacts before the frame.
-static shard_key make_key(void *context, size_t i) {
-    const run_state *r = context;
-    const ovoid_couple couple = r->near.couples[i];
-    return (shard_key){{2 * (uint64_t)r->frames.count + 1, 0, (uint64_t)couple.a << 32 | couple.b}};
-}
-
 static void take_impact(void *context, ovoid_couple couple, const ovoid_record *record) {
     run_state *r = context;
     take_side(r, isfinite(record->hit_after) ? EXIT_TOUCH : EXIT_NOT_PROVEN);
@@ -132,7 +125,6 @@ static int answer_frame(run_state *r, int is_kept) {
                        .count = r->near.count,
                        .time = r->frames.time,
                        .results = is_kept ? NULL : &r->results,
-                       .make_key = make_key,
                        .take = is_kept ? take_held : take_record,
                        .context = r};
     int code = answers_run(&job);
@@ -196,7 +188,13 @@ static unsigned get_fields(const run_state *r) {
 /// frame to frame; pairs can, since it keeps each pair's proof by itself.
 static int run_shard(run_state *r, const cli_command *command, const cli_operands *paths) {
     const settings *s = r->settings;
-    shard_job job = {command, s, paths, s->part, .seen = shard_digest_make(), .units = "frames"};
+    shard_job job = {.command = command,
+                     .settings = s,
+                     .operands = paths,
+                     .part = s->part,
+                     .scene = r->scene,
+                     .seen = shard_digest_make(),
+                     .units = "frames"};
     shard_digest_add_scene(&job.seen, r->scene);
     int code = results_open_shard(&r->results, &s->out, get_fields(r), &job);
     if (code) return code;

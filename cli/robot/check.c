@@ -200,8 +200,7 @@ static int drain(void *context, void *slot) {
     int code = 0;
     size_t near = 0;
     if (k->failed) return message_error("%s", k->error.message), EXIT_INPUT;
-    const shard_key key = {{k->first}};
-    if (results_are_lines(&c->results)) code = results_add_keyed(&c->results, &key, k->text, k->size);
+    if (results_are_lines(&c->results)) code = results_add_text(&c->results, k->text, k->size);
     free(k->text);
     k->text = NULL;
     for (size_t i = 0; i < k->count && !code; i++) {
@@ -250,45 +249,23 @@ static int check_states(check *c) {
     return code;
 }
 
-/// Adds what the hull of a solid does not tell.
-static void add_solid(shard_digest *digest, const ovoid_solid *solid) {
-    if (!solid) return;
-    ovoid_solid_report is = ovoid_solid_get_report(solid);
-    shard_digest_add(digest, ovoid_solid_get_points(solid), 3 * (size_t)is.points * sizeof(double));
-    for (size_t i = 0; i < (size_t)is.triangles; i++) {
-        uint32_t corner[3];
-        ovoid_solid_get_triangle(solid, i, corner);
-        shard_digest_add(digest, corner, sizeof corner);
-    }
-}
-
 /// Adds the shapes of the links and of the obstacles.
 static void add_shapes(shard_digest *digest, const cli_cell *cell) {
     size_t obstacles = cell->obstacles ? ovoid_obstacles_get_count(cell->obstacles) : 0;
     for (size_t i = 0; i < cell->description.element_count; i++) {
-        shard_digest_add_shape(digest, cell->description.elements[i].shape);
-        add_solid(digest, cell->description.elements[i].solid);
+        const ovoid_robot_element *element = &cell->description.elements[i];
+        shard_digest_add_body(digest, element->shape, element->solid);
     }
     for (size_t i = 0; i < obstacles; i++) {
-        shard_digest_add_shape(digest, ovoid_obstacles_get(cell->obstacles, i).shape);
-        add_solid(digest, ovoid_obstacles_get(cell->obstacles, i).solid);
+        ovoid_obstacle obstacle = ovoid_obstacles_get(cell->obstacles, i);
+        shard_digest_add_body(digest, obstacle.shape, obstacle.solid);
     }
 }
 
-/// Opens the file of a shard. 0, or EXIT_INPUT after a message.
-static int open_shard(check *c, shard_job *job) {
-    const output_settings *out = &c->settings->out;
-    char *head = NULL;
-    size_t size = 0;
-    FILE *file = open_memstream(&head, &size);
-    if (file && out->csv) report_write_csv_header(file, &c->form);
-    int code = EXIT_INPUT;
-    if (file && fclose(file) == 0)
-        code = results_open_shard_with(&c->results, out, job, head, size);
-    else
-        message_error("out of memory");
-    free(head);
-    return code;
+/// Writes the header of CSV, which is not that of records, where it is due.
+static void write_header(check *c) {
+    if (c->results.header_due) report_write_csv_header(c->results.file, &c->form);
+    c->results.header_due = 0;
 }
 
 /// The states of a shard, behind those that an earlier run has written.
@@ -296,10 +273,16 @@ static int run_shard(check *c, const cli_command *command, const cli_operands *o
     const settings *s = c->settings;
     size_t count = c->form.states->count;
     c->listed = s->top != TOP_UNSET && s->top && s->top < count ? s->top : count;
-    shard_job job = {command, s, operands, s->part, .seen = shard_digest_make(), .units = "states"};
+    shard_job job = {.command = command,
+                     .settings = s,
+                     .operands = operands,
+                     .part = s->part,
+                     .seen = shard_digest_make(),
+                     .units = "states"};
     add_shapes(&job.seen, c->form.cell);
-    int code = open_shard(c, &job);
+    int code = results_open_shard(&c->results, &s->out, 0, &job);
     if (code) return code;
+    write_header(c);
     // Whole blocks were written, but for the last one of all.
     uint64_t done = results_get_done(&c->results), blocks = done / OVOID_ROBOT_BLOCK + (done % OVOID_ROBOT_BLOCK > 0);
     size_t first = done < count ? ((size_t)blocks * s->part.count + s->part.index - 1) * OVOID_ROBOT_BLOCK : count;
@@ -318,8 +301,7 @@ static int run_check(check *c) {
     if (is_table) c->rows = calloc(c->listed + 1, sizeof *c->rows);
     if (is_table && !c->rows) return message_error("out of memory"), EXIT_INPUT;
     if (results_open(&c->results, &s->out, 0, "")) return EXIT_INPUT;
-    c->results.header_due = 0;
-    if (s->out.csv) report_write_csv_header(c->results.file, &c->form);
+    write_header(c);
     int code = check_states(c);
     if (!code && is_table) write_table(c);
     int worst = tally_get_exit(&c->tally);

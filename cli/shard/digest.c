@@ -8,7 +8,6 @@
 #include "base/message.h"
 
 #include <errno.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
@@ -75,10 +74,10 @@ static int fail(const char *path) {
     return EXIT_INPUT;
 }
 
-/// Adds that many bytes from the stream on. 0: they are not there.
-static int add_bytes(shard_digest *d, FILE *file, uint64_t count, unsigned char *room) {
+int shard_digest_add_stream(shard_digest *d, FILE *file, uint64_t count) {
+    unsigned char room[1 << 14];
     while (count) {
-        size_t most = count < SHARD_SAMPLE ? (size_t)count : SHARD_SAMPLE;
+        size_t most = count < sizeof room ? (size_t)count : sizeof room;
         if (fread(room, 1, most, file) != most) return 0;
         shard_digest_add(d, room, most);
         count -= most;
@@ -87,11 +86,11 @@ static int add_bytes(shard_digest *d, FILE *file, uint64_t count, unsigned char 
 }
 
 /// Adds evenly spaced pieces of a file of that size.
-static int add_samples(shard_digest *d, FILE *file, uint64_t size, unsigned char *room) {
+static int add_samples(shard_digest *d, FILE *file, uint64_t size) {
     for (uint64_t i = 0; i < SHARD_SAMPLES; i++) {
         uint64_t last = size - SHARD_SAMPLE, at = last / (SHARD_SAMPLES - 1) * i;
         if (i == SHARD_SAMPLES - 1) at = last;
-        if (fseeko(file, (off_t)at, SEEK_SET) != 0 || !add_bytes(d, file, SHARD_SAMPLE, room)) return 0;
+        if (fseeko(file, (off_t)at, SEEK_SET) != 0 || !shard_digest_add_stream(d, file, SHARD_SAMPLE)) return 0;
     }
     return 1;
 }
@@ -105,18 +104,16 @@ int shard_digest_add_file(shard_digest *d, const char *path) {
     }
     errno = 0;
     FILE *file = fopen(path, "rb");
-    unsigned char *room = malloc(SHARD_SAMPLE);
-    int good = file && room && fstat(fileno(file), &status) == 0;
+    int good = file && fstat(fileno(file), &status) == 0;
     if (good) {
         uint64_t size = (uint64_t)status.st_size;
         unsigned char bytes[8];
         for (int i = 0; i < 8; i++) bytes[i] = (unsigned char)(size >> 8 * i);
         shard_digest_add(d, bytes, sizeof bytes);
-        good = size <= SHARD_WHOLE_MAX ? add_bytes(d, file, size, room) : add_samples(d, file, size, room);
+        good = size <= SHARD_WHOLE_MAX ? shard_digest_add_stream(d, file, size) : add_samples(d, file, size);
     }
     int code = good ? 0 : fail(path);
     if (file) (void)fclose(file); // it was read
-    free(room);
     return code;
 }
 
@@ -128,7 +125,7 @@ static void add_ellipsoid(shard_digest *d, const ovoid_ellipsoid *e) {
     shard_digest_add(d, numbers, sizeof numbers);
 }
 
-void shard_digest_add_shape(shard_digest *d, const ovoid_shape *shape) {
+static void add_shape(shard_digest *d, const ovoid_shape *shape) {
     const ovoid_polytope body = ovoid_shape_get_polytope(shape);
     const ovoid_fit outer = ovoid_shape_get_outer(shape), inner = ovoid_shape_get_inner(shape);
     const ovoid_allowance allowance = ovoid_shape_get_allowance(shape);
@@ -151,11 +148,6 @@ void shard_digest_add_shape(shard_digest *d, const ovoid_shape *shape) {
     add_ellipsoid(d, &inner.ellipsoid);
 }
 
-void shard_digest_add_shapes(shard_digest *d, const ovoid_shapes *shapes) {
-    size_t count = ovoid_shapes_get_count(shapes);
-    for (size_t i = 0; i < count; i++) shard_digest_add_shape(d, ovoid_shapes_get(shapes, i).shape);
-}
-
 // The points and triangles, which are all that answers come from.
 static void add_solid(shard_digest *d, const ovoid_solid *solid) {
     ovoid_solid_report r = ovoid_solid_get_report(solid);
@@ -167,11 +159,17 @@ static void add_solid(shard_digest *d, const ovoid_solid *solid) {
     }
 }
 
+void shard_digest_add_body(shard_digest *d, const ovoid_shape *shape, const ovoid_solid *solid) {
+    add_shape(d, shape);
+    if (solid) add_solid(d, solid);
+}
+
+void shard_digest_add_shapes(shard_digest *d, const ovoid_shapes *shapes) {
+    for (size_t i = 0; i < ovoid_shapes_get_count(shapes); i++)
+        shard_digest_add_body(d, ovoid_shapes_get(shapes, i).shape, NULL);
+}
+
 void shard_digest_add_scene(shard_digest *d, const ovoid_scene *scene) {
-    size_t count = ovoid_scene_get_mesh_count(scene);
-    for (size_t i = 0; i < count; i++) {
-        const ovoid_solid *solid = ovoid_scene_get_mesh_solid(scene, i);
-        shard_digest_add_shape(d, ovoid_scene_get_mesh(scene, i).shape);
-        if (solid) add_solid(d, solid);
-    }
+    for (size_t i = 0; i < ovoid_scene_get_mesh_count(scene); i++)
+        shard_digest_add_body(d, ovoid_scene_get_mesh(scene, i).shape, ovoid_scene_get_mesh_solid(scene, i));
 }

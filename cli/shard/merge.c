@@ -1,12 +1,11 @@
-// ovoid merge: the shards of a command's work become what one run would have written. Their texts come in the order of
-// their keys, by a heap of the shards (J. W. J. Williams, Algorithm 232: Heapsort, 1964), in memory that does not grow
-// with their length.
-#include "base/finish.h"
+// ovoid merge: the shards of a command's work become what one run would have written. Their lines come in the order of
+// their keys, by a heap of the shards, in memory that does not grow with their length.
 #include "base/message.h"
 #include "base/outputs.h"
 #include "commands.h"
-#include "shard/header.h"
-#include "shard/read.h"
+#include "results.h"
+#include "shard/order.h"
+#include "tools/heap.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
@@ -23,13 +22,19 @@ static const cli_option options[] = {
     {0},
 };
 
+/// The line of a shard that waits.
+typedef struct item {
+    shard_key key;
+    size_t reader;
+} item;
+
 typedef struct merge {
     shard_reader *readers;
-    size_t count;   ///< of readers that are open
-    size_t *heap;   ///< readers that have a text, the lowest key first
+    size_t count; ///< of readers that are open
+    shard_lines lines;
+    item *heap;     ///< of each shard that has a line, the lowest key first
     size_t waiting; ///< of the heap
-    uint64_t texts;
-    FILE *file;
+    cli_results results;
 } merge;
 
 /* ---- the shards */
@@ -101,107 +106,108 @@ static int check_missing(const merge *m) {
     return EXIT_INPUT;
 }
 
-/// Refuses a name that says another format than the shards have. -1 to go on, or EXIT_USAGE.
-static int check_format(const cli_command *command, const merge *m, const char *path) {
-    int is_json = strcmp(m->readers[0].header.fields[SHARD_FORMAT], "json") == 0;
+static int is_csv(const merge *m) { return strcmp(m->readers[0].header.fields[SHARD_FORMAT], "csv") == 0; }
+
+/// Refuses a name that says another format than the shards have. 0, or EXIT_USAGE after a message.
+static int check_name(const cli_command *command, const merge *m, const char *path) {
     int names_json = path && (outputs_has_extension(path, "json") || outputs_has_extension(path, "jsonl"));
     int names_csv = path && outputs_has_extension(path, "csv");
-    if (is_json ? !names_csv : !names_json) return -1;
+    if (is_csv(m) ? !names_json : !names_csv) return 0;
     return args_complain(command, "%s: %s is no name for %s, which the shards have", command->name, path,
-                         is_json ? "JSON Lines" : "CSV");
+                         is_csv(m) ? "CSV" : "JSON Lines");
 }
 
-/* ---- the heap */
+/* ---- the lines */
 
-static int is_before(const merge *m, size_t a, size_t b) {
-    int order = shard_key_compare(&m->readers[m->heap[a]].key, &m->readers[m->heap[b]].key);
-    return order ? order < 0 : m->heap[a] < m->heap[b];
+static int is_before(const void *a, const void *b) {
+    const item *p = a, *q = b;
+    int order = shard_key_compare(&p->key, &q->key);
+    return order ? order < 0 : p->reader < q->reader;
 }
 
-/// Lets the item at `at` sink to its place.
-static void sink(merge *m, size_t at) {
-    for (;;) {
-        size_t least = at;
-        for (size_t child = 2 * at + 1; child <= 2 * at + 2 && child < m->waiting; child++)
-            if (is_before(m, child, least)) least = child;
-        if (least == at) return;
-        size_t item = m->heap[at];
-        m->heap[at] = m->heap[least];
-        m->heap[least] = item;
-        at = least;
-    }
+/// Reads the next line of a shard, with its key. 1; 0 where there is none; -1 after a message.
+static int read_item(const merge *m, item *i) {
+    shard_reader *r = &m->readers[i->reader];
+    if (!shard_reader_next(r)) return 0;
+    return shard_key_find(&i->key, &m->lines, r->line) ? 1 : (shard_reader_complain(r), -1);
 }
 
-/// Every shard's first text. 0, or EXIT_INPUT after a message.
+/// Every shard's first line. 0, or EXIT_INPUT after a message.
 static int fill_heap(merge *m) {
     for (size_t i = 0; i < m->count; i++) {
-        int got = shard_reader_next(&m->readers[i]);
+        item first = {.reader = i};
+        int got = read_item(m, &first);
         if (got < 0) return EXIT_INPUT;
-        if (got) m->heap[m->waiting++] = i;
+        if (got) heap_push(m->heap, m->waiting++, sizeof first, &first, is_before);
     }
-    for (size_t i = m->waiting / 2; i-- > 0;) sink(m, i);
     return 0;
 }
 
-/// Takes the next text of the first shard of the heap.
+/// Puts the next line of the shard at the top of the heap to its place.
 static int advance(merge *m) {
-    shard_key before = m->readers[m->heap[0]].key;
-    int got = shard_reader_next(&m->readers[m->heap[0]]);
-    if (got < 0) return EXIT_INPUT;
-    if (!got) m->heap[0] = m->heap[--m->waiting];
-    if (m->waiting) sink(m, 0);
-    if (!m->waiting || shard_key_compare(&before, &m->readers[m->heap[0]].key) != 0) return 0;
-    message_error("%s: has results of another part too: run all parts again", m->readers[m->heap[0]].path);
-    return EXIT_INPUT;
+    item next = m->heap[0], last;
+    int got = read_item(m, &next);
+    if (got > 0)
+        heap_sink(m->heap, m->waiting, sizeof next, 0, &next, is_before);
+    else if (!got)
+        heap_pop(m->heap, m->waiting--, sizeof last, &last, is_before);
+    return got < 0 ? EXIT_INPUT : 0;
 }
 
-/* ---- the output */
-
-static int write_texts(merge *m) {
+static int write_lines(merge *m) {
     const shard_header *h = &m->readers[0].header;
-    if (fwrite(h->head, 1, h->head_size, m->file) != h->head_size) return EXIT_INPUT;
+    uint64_t count = 0;
     int code = fill_heap(m);
-    while (m->waiting && !code) {
-        const shard_reader *r = &m->readers[m->heap[0]];
-        int is_listed = !h->most || m->texts < h->most;
-        m->texts += (uint64_t)is_listed;
-        if (is_listed && fwrite(r->text, 1, r->text_size, m->file) != r->text_size) return EXIT_INPUT;
-        code = advance(m);
+    for (; m->waiting && !code; count++) {
+        const shard_reader *r = &m->readers[m->heap[0].reader];
+        if (!h->most || count < h->most) code = results_add_text(&m->results, r->line, r->line_size);
+        if (!code) code = advance(m);
     }
     return code;
 }
 
-static shard_tally add_tallies(const merge *m) {
-    shard_tally all = {{0}};
-    for (size_t i = 0; i < m->count; i++) shard_tally_add(&all, &m->readers[i].all);
+/* ---- the output */
+
+/// Writes the header of CSV, with which all shards begin, and keeps it. 0, or EXIT_INPUT after a message.
+static int write_header(merge *m, char **columns) {
+    for (size_t i = 0; i < m->count; i++)
+        if (!shard_reader_next(&m->readers[i])) return shard_reader_complain(&m->readers[i]);
+    const shard_reader *first = &m->readers[0];
+    m->lines.columns = *columns = strdup(first->line);
+    if (!*columns) return message_error("out of memory"), EXIT_INPUT;
+    return results_add_text(&m->results, first->line, first->line_size);
+}
+
+/// Adds the answers of all shards.
+static shard_progress add_progress(const merge *m) {
+    shard_progress all = {.bytes = 0};
+    for (size_t i = 0; i < m->count; i++)
+        for (int k = 0; k <= EXIT_NOT_PROVEN; k++) all.sides[k] += m->readers[i].progress.sides[k];
     return all;
 }
 
 /// Writes the merged output; the exit code.
 static int write_output(merge *m, const char *path) {
-    ovoid_error error;
-    finish_hold_signals();
-    ovoid_output *output = ovoid_output_open(path ? path : "-", &error);
-    if (output) finish_set_unfinished(ovoid_output_get_temporary(output));
-    finish_release_signals();
-    if (!output) return message_error("%s", error.message), EXIT_INPUT;
-    m->file = ovoid_output_get_file(output);
-    int code = write_texts(m);
-    // A stream that failed says so as it ends; after other errors a file is not made.
-    if (!code || ferror(m->file)) {
-        int failed = finish_output(output);
-        if (failed) code = failed;
-    } else if (!path)
-        (void)finish_file(m->file);
-    ovoid_output_close(output);
-    finish_set_unfinished(NULL);
-    if (code) return code;
-    shard_tally all = add_tallies(m);
+    const output_settings out = {.path = path, .json = 1}; // lines that have their header
+    const shard_header *first = &m->readers[0].header;
+    char *columns = NULL;
+    if (results_open(&m->results, &out, 0, "")) return EXIT_INPUT;
+    qsort(first->objects, first->object_count, sizeof *first->objects, shard_object_compare);
+    m->lines = (shard_lines){.order = shard_get_order(first->fields[SHARD_COMMAND]),
+                             .bodies = first->objects,
+                             .body_count = first->object_count};
+    int code = is_csv(m) ? write_header(m, &columns) : 0;
+    if (!code) code = write_lines(m);
+    shard_progress all = add_progress(m);
+    int worst = shard_progress_get_exit(&all);
+    code = results_close(&m->results, code ? code : worst);
+    free(columns);
+    if (code != worst) return code;
     message_note("%zu shard%s of %s; apart: %" PRIu64 ", touching, overlapping or within: %" PRIu64
                  ", not proven: %" PRIu64,
-                 m->count, m->count == 1 ? "" : "s", m->readers[0].header.fields[SHARD_COMMAND], all.sides[EXIT_APART],
+                 m->count, m->count == 1 ? "" : "s", first->fields[SHARD_COMMAND], all.sides[EXIT_APART],
                  all.sides[EXIT_TOUCH], all.sides[EXIT_NOT_PROVEN]);
-    return shard_tally_get_exit(&all);
+    return code;
 }
 
 /// Merges shards, with room for all of them. The exit code.
@@ -209,8 +215,9 @@ static int merge_shards(const cli_command *command, merge *m, const cli_operands
     int code = open_shards(m, paths);
     if (!code) code = check_shards(m);
     if (!code) code = check_missing(m);
-    if (!code) code = check_format(command, m, path);
-    if (code < 0) code = write_output(m, path);
+    if (!code) code = check_name(command, m, path);
+    for (size_t i = 0; i < m->count && !code; i++) code = shard_reader_check(&m->readers[i]);
+    if (!code) code = write_output(m, path);
     for (size_t i = 0; i < m->count; i++) shard_reader_close(&m->readers[i]);
     return code;
 }
@@ -238,11 +245,12 @@ const cli_command command_merge = {
     .summary = "the shards of a command's work, as one run would have written it",
     .usage = "[OPTION...] SHARD...",
     .description =
-        "batch, check, run and robot check with --shard I/N do part I of N of their work and write a shard. From all N "
-        "of them, in any order, merge makes the same bytes that one run without --shard writes, with its exit code.\n\n"
-        "A shard says by which version, command, options and inputs it was made. Merge refuses, by name, a shard that "
-        "is missing, there twice, of another run, not finished or damaged. A run that was interrupted goes on with the "
-        "same command.",
+        "batch, check, run and robot check with --shard I/N do part I of N of their work and write a shard: its "
+        "results, a file as any other, and beside it FILE.mark, which says by which version, command, options and "
+        "inputs they were made, and that they are finished. From all N shards, in any order, merge makes the same "
+        "bytes that one run without --shard writes, with its exit code.\n\n"
+        "Merge refuses, by name, a shard that is missing, there twice, of another run, not finished or damaged. A run "
+        "that was interrupted goes on with the same command.",
     .exits = "0 everything is apart (with --margin: farther than M)\n"
              "1 something touches, overlaps, is within M, or hits\n"
              "2 the command line is wrong\n"
@@ -250,8 +258,8 @@ const cli_command command_merge = {
              "  (or output could not be written)\n"
              "4 for something that is not proven; this comes before 1",
     .examples = "for i in 1 2 3 4; do\n"
-                "    ovoid check cell.json --json --shard $i/4 -o $i.shard &\n"
-                "done; wait; ovoid merge ?.shard -o results.jsonl",
+                "    ovoid check cell.json --shard $i/4 -o $i.jsonl &\n"
+                "done; wait; ovoid merge ?.jsonl -o results.jsonl",
     .options = options,
     .operands_min = 1,
     .operands_max = -1,

@@ -10,15 +10,15 @@ typedef struct shard_part {
     unsigned index, count;
 } shard_part;
 
-/// Most parts: as many files are open while they are merged.
+/// Most parts: two files of each are open while they are merged.
 #define SHARD_PARTS_MAX 100000
 
 /// The row of an options table of the commands whose work can be cut; `part` is the member of the settings.
 #define SHARD_OPTION(settings)                                                                                         \
     {                                                                                                                  \
         "shard", 0, OPTION_PART, offsetof(settings, part), "I/N", NULL,                                                \
-            "do part I of N, from 1 on, and write it to the file of --output, a shard for ovoid merge; where that "    \
-            "file holds the beginning of it, go on"                                                                    \
+            "do part I of N, from 1 on, and write it to FILE of --output, a shard for ovoid merge, and FILE.mark; "    \
+            "where they hold the beginning of it, go on"                                                               \
     }
 
 /// 1 if item i of a list that is dealt out in turn is one of the part.

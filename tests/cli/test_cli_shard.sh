@@ -1,8 +1,8 @@
 #!/bin/sh
 # Shards and ovoid merge: for every N from 1 to 7 the merged bytes and the exit code are those of one run, of batch, check,
-# run and robot check, in CSV and JSON Lines, with proofs. A shard that is cut at any place, killed, or that met a full
-# disk goes on and becomes the same file. What is missing, there twice, of another run, not finished or damaged is refused
-# by name.
+# run and robot check, in CSV and JSON Lines, with proofs. The file of a shard is one of ordinary results. A shard that is
+# cut at any place, killed, or that met a full disk goes on and becomes the same files. What is missing, there twice, of
+# another run, not finished or damaged is refused by name.
 # Truth: the run without --shard.
 set -u
 # shellcheck source=tests/cli/need_tool.sh
@@ -62,7 +62,7 @@ all() {
     code=$?
     check "$name: one run" [ -s one ]
     for n in $numbers; do
-        rm -f -- *.shard
+        rm -f -- *.shard *.mark
         i=1
         while [ $i -le "$n" ]; do
             "$OVOID_TOOL" "$@" --shard "$i/$n" -o $i.shard --threads $((i % 3 + 1)) 2>/dev/null
@@ -74,6 +74,12 @@ all() {
         got=$?
         check "$name: the bytes of $n shards" cmp one merged
         check "$name: the exit code of $n shards, $got for $code" [ $got -eq $code ]
+        # Each file begins as the results of one run do, and all lines are those.
+        case " $* " in *' --csv '*) head=1 ;; *) head=0 ;; esac
+        for file in *.shard; do tail -n +$((head + 1)) "$file"; done | sort >lines
+        tail -n +$((head + 1)) one | sort >wanted
+        case $name in *top*) ;; *) check "$name: the lines of $n shards" cmp wanted lines ;; esac
+        check "$name: the first lines of $n shards" [ "$(for file in *.shard; do head -n $head "$file"; done | uniq)" = "$(head -n $head one)" ]
     done
 }
 every='1 2 3 4 5 6 7'
@@ -95,51 +101,90 @@ all 5 'one pair, no line end' batch --shapes shapes.txt --pairs few.csv --csv
 head -1 few.csv >none.csv
 all 2 'no pair' batch --shapes shapes.txt --pairs none.csv --csv
 
-# ---- proofs are kept
+# Names that CSV and JSON write otherwise than they are, bodies at equal distances, and infinite bounds.
+printf '{"objects":[{"name":"a, \\"b\\"}","sphere":1},{"name":"=z\\n","sphere":1,"pose":{"xyz":[4,0,0]}},{"name":"\\\\{","sphere":1,"pose":{"xyz":[8,0,0]}},' >names.json
+printf '{"name":"a","sphere":1,"pose":{"xyz":[12,0,0]}},{"name":"B","box":[1,1,1],"pose":{"xyz":[16,0,0]}}]}' >>names.json
+all '1 3 9' 'names, CSV' check names.json --csv --proofs
+all '2 4' 'names, JSON' check names.json --json
 
-rm -f -- *.shard
+# ---- proofs are kept, in the shards and in what is merged from them
+
+rm -f -- *.shard *.mark
 for i in 1 2 3; do "$OVOID_TOOL" run scene.json --motion moves.csv --margin 0.2 --continuous --json --shard $i/3 -o $i.shard 2>/dev/null; done
+for i in 1 2 3; do
+    "$OVOID_TOOL" verify $i.shard scene.json --motion moves.csv --partial >/dev/null 2>&1
+    check "the proofs of shard $i" [ $? -eq 0 ]
+    "$OVOID_TOOL" batch --shapes shapes.txt --pairs pairs.csv --json --shard $i/3 -o $i.jsonl 2>/dev/null
+    "$OVOID_TOOL" verify $i.jsonl --shapes shapes.txt --pairs pairs.csv --shard $i/3 >said 2>&1
+    check "the proofs of part $i of a batch; got $(cat said)" grep -q 'do not: 0; undecided answers: 0; checked' said
+    "$OVOID_TOOL" verify $i.jsonl --shapes shapes.txt --pairs pairs.csv --shard $((i % 3 + 1))/3 >/dev/null 2>&1
+    check "part $i is no other one" [ $? -ne 0 ]
+done
 "$OVOID_TOOL" merge ./*.shard -o merged.jsonl 2>/dev/null
 "$OVOID_TOOL" verify merged.jsonl scene.json --motion moves.csv --partial >/dev/null 2>&1
 check 'the proofs of merged lines' [ $? -eq 0 ]
 
-# ---- interrupted: cut at many places, between and within blocks, and a byte altered behind them
+# ---- interrupted: cut at many places, between and within pieces, and a byte altered behind them
 
-# again NAME WORDS...: shard 2/2 goes on from what is there and is whole again.
+# goes_on NAME WORDS...: shard 2/2 goes on from what is there and is whole again, and so is its mark.
+goes_on() {
+    place=$1
+    shift
+    "$OVOID_TOOL" "$@" --shard 2/2 -o part.shard 2>said
+    got=$?
+    check "$place" cmp whole.shard part.shard
+    check "$place: the mark" cmp whole.shard.mark part.shard.mark
+}
+
+# again NAME WORDS...: as goes_on, from many places.
 again() {
     name=$1
     shift
-    rm -f whole.shard part.shard
+    rm -f whole.shard* part.shard*
     "$OVOID_TOOL" "$@" --shard 2/2 -o whole.shard 2>/dev/null
     code=$?
     size=$(wc -c <whole.shard)
     for step in 0 1 90 400 620 950 999; do
         cut=$((size * step / 1000))
         head -c $cut whole.shard >part.shard
-        "$OVOID_TOOL" "$@" --shard 2/2 -o part.shard 2>/dev/null
-        check "$name: cut at $cut of $size bytes" cmp whole.shard part.shard
+        cp whole.shard.mark part.shard.mark
+        goes_on "$name: cut at $cut of $size bytes" "$@"
+    done
+    # The mark cut within and between its lines, as by kill -9: the results are ahead of it.
+    begin=$(grep -c -v -E '^(kept|done): ' whole.shard.mark)
+    lines=$(wc -l <whole.shard.mark)
+    for line in $begin $((begin + 1)) $(((begin + lines) / 2)) $((lines - 1)); do
+        cp whole.shard part.shard
+        head -n "$line" whole.shard.mark >part.shard.mark
+        goes_on "$name: the mark cut behind line $line" "$@"
+        { head -n "$line" whole.shard.mark && printf 'kept: 70'; } >part.shard.mark
+        goes_on "$name: the mark cut within line $((line + 1))" "$@"
     done
     # A torn end of other bytes, as after a loss of power, longer than what is to come; and one byte within.
     { head -c $((size / 2)) whole.shard && head -c "$size" /dev/zero; } >part.shard
-    "$OVOID_TOOL" "$@" --shard 2/2 -o part.shard 2>said
-    check "$name: a torn end" cmp whole.shard part.shard
+    cp whole.shard.mark part.shard.mark
+    goes_on "$name: a torn end" "$@"
     { head -c $((size / 2)) whole.shard && printf '\377' && tail -c +$((size / 2 + 2)) whole.shard; } >part.shard
-    "$OVOID_TOOL" "$@" --shard 2/2 -o part.shard 2>said
-    check "$name: a byte within" cmp whole.shard part.shard
-    "$OVOID_TOOL" "$@" --shard 2/2 -o part.shard 2>/dev/null
-    got=$?
-    check "$name: a whole shard stays" cmp whole.shard part.shard
-    check "$name: the exit code of a whole shard, $got for $code" [ $got -eq $code ]
+    goes_on "$name: a byte within" "$@"
+    sed "$((lines - 1))s/ [0-9]* units/ 7 units/" whole.shard.mark >part.shard.mark
+    goes_on "$name: a number within the mark" "$@"
+    { cat whole.shard && echo more; } >part.shard
+    goes_on "$name: bytes behind the end" "$@"
+    goes_on "$name: a whole shard stays" "$@"
+    check "$name: the exit code of a whole shard, $got for $code" [ "$got" -eq $code ]
+    rm part.shard
+    goes_on "$name: the results are lost, the mark is not" "$@"
 }
 again batch batch --shapes shapes.txt --pairs pairs.csv --json
 again check check scene.json --json
+again 'check, CSV' check scene.json --csv
 again run run scene.json --motion moves.csv --json
 again 'run, continuous' run scene.json --motion moves.csv --json --continuous --margin 0.1
 # shellcheck disable=SC2086 # words without blanks
 [ $has_robot -eq 0 ] || again 'robot check' $robot --json --near 0.3
 
 # kill -9 at whatever place the run has come to.
-rm -f whole.shard part.shard
+rm -f whole.shard* part.shard*
 for i in 1 2 3 4 5 6 7 8 9; do tail -n +2 pairs.csv | grep ,; done >>pairs.csv.body
 { head -1 pairs.csv && cat pairs.csv.body; } >many.csv
 "$OVOID_TOOL" batch --shapes shapes.txt --pairs many.csv --json --shard 1/1 -o whole.shard 2>/dev/null
@@ -149,9 +194,10 @@ kill -9 $! 2>/dev/null
 wait $! 2>/dev/null
 "$OVOID_TOOL" batch --shapes shapes.txt --pairs many.csv --json --shard 1/1 -o part.shard 2>/dev/null
 check 'killed' cmp whole.shard part.shard
+check 'killed: the mark' cmp whole.shard.mark part.shard.mark
 
 # A full disk: a limit of 100 blocks of 512 or 1024 bytes.
-rm -f part.shard
+rm -f part.shard*
 (ulimit -f 100 && "$OVOID_TOOL" batch --shapes shapes.txt --pairs many.csv --json --shard 1/1 -o part.shard) >/dev/null 2>said
 check 'a full disk: the code' [ $? -eq 3 ]
 check 'a full disk: what is said' grep -q 'part.shard: could not be written in full' said
@@ -176,10 +222,12 @@ refuse() {
     check "refused: $text; got $(cat said)" grep -q -- "$text" said
     check "refused: $text: the code" [ $got -eq 3 ]
 }
+# copy FROM TO: a shard, with its mark.
+copy() { cp "$1" "$2" && cp "$1.mark" "$2.mark"; }
 shard() { "$OVOID_TOOL" batch --shapes shapes.txt --pairs pairs.csv --csv "$@" 2>/dev/null; }
-rm -f -- *.shard
+rm -f -- *.shard *.mark
 for i in 1 2 3; do shard --shard $i/3 -o $i.shard; done
-cp 2.shard twin.shard
+copy 2.shard twin.shard
 shard --shard 1/4 -o four.shard
 shard --shard 1/3 --margin 0.25 -o margin.shard
 shard --shard 1/3 --proofs -o proofs.shard
@@ -210,30 +258,46 @@ refuse 'late.shard: is of inputs with the digest .*, and 2.shard' 2.shard late.s
 refuse 'mesh2.shard: is of inputs with the digest .*, and mesh1.shard' mesh1.shard mesh2.shard
 refuse 'pairs.csv: is no shard' 1.shard pairs.csv
 refuse 'nowhere.shard: cannot be opened' nowhere.shard
-# Altered bytes, in the header and in all blocks.
-size=$(wc -c <2.shard)
-at=40
-while [ $at -lt "$size" ]; do
-    { head -c $at 2.shard && printf '\377' && tail -c +$((at + 2)) 2.shard; } >altered.shard
-    "$OVOID_TOOL" merge 1.shard altered.shard 3.shard >merged 2>said
-    check "altered at byte $at" [ $? -eq 3 ]
-    check "altered at byte $at: its name" grep -q altered.shard said
-    at=$((at + size / 11))
+cp 2.shard alone.shard
+refuse 'alone.shard: is no shard, as .*: alone.shard.mark, which says of which run it is, is not there' 1.shard alone.shard
+head -n 5 2.shard.mark >alone.shard.mark
+refuse 'alone.shard.mark, which says of which run it is, does not' 1.shard alone.shard
+sed '$d' 2.shard.mark >alone.shard.mark
+refuse 'alone.shard: part 2/3 is not finished, or damaged; run it again, with --shard 2/3: it goes on' 1.shard alone.shard 3.shard
+# Altered bytes: in all pieces of the results, and in the mark.
+for file in altered.shard altered.shard.mark; do
+    copy 2.shard altered.shard
+    cp $file whole
+    size=$(wc -c <$file)
+    at=40
+    while [ $at -lt "$size" ]; do
+        { head -c $at whole && printf '\377' && tail -c +$((at + 2)) whole; } >$file
+        "$OVOID_TOOL" merge 1.shard altered.shard 3.shard >merged 2>said
+        check "$file: altered at byte $at" [ $? -eq 3 ]
+        check "$file: altered at byte $at: its name" grep -q altered.shard said
+        at=$((at + size / 11))
+    done
 done
-# Blocks behind the last one, which is there twice; and a part whose results are those of another part.
-{ cat 2.shard && tail -c 96 2.shard; } >behind.shard
-refuse 'behind.shard: block [0-9]* is damaged' 1.shard behind.shard 3.shard
-"$OVOID_TOOL" check scene.json --csv --shard 1/2 -o half.shard 2>/dev/null
-sed '1,20s,^part 1/2,part 2/2,' half.shard >same.shard
-refuse 'has results of another part too' half.shard same.shard
-{ cat 2.shard && printf x; } >altered.shard
+# What stands behind the end of either file; and a part whose mark was made that of another one.
+copy 2.shard altered.shard
+echo >>altered.shard
 refuse 'altered.shard: part 2/3 is not finished, or damaged' 1.shard altered.shard 3.shard
+copy 2.shard altered.shard
+tail -n 1 2.shard.mark >>altered.shard.mark
+refuse 'altered.shard: part 2/3 is not finished, or damaged' 1.shard altered.shard 3.shard
+"$OVOID_TOOL" check scene.json --csv --shard 1/2 -o half.shard 2>/dev/null
+cp half.shard same.shard
+sed '1,20s,^part 1/2,part 2/2,' half.shard.mark >same.shard.mark
+refuse 'same.shard: part 2/2 is not finished, or damaged' half.shard same.shard
 # What is at the place of a shard and is none, or another one, stays.
 shard --shard 2/3 -o pairs3.csv
 cp pairs.csv plain && "$OVOID_TOOL" batch --shapes shapes.txt --pairs pairs.csv --csv --shard 2/3 -o plain 2>said
 check 'no shard is overwritten' cmp plain pairs.csv
 check 'no shard is overwritten: said' grep -q 'plain: is there and is no shard' said
-cp 2.shard other.shard && "$OVOID_TOOL" batch --shapes shapes.txt --pairs pairs.csv --csv --shard 3/3 -o other.shard 2>said
+cp pairs.csv free.mark && "$OVOID_TOOL" batch --shapes shapes.txt --pairs pairs.csv --csv --shard 2/3 -o free 2>said
+check 'no mark is overwritten' cmp free.mark pairs.csv
+check 'no mark is overwritten: said' grep -q 'free.mark: is there and is no mark of a shard' said
+copy 2.shard other.shard && "$OVOID_TOOL" batch --shapes shapes.txt --pairs pairs.csv --csv --shard 3/3 -o other.shard 2>said
 check 'another part stays' cmp 2.shard other.shard
 check 'another part stays: said' grep -q 'other.shard: is part 2/3, not 3/3' said
 "$OVOID_TOOL" batch --shapes shapes.txt --pairs pairs.csv --csv --margin 1 --shard 2/3 -o other.shard 2>said
