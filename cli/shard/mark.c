@@ -200,10 +200,14 @@ int shard_header_read(FILE *file, shard_header *h) {
     return 0;
 }
 
+void shard_objects_free(shard_object *objects, size_t count) {
+    for (size_t i = 0; i < count; i++) free(objects[i].text);
+    free(objects);
+}
+
 void shard_header_clear(shard_header *h) {
     for (int i = 0; i < SHARD_FIELDS; i++) free(h->fields[i]);
-    for (size_t i = 0; i < h->object_count; i++) free(h->objects[i].text);
-    free(h->objects);
+    shard_objects_free(h->objects, h->object_count);
     *h = (shard_header){.objects = NULL};
 }
 

@@ -84,6 +84,8 @@ char *shard_header_make(const shard_job *job, size_t *size);
 int shard_header_read(FILE *file, shard_header *header);
 void shard_header_clear(shard_header *header);
 
+void shard_objects_free(shard_object *objects, size_t count);
+
 /// Says why two headers are not of one run, or what differs. 0 where but for the part they are the same; else the
 /// message has been written as "path: what differs from other".
 int shard_header_differs(const char *path, const shard_header *header, const char *other, const shard_header *first);

@@ -32,8 +32,9 @@ typedef struct merge {
     shard_reader *readers;
     size_t count; ///< of readers that are open
     shard_lines lines;
-    item *heap;     ///< of each shard that has a line, the lowest key first
-    size_t waiting; ///< of the heap
+    shard_object *bodies; ///< of the lines
+    item *heap;           ///< of each shard that has a line, the lowest key first
+    size_t waiting;       ///< of the heap
     cli_results results;
 } merge;
 
@@ -52,7 +53,18 @@ static int open_shards(merge *m, const cli_operands *paths) {
         int code = shard_reader_open(&m->readers[i], paths->items[i]);
         if (code) return code;
         m->count++;
+        // The names of the objects are those of all shards: they are kept once.
+        shard_header *h = &m->readers[i].header;
+        if (i)
+            shard_objects_free(h->objects, h->object_count);
+        else
+            m->bodies = h->objects, m->lines.body_count = h->object_count;
+        h->objects = NULL;
+        h->object_count = 0;
     }
+    m->lines.bodies = m->bodies;
+    m->lines.order = shard_get_order(m->readers[0].header.fields[SHARD_COMMAND]);
+    qsort(m->bodies, m->lines.body_count, sizeof *m->bodies, shard_object_compare);
     return 0;
 }
 
@@ -192,10 +204,6 @@ static int write_output(merge *m, const char *path) {
     const shard_header *first = &m->readers[0].header;
     char *columns = NULL;
     if (results_open(&m->results, &out, 0, "")) return EXIT_INPUT;
-    qsort(first->objects, first->object_count, sizeof *first->objects, shard_object_compare);
-    m->lines = (shard_lines){.order = shard_get_order(first->fields[SHARD_COMMAND]),
-                             .bodies = first->objects,
-                             .body_count = first->object_count};
     int code = is_csv(m) ? write_header(m, &columns) : 0;
     if (!code) code = write_lines(m);
     shard_progress all = add_progress(m);
@@ -219,6 +227,7 @@ static int merge_shards(const cli_command *command, merge *m, const cli_operands
     for (size_t i = 0; i < m->count && !code; i++) code = shard_reader_check(&m->readers[i]);
     if (!code) code = write_output(m, path);
     for (size_t i = 0; i < m->count; i++) shard_reader_close(&m->readers[i]);
+    shard_objects_free(m->bodies, m->lines.body_count);
     return code;
 }
 

@@ -88,7 +88,9 @@ static int find_wanted(const text *name) {
     static const char *const wanted[WANTED] = {"state", "time", "frame", "free_for", "hit_after",
                                                "a",     "b",    "lower", "upper"};
     int i = 0;
-    while (i < WANTED && (strncmp(wanted[i], name->at, name->size) != 0 || wanted[i][name->size])) i++;
+    while (i < WANTED &&
+           (*wanted[i] != *name->at || strncmp(wanted[i], name->at, name->size) != 0 || wanted[i][name->size]))
+        i++;
     return i;
 }
 
