@@ -3,9 +3,10 @@
 # scripts/mutations/ after another (all, those of the groups, or those named), builds, and runs tests until one fails. The
 # judge is not mutated: it is what the rest is held against. Tests that compare stored hashes of bits are left out, since
 # they notice any change.
-# Prints a row of a Markdown table for each: the mutation, what noticed it, or SURVIVED; docs/mutation.md has the last
-# full run. Exit 1 where a mutation does not apply (its text must be there exactly once) or does not compile. Two to three
-# hours for all on two cores.
+# Prints a line for each: the mutation, what it breaks, and the test that noticed it, or SURVIVED; and puts the result into
+# scripts/mutations/results.tsv, from which scripts/mutations.py --write makes the tables of docs/mutation.md. Exit 1 where
+# a mutation does not apply (its text must be there exactly once) or does not compile. Two to three hours for all on two
+# cores.
 # mutate.sh --check: nothing is built; every mutation has all it needs and applies.
 # mutate.sh --list: the groups, how many mutations each has, and its tests.
 set -u
@@ -119,6 +120,14 @@ notice() {
     echo SURVIVED
 }
 
+# record NAME GROUP WORD: the result becomes the last one of the mutation.
+record() {
+    results=scripts/mutations/results.tsv
+    NAME=$1 awk -F'\t' '$1 != ENVIRON["NAME"]' $results >$copy/results
+    printf '%s\t%s\t%s\t%s\n' "$1" "$2" "$3" "$(date +%F)" >>$copy/results
+    LC_ALL=C sort $copy/results >$results
+}
+
 check_list() {
     passed=0 failed=0
     twice=$(cut -f1 $copy.list | sort | uniq -d)
@@ -186,8 +195,6 @@ for group in $groups; do
 done
 
 bad=0
-echo "| mutation | file | what it breaks | noticed by |"
-echo "|---|---|---|---|"
 while IFS='	' read -r name group file from to breaks <&3; do
     cp "$tree/$file" $copy/original
     if mutated "$tree/$file" "$from" "${to% }" >$copy/mutated; then
@@ -197,7 +204,7 @@ while IFS='	' read -r name group file from to breaks <&3; do
         word="DOES NOT APPLY"
     fi
     cp $copy/original "$tree/$file"
-    case $word in "DOES NOT APPLY" | "does not compile") bad=1 ;; esac
-    echo "| $name | \`${file#src/}\` | $breaks | $word |"
+    case $word in "DOES NOT APPLY" | "does not compile") bad=1 ;; *) record "$name" "$group" "$word" ;; esac
+    echo "$name, ${file#src/}, $breaks: $word"
 done 3<$copy.wanted
 exit $bad

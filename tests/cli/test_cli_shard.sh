@@ -103,7 +103,7 @@ all 2 'no pair' batch --shapes shapes.txt --pairs none.csv --csv
 
 # Names that CSV and JSON write otherwise than they are, bodies at equal distances, and infinite bounds.
 printf '{"objects":[{"name":"a, \\"b\\"}","sphere":1},{"name":"=z\\n","sphere":1,"pose":{"xyz":[4,0,0]}},{"name":"\\\\{","sphere":1,"pose":{"xyz":[8,0,0]}},' >names.json
-printf '{"name":"a","sphere":1,"pose":{"xyz":[12,0,0]}},{"name":"B","box":[1,1,1],"pose":{"xyz":[16,0,0]}}]}' >>names.json
+printf '{"name":"a","sphere":1,"pose":{"xyz":[12,0,0]}},{"name":"q\\",","sphere":1,"pose":{"xyz":[20,0,0]}},{"name":"B","box":[1,1,1],"pose":{"xyz":[16,0,0]}}]}' >>names.json
 all '1 3 9' 'names, CSV' check names.json --csv --proofs
 all '2 4' 'names, JSON' check names.json --json
 

@@ -1,12 +1,14 @@
 #!/bin/sh
-# The list of mutations fits the sources. Truth: each one's text is in its file exactly once and is changed, it says what
-# it breaks, and its group has tests; each such test is there. A planted text that is nowhere is found.
+# The list of mutations fits the sources, and docs/mutation.md the results. Truth: each one's text is in its file exactly
+# once and is changed, it says what it breaks, and its group has tests; each such test is there. What is planted, a text
+# that is nowhere, a result without its mutation, a survivor without a reason, is found.
 set -u
 : "${OVOID_SOURCE_DIR:=$(cd "$(dirname "$0")/../.." && pwd)}" "${OVOID_BUILD_DIR:=$OVOID_SOURCE_DIR/build/release}"
 work=$OVOID_BUILD_DIR/test_mutations
 rm -rf "$work" && mkdir -p "$work" || exit 1
 # A copy, since a listing is written beside the sources.
-cp -R "$OVOID_SOURCE_DIR/scripts" "$OVOID_SOURCE_DIR/src" "$OVOID_SOURCE_DIR/python" "$OVOID_SOURCE_DIR/cli" "$OVOID_SOURCE_DIR/include" "$work" && cd "$work" || exit 1
+cp -R "$OVOID_SOURCE_DIR/scripts" "$OVOID_SOURCE_DIR/src" "$OVOID_SOURCE_DIR/python" "$OVOID_SOURCE_DIR/cli" "$OVOID_SOURCE_DIR/include" "$OVOID_SOURCE_DIR/docs" "$work" && cd "$work" || exit 1
+export OVOID_SOURCE_DIR
 passed=0 failed=0
 check() { # NAME RESULT
     if [ "$2" -eq 0 ]; then passed=$((passed + 1)); else failed=$((failed + 1)) && echo "FAILED $1"; fi
@@ -24,6 +26,28 @@ for group in $(scripts/mutate.sh --list | cut -d, -f1); do
     scripts/mutate.sh --list | grep -q "^$group, [1-9]"
     check "group $group has no mutations" $?
 done
+# The page says what the results say.
+tables() { OVOID_SOURCE_DIR=$work scripts/mutations.py >said; }
+tables
+check "the tables of docs/mutation.md: $(head -n 5 said)" $?
+planted() { # NAME SENTENCE: what was planted is found; the results are as they were then.
+    tables
+    [ $? -eq 1 ] && grep -q -- "$2" said
+    check "$1" $?
+    cp "$OVOID_SOURCE_DIR"/scripts/mutations/* scripts/mutations
+}
+sed -i '/^sphere radius	/s/test_measures/test_world/' scripts/mutations/results.tsv
+planted "another result" 'is not what the results say'
+sed -i '/^sphere radius	/s/test_measures/SURVIVED/' scripts/mutations/results.tsv
+planted "a survivor without a reason" '"sphere radius" survived: say why'
+sed -i 's/^sphere radius	/spheres radius	/' scripts/mutations/results.tsv
+planted "a result without its mutation" 'there is no fault "spheres radius" any more'
+sed -i '/^survives: it cannot show. A zero/d' scripts/mutations/query.txt
+planted "a reason that is gone" '"direction of nothing" survived'
+sed -i '/^sign	/d' scripts/mutations/results.tsv
+planted "a reason without a result" '"sign" has a line "survives:"'
+sed -i 's/<!-- mutations tools -->/<!-- mutations tool -->/' docs/mutation.md
+planted "a group without its table" 'has the group tools 0 times'
 # Planted: a text that is nowhere, one that is there twice, a group that is none.
 printf '\nname: planted\ntests: world\nfile: src/world/move.c\nfrom: no such text\nto: x\nbreaks: x\n' >>scripts/mutations/world.txt
 scripts/mutate.sh --check | grep -q 'FAILED mutation "planted": its text must be in src/world/move.c exactly once'
