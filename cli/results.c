@@ -43,17 +43,10 @@ int results_settle_part(const cli_command *command, output_settings *settings, s
 }
 
 int results_open(cli_results *results, const output_settings *settings, unsigned fields, const char *unit) {
-    ovoid_error error;
     *results = (cli_results){.settings = settings, .unit = unit, .fields = fields, .header_due = settings->csv};
     if (settings->proofs) results->fields |= OVOID_RECORD_PROOF;
-    finish_hold_signals();
-    results->output = ovoid_output_open(settings->path ? settings->path : "-", &error);
-    if (results->output) finish_set_unfinished(ovoid_output_get_temporary(results->output));
-    finish_release_signals();
-    if (!results->output) {
-        message_error("%s", error.message);
-        return EXIT_INPUT;
-    }
+    results->output = finish_open(settings->path ? settings->path : "-");
+    if (!results->output) return EXIT_INPUT;
     results->file = ovoid_output_get_file(results->output);
     return 0;
 }

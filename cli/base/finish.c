@@ -74,6 +74,16 @@ int finish_file(FILE *file) {
     return EXIT_INPUT;
 }
 
+ovoid_output *finish_open(const char *path) {
+    ovoid_error error;
+    finish_hold_signals();
+    ovoid_output *output = ovoid_output_open(path, &error);
+    if (output) finish_set_unfinished(ovoid_output_get_temporary(output));
+    finish_release_signals();
+    if (!output) finish_report_failure(&error);
+    return output;
+}
+
 int finish_output(ovoid_output *output) {
     ovoid_error error;
     int unread = finish_is_unread(ovoid_output_get_file(output));
@@ -81,6 +91,20 @@ int finish_output(ovoid_output *output) {
     if (unread) return EXIT_PIPE;
     finish_report_failure(&error);
     return EXIT_INPUT;
+}
+
+int finish_close(ovoid_output *output, int code) {
+    if (!code) code = finish_output(output);
+    ovoid_output_close(output);
+    finish_set_unfinished(NULL);
+    return code;
+}
+
+int finish_chart(const char *path, const ovoid_chart *chart) {
+    ovoid_output *output = finish_open(path);
+    if (!output) return EXIT_INPUT;
+    (void)ovoid_chart_write_svg(ovoid_output_get_file(output), chart); // finish_output checks the stream
+    return finish_close(output, 0);
 }
 
 void finish_report_failure(const ovoid_error *error) {

@@ -24,7 +24,16 @@ int finish_is_unread(FILE *file);
 /// Reports why an output file failed; "-" is named as standard output.
 void finish_report_failure(const ovoid_error *error);
 
+/// Opens an output file, which a signal removes; "-": standard output. One at a time. NULL after a message.
+ovoid_output *finish_open(const char *path);
+
 /// Commits an output file. 0, or an exit code as above.
 int finish_output(ovoid_output *output);
+
+/// Commits the file, unless the code says that there is none to be made, and closes it. The code, or one as above.
+int finish_close(ovoid_output *output, int code);
+
+/// Writes a chart to a file. 0, or an exit code as above.
+int finish_chart(const char *path, const ovoid_chart *chart);
 
 #endif

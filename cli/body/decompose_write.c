@@ -134,15 +134,10 @@ static void write_parts(FILE *file, const decomposed *d) {
 typedef void (*writer)(FILE *file, const decomposed *d);
 
 static int write_file(const char *path, const decomposed *d, writer write) {
-    ovoid_error error;
-    ovoid_output *output = ovoid_output_open(path, &error);
-    if (!output) return message_error("%s", error.message), EXIT_INPUT;
-    finish_set_unfinished(ovoid_output_get_temporary(output));
+    ovoid_output *output = finish_open(path);
+    if (!output) return EXIT_INPUT;
     write(ovoid_output_get_file(output), d);
-    int code = finish_output(output);
-    finish_set_unfinished(NULL);
-    ovoid_output_close(output);
-    return code;
+    return finish_close(output, 0);
 }
 
 int decomposed_write_parts(const char *path, const decomposed *d) {

@@ -5,10 +5,10 @@
 
 #include "base/finish.h"
 #include "base/inputs.h"
+#include "base/members.h"
 #include "base/message.h"
 #include "base/outputs.h"
 #include "base/progress.h"
-#include "io/fields.h"
 #include "pairs/solids.h"
 
 #include <ovoid/ovoid.h>
@@ -121,15 +121,9 @@ static void print_info(const info *report) {
 
 static void write_count(const char *key, uint64_t count) { printf(",\"%s\":%llu", key, (unsigned long long)count); }
 
-static void write_number(const char *key, double number) {
-    printf(",\"%s\":", key);
-    json_write_number(stdout, number);
-}
-
 static void write_json(const info *report) {
     const ovoid_solid_report *r = &report->report;
-    fputs("{\"mesh\":", stdout);
-    ovoid_text_write_json(stdout, report->path);
+    member_write_text(stdout, "{", "mesh", report->path);
     write_count("triangles", r->triangles);
     write_count("points", r->points);
     write_count("components", r->components);
@@ -145,13 +139,13 @@ static void write_json(const info *report) {
         printf("[%lu,%lu]", (unsigned long)report->crossings.triangle_a, (unsigned long)report->crossings.triangle_b);
     else
         fputs("null", stdout);
-    write_number("volume", r->is_closed ? r->volume : NAN);
+    member_write_number(stdout, ",", "volume", r->is_closed ? r->volume : NAN);
     printf(",\"flat\":%s", r->is_flat ? "true" : "false");
-    write_number("area", r->area);
-    write_number("mesh_volume", report->convexity.mesh_volume);
-    write_number("hull_volume", report->convexity.hull_volume);
-    printf(",\"kind\":\"%s\",\"allowance\":", ovoid_mesh_kind_get_name(report->kind));
-    json_write_number(stdout, report->kind == OVOID_MESH_HULL ? report->convexity.allowance : 0);
+    member_write_number(stdout, ",", "area", r->area);
+    member_write_number(stdout, ",", "mesh_volume", report->convexity.mesh_volume);
+    member_write_number(stdout, ",", "hull_volume", report->convexity.hull_volume);
+    printf(",\"kind\":\"%s\"", ovoid_mesh_kind_get_name(report->kind));
+    member_write_number(stdout, ",", "allowance", report->kind == OVOID_MESH_HULL ? report->convexity.allowance : 0);
     fputs("}\n", stdout);
 }
 

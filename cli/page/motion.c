@@ -1,6 +1,7 @@
 // The number of frames is not known in advance: whenever there is no more room every second frame is dropped.
 #include "page/motion.h"
 
+#include "base/members.h"
 #include "base/message.h"
 #include "io/fields.h"
 #include "page/write.h"
@@ -159,10 +160,6 @@ void page_motion_write(cli_page *page, const page_motion *m, const page_choice *
     write_poses(file, m, choice);
     page->left_out.events += m->event_lost + write_events(file, m, choice);
     page->left_out.frames += m->seen - m->count;
-    fputs(",\"margin\":", file);
-    if (margin >= 0)
-        json_write_number(file, margin);
-    else
-        fputs("null", file);
+    member_write_number(file, ",", "margin", margin >= 0 ? margin : NAN);
     fputc('}', file);
 }

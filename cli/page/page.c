@@ -2,12 +2,13 @@
 #include "page/page.h"
 
 #include "base/finish.h"
+#include "base/members.h"
 #include "base/message.h"
-#include "io/fields.h"
 #include "page/write.h"
 
 #include <ovoid/ovoid.h>
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -97,27 +98,17 @@ static void write_head(FILE *file, const page_head *head, const char *command) {
         page_write_text(file, head->unit);
     else
         fputs("null", file);
-    fputs(",\"margin\":", file);
-    if (head->margin >= 0)
-        json_write_number(file, head->margin);
-    else
-        fputs("null", file);
+    member_write_number(file, ",", "margin", head->margin >= 0 ? head->margin : NAN);
 }
 
 int page_begin(cli_page *page, const page_head *head) {
-    ovoid_error error;
     char *command = make_command();
     if (!command) return message_error("out of memory"), EXIT_INPUT;
-    finish_hold_signals();
-    page->output = ovoid_output_open(page->path, &error);
-    if (page->output) finish_set_unfinished(ovoid_output_get_temporary(page->output));
-    finish_release_signals();
+    page->output = finish_open(page->path);
     if (page->output) {
         page->file = ovoid_output_get_file(page->output);
         fwrite(page->template.text, 1, page->template.mark, page->file);
         write_head(page->file, head, command);
-    } else {
-        message_error("%s", error.message);
     }
     free(command);
     return page->output ? 0 : EXIT_INPUT;

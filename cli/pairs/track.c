@@ -252,22 +252,6 @@ static int compare_pairs(const void *a, const void *b) {
     return p->b < q->b ? -1 : p->b > q->b;
 }
 
-/// Writes the chart to the file, which appears whole or not at all.
-static int write_chart(const ovoid_chart *chart, const char *path) {
-    ovoid_error error;
-    finish_hold_signals();
-    ovoid_output *output = ovoid_output_open(path, &error);
-    int failed = !output;
-    if (output) {
-        (void)ovoid_chart_write_svg(ovoid_output_get_file(output), chart); // ovoid_output_commit checks the stream
-        failed = ovoid_output_commit(output, &error) != OVOID_OK;
-    }
-    ovoid_output_close(output);
-    finish_release_signals();
-    if (failed) finish_report_failure(&error);
-    return failed ? EXIT_INPUT : 0;
-}
-
 int track_write_plot(cli_track *t, const char *path, const ovoid_scene *scene, double margin) {
     if (t->is_full)
         return message_error("the plot has too many points for the memory; give a smaller --margin"), EXIT_INPUT;
@@ -306,7 +290,7 @@ int track_write_plot(cli_track *t, const char *path, const ovoid_scene *scene, d
                          .series_count = drawn,
                          .width = 900,
                          .height = 480};
-    code = write_chart(&chart, path);
+    code = finish_chart(path, &chart);
     for (size_t i = 0; i < count; i++) free(lines[i].x);
     free(impacts.x);
     return code;

@@ -1,6 +1,7 @@
 // A robot as data: links, joints, elements, which pairs are not queried, obstacles, states, answers.
 #include "robot/page.h"
 
+#include "base/members.h"
 #include "base/message.h"
 #include "io/fields.h"
 #include "page/shapes.h"
@@ -54,11 +55,6 @@ static void write_key(FILE *file, const char *before, const char *key, const cha
     page_write_text(file, text);
 }
 
-static void write_value(FILE *file, const char *key, double number) {
-    fprintf(file, ",\"%s\":", key);
-    json_write_number(file, number);
-}
-
 static void write_joint(FILE *file, const ovoid_robot_description *d, const ovoid_robot_joint *j) {
     write_key(file, "{", "name", j->name);
     write_key(file, ",", "type", ovoid_joint_type_get_name(j->type));
@@ -68,14 +64,14 @@ static void write_joint(FILE *file, const ovoid_robot_description *d, const ovoi
     page_write_pose(file, &j->origin);
     if (j->type != OVOID_JOINT_FIXED && j->type != OVOID_JOINT_FLOATING) page_write_vector(file, ",", "axis", j->axis);
     if (j->type == OVOID_JOINT_REVOLUTE || j->type == OVOID_JOINT_PRISMATIC) {
-        write_value(file, "lower", j->lower);
-        write_value(file, "upper", j->upper);
+        member_write_number(file, ",", "lower", j->lower);
+        member_write_number(file, ",", "upper", j->upper);
     }
-    if (j->velocity > 0) write_value(file, "velocity", j->velocity);
+    if (j->velocity > 0) member_write_number(file, ",", "velocity", j->velocity);
     if (j->mimic != OVOID_ROBOT_NONE) {
         write_key(file, ",\"mimic\":{", "joint", d->joints[j->mimic].name);
-        write_value(file, "multiplier", j->multiplier);
-        write_value(file, "offset", j->offset);
+        member_write_number(file, ",", "multiplier", j->multiplier);
+        member_write_number(file, ",", "offset", j->offset);
         fputc('}', file);
     }
     fputc('}', file);
@@ -268,7 +264,7 @@ int robot_page_write(robot_page *p, const robot_page_source *s) {
         write_obstacles(file, &shapes, s->cell, 1);
         write_obstacles(file, &shapes, s->cell, 0);
         write_paddings(file, s->cell);
-        write_value(file, "limit_slack", s->settings->slack);
+        member_write_number(file, ",", "limit_slack", s->settings->slack);
         if (!write_disabled(file, s->cell)) code = EXIT_INPUT, message_error("out of memory");
     }
     if (!code) {

@@ -4,6 +4,7 @@
 #include "base/message.h"
 #include "io/fields.h"
 #include "page/write.h"
+#include "robot/path/proof.h"
 
 #include <stdlib.h>
 
@@ -11,31 +12,13 @@
 enum { STEPS_MOST = 20000, PAIRS_MOST = 20000 };
 
 static void write_step(FILE *file, const ovoid_robot_step *step) {
-    const char *before = "";
     fputc('[', file);
     json_write_number(file, step->begin);
     fputc(',', file);
     json_write_number(file, step->end);
     fprintf(file, ",\"%s\",[", path_get_step_kind(step->kind));
-    for (uint32_t i = 0; i < 8; i++) {
-        if (!(step->mask >> i & 1)) continue;
-        fprintf(file, "%s%lu", before, (unsigned long)step->pair + i);
-        before = ",";
-    }
+    path_write_step_pairs(file, step);
     fputs("]]", file);
-}
-
-static void write_pairs(FILE *file, const cli_cell *cell) {
-    size_t count = ovoid_robot_cell_get_pair_count(cell->cell);
-    for (size_t i = 0; i < count && count <= PAIRS_MOST; i++) {
-        ovoid_robot_sides sides;
-        if (ovoid_robot_cell_get_pair(cell->cell, i, &sides, NULL) != OVOID_OK) continue;
-        fputs(i ? ",[" : "[", file);
-        cell_write_side_json(file, cell, &sides.a);
-        fputc(',', file);
-        cell_write_side_json(file, cell, &sides.b);
-        fputc(']', file);
-    }
 }
 
 int page_write_steps(FILE *file, const path_report *r, size_t *left_out) {
@@ -43,7 +26,7 @@ int page_write_steps(FILE *file, const path_report *r, size_t *left_out) {
     char *text = NULL;
     // Names of links may have any sign.
     FILE *pairs = open_memstream(&text, &size);
-    if (pairs) write_pairs(pairs, r->cell);
+    if (pairs && ovoid_robot_cell_get_pair_count(r->cell->cell) <= PAIRS_MOST) proof_write_pairs(pairs, r->cell);
     int is_written = pairs && fclose(pairs) == 0;
     fputs(",\"steps\":[", file);
     for (size_t i = 0; i < listed; i++) {

@@ -34,18 +34,10 @@ static const cli_option options[] = {
 };
 
 static int write_srdf(const char *path, const matrix_view *v, int with_sampled) {
-    ovoid_error error;
-    ovoid_output *output = ovoid_output_open(path, &error);
-    if (!output) {
-        finish_report_failure(&error);
-        return EXIT_INPUT;
-    }
-    finish_set_unfinished(ovoid_output_get_temporary(output));
+    ovoid_output *output = finish_open(path);
+    if (!output) return EXIT_INPUT;
     matrix_write_srdf(ovoid_output_get_file(output), v, with_sampled);
-    int code = finish_output(output);
-    ovoid_output_close(output);
-    finish_set_unfinished(NULL);
-    return code;
+    return finish_close(output, 0);
 }
 
 static int report(const settings *s, const matrix_view *v) {

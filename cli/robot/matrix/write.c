@@ -2,6 +2,7 @@
 #include "robot/matrix/matrix.h"
 #include "robot/xml_text.h"
 
+#include "base/members.h"
 #include "io/fields.h"
 
 #include <string.h>
@@ -25,16 +26,8 @@ matrix_finding matrix_find(const matrix_view *v, const ovoid_robot_matrix_pair *
 
 // ---- JSON
 
-static void write_text(FILE *file, const char *before, const char *key, const char *text) {
-    fprintf(file, "%s\"%s\":", before, key);
-    if (text)
-        ovoid_text_write_json(file, text);
-    else
-        fputs("null", file);
-}
-
 static void write_state(FILE *file, const matrix_view *v, const char *key, const double *q) {
-    fprintf(file, ",\"%s\":", key);
+    member_write_key(file, ",", key);
     if (!q) {
         fputs("null", file);
         return;
@@ -52,16 +45,16 @@ void matrix_write_json(FILE *file, const matrix_view *v) {
     const ovoid_robot_link *links = v->description.links;
     for (size_t i = 0; i < ovoid_robot_matrix_get_count(v->matrix); i++) {
         ovoid_robot_matrix_pair p = ovoid_robot_matrix_get_pair(v->matrix, i);
-        write_text(file, "{", "a", links[p.a].name);
-        write_text(file, ",", "b", links[p.b].name);
-        write_text(file, ",", "touch", ovoid_robot_touch_get_name(p.touch));
+        member_write_text(file, "{", "a", links[p.a].name);
+        member_write_text(file, ",", "b", links[p.b].name);
+        member_write_text(file, ",", "touch", ovoid_robot_touch_get_name(p.touch));
         fprintf(file, ",\"neighbours\":%s", p.is_neighbour ? "true" : "false");
         fprintf(file, ",\"samples\":%zu,\"hits\":%zu,\"frees\":%zu,\"cells\":%zu", p.samples, p.hits, p.frees, p.cells);
         write_state(file, v, "hit", p.hit);
         write_state(file, v, "free", p.free);
         if (v->has_srdf) {
-            write_text(file, ",", "given", matrix_get_given_reason(v, &p));
-            write_text(file, ",", "finding", get_finding_name(matrix_find(v, &p)));
+            member_write_text(file, ",", "given", matrix_get_given_reason(v, &p));
+            member_write_text(file, ",", "finding", get_finding_name(matrix_find(v, &p)));
         }
         fputs("}\n", file);
     }

@@ -31,6 +31,8 @@ void path_compute_state(const cli_states *states, double s, double *q);
 
 /// "outer", "middle", "ends", "solid".
 const char *path_get_step_kind(uint16_t kind);
+/// Writes the numbers of the pairs of a step, as the items of a list.
+void path_write_step_pairs(FILE *file, const ovoid_robot_step *step);
 
 void path_write_text(FILE *file, const path_report *report);
 void path_write_csv_header(FILE *file);

@@ -80,7 +80,6 @@ static int sample(plot *p, ovoid_robot_checker *checker, const ovoid_robot_query
 }
 
 static int write_chart(const plot *p, const char *path) {
-    ovoid_error error;
     ovoid_series series[PAIRS_MAX + 2];
     size_t count = 0;
     char title[2 * NAMES_ROOM];
@@ -99,16 +98,7 @@ static int write_chart(const plot *p, const char *path) {
                                .series = series,
                                .series_count = count,
                                .width = 1000};
-    finish_hold_signals();
-    ovoid_output *output = ovoid_output_open(path, &error);
-    if (output) finish_set_unfinished(ovoid_output_get_temporary(output));
-    finish_release_signals();
-    if (!output) return message_error("%s", error.message), EXIT_INPUT;
-    (void)ovoid_chart_write_svg(ovoid_output_get_file(output), &chart); // finish_output checks the stream
-    int code = finish_output(output);
-    ovoid_output_close(output);
-    finish_set_unfinished(NULL);
-    return code;
+    return finish_chart(path, &chart);
 }
 
 int path_plot(const char *path, const path_report *report, ovoid_robot_checker *checker,

@@ -2,6 +2,7 @@
 // and the obstacles as they were compiled: it tells files apart that were mixed up; that a proof holds it need not say.
 #include "robot/path/proof.h"
 
+#include "base/members.h"
 #include "io/fields.h"
 
 #include <string.h>
@@ -101,14 +102,6 @@ uint32_t proof_find_pair(const cli_cell *cell, const ovoid_robot_side *a, const 
     return OVOID_ROBOT_NONE;
 }
 
-static void write_path(FILE *file, const char *key, const char *path) {
-    fprintf(file, ",\"%s\":", key);
-    if (path)
-        ovoid_text_write_json(file, path);
-    else
-        fputs("null", file);
-}
-
 static void write_list(FILE *file, const char *key, const args_list *list) {
     fprintf(file, ",\"%s\":[", key);
     for (int i = 0; i < list->count; i++) {
@@ -122,14 +115,8 @@ static void write_flag(FILE *file, const char *key, int is_set) {
     fprintf(file, ",\"%s\":%s", key, is_set ? "true" : "false");
 }
 
-static void write_value(FILE *file, const char *key, double number) {
-    fprintf(file, ",\"%s\":", key);
-    json_write_number(file, number);
-}
-
-static void write_pairs(FILE *file, const cli_cell *cell) {
+void proof_write_pairs(FILE *file, const cli_cell *cell) {
     size_t count = ovoid_robot_cell_get_pair_count(cell->cell);
-    fputs(",\"pairs\":[", file);
     for (size_t i = 0; i < count; i++) {
         ovoid_robot_sides sides;
         if (ovoid_robot_cell_get_pair(cell->cell, i, &sides, NULL) != OVOID_OK) continue;
@@ -139,7 +126,6 @@ static void write_pairs(FILE *file, const cli_cell *cell) {
         cell_write_side_json(file, cell, &sides.b);
         fputc(']', file);
     }
-    fputc(']', file);
 }
 
 void proof_write_source(FILE *file, const proof_source *source) {
@@ -147,9 +133,9 @@ void proof_write_source(FILE *file, const proof_source *source) {
     const cli_cell *cell = source->opened;
     size_t variables = ovoid_robot_get_variable_count(cell->robot.robot);
     fputs("{\"path_proofs\":2", file);
-    write_path(file, "robot", source->urdf);
-    write_path(file, "srdf", s->robot->srdf);
-    write_path(file, "scene", s->scene);
+    member_write_text(file, ",", "robot", source->urdf);
+    member_write_text(file, ",", "srdf", s->robot->srdf);
+    member_write_text(file, ",", "scene", s->scene);
     write_list(file, "packages", &s->robot->packages);
     write_list(file, "scales", &s->robot->scales);
     write_list(file, "paddings", &s->paddings);
@@ -157,16 +143,16 @@ void proof_write_source(FILE *file, const proof_source *source) {
     write_flag(file, "hull", s->robot->hull);
     write_flag(file, "visual", s->robot->visual);
     write_flag(file, "fixed_base", s->robot->fixed_base);
-    write_value(file, "cylinder_tolerance", s->robot->tolerance);
-    write_value(file, "margin", s->margin);
-    write_value(file, "limit_slack", s->slack);
+    member_write_number(file, ",", "cylinder_tolerance", s->robot->tolerance);
+    member_write_number(file, ",", "margin", s->margin);
+    member_write_number(file, ",", "limit_slack", s->slack);
     fprintf(file, ",\"paths\":%zu,\"digest\":\"%016llx\",\"variables\":[", source->path_count,
             (unsigned long long)proof_compute_digest(cell));
     for (size_t i = 0; i < variables; i++) {
         if (i) fputc(',', file);
         cell_write_variable_json(file, cell, i);
     }
-    fputc(']', file);
-    write_pairs(file, cell);
-    fputs("}\n", file);
+    fputs("],\"pairs\":[", file);
+    proof_write_pairs(file, cell);
+    fputs("]}\n", file);
 }

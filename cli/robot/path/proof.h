@@ -15,6 +15,9 @@ typedef struct proof_source {
 /// A number that another robot, other shapes, other obstacles or other disabled pairs do not have, but by chance.
 uint64_t proof_compute_digest(const cli_cell *cell);
 
+/// Writes the pairs of a cell, each a list of two sides, as the items of a list.
+void proof_write_pairs(FILE *file, const cli_cell *cell);
+
 /// Writes the first line.
 void proof_write_source(FILE *file, const proof_source *source);
 

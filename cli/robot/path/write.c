@@ -1,4 +1,5 @@
 // The answer to a path, for people and as lines; with the steps of its proof.
+#include "base/members.h"
 #include "base/message.h"
 #include "io/fields.h"
 #include "robot/path/path.h"
@@ -207,11 +208,6 @@ void path_write_csv(FILE *file, const path_report *r) {
 
 // ---- JSON Lines
 
-static void write_value(FILE *file, const char *key, double number) {
-    fprintf(file, ",\"%s\":", key);
-    json_write_number(file, number);
-}
-
 static void write_sides(FILE *file, const path_report *r, const ovoid_robot_side *a, const ovoid_robot_side *b) {
     fputs("\"a\":", file);
     cell_write_side_json(file, r->cell, a);
@@ -224,33 +220,36 @@ const char *path_get_step_kind(uint16_t kind) {
     return kinds[kind];
 }
 
-static void write_step(FILE *file, const ovoid_robot_step *step) {
+void path_write_step_pairs(FILE *file, const ovoid_robot_step *step) {
     const char *before = "";
+    for (uint32_t i = 0; i < 8; i++) {
+        if (!(step->mask >> i & 1)) continue;
+        fprintf(file, "%s%lu", before, (unsigned long)step->pair + i);
+        before = ",";
+    }
+}
+
+static void write_step(FILE *file, const ovoid_robot_step *step) {
     fprintf(file, "{\"step\":\"%s\"", path_get_step_kind(step->kind));
-    write_value(file, "begin", step->begin);
-    write_value(file, "end", step->end);
+    member_write_number(file, ",", "begin", step->begin);
+    member_write_number(file, ",", "end", step->end);
     if (step->kind == OVOID_ROBOT_STEP_MIDDLE || step->kind == OVOID_ROBOT_STEP_ENDS) {
         const double normal[] = {step->normal.x, step->normal.y, step->normal.z};
         fputs(",\"normal\":", file);
         json_write_numbers(file, normal, 3);
     }
     fputs(",\"pairs\":[", file);
-    for (uint32_t i = 0; i < 8; i++) {
-        if (!(step->mask >> i & 1)) continue;
-        fprintf(file, "%s%lu", before, (unsigned long)step->pair + i);
-        before = ",";
-    }
+    path_write_step_pairs(file, step);
     fputs("]}\n", file);
 }
 
 static void write_clearance_json(FILE *file, const path_report *r) {
     const ovoid_robot_clearance *c = r->clearance;
-    fputs(",\"clearance\":{\"lower\":", file);
-    json_write_number(file, c->lower);
-    write_value(file, "upper", c->upper);
+    member_write_number(file, ",\"clearance\":{", "lower", c->lower);
+    member_write_number(file, ",", "upper", c->upper);
     if (c->upper < INFINITY) {
-        write_value(file, "at", c->at);
-        if (r->states->times) write_value(file, "time", path_compute_time(r->states, c->at));
+        member_write_number(file, ",", "at", c->at);
+        if (r->states->times) member_write_number(file, ",", "time", path_compute_time(r->states, c->at));
         fputc(',', file);
         write_sides(file, r, &c->a, &c->b);
     }
@@ -262,26 +261,27 @@ void path_write_json(FILE *file, const path_report *r) {
     fputc('{', file);
     if (r->is_edge || r->has_proofs) fprintf(file, "\"path\":%zu,", r->number);
     fprintf(file, "\"status\":\"%s\",\"states\":%zu", cell_get_status_name(a->status), r->states->count);
-    write_value(file, "margin", r->margin);
+    member_write_number(file, ",", "margin", r->margin);
     if (a->status == OVOID_ROBOT_REFUSED) {
         fprintf(file, ",\"refused\":%zu,\"code\":\"%s\",\"variable\":", get_refused(r),
                 ovoid_code_get_name(a->hit.code));
         cell_write_variable_json(file, r->cell, a->hit.variable);
     } else {
-        write_value(file, "free_until", a->free_until);
-        if (r->states->times) write_value(file, "free_until_time", path_compute_time(r->states, a->free_until));
+        member_write_number(file, ",", "free_until", a->free_until);
+        if (r->states->times)
+            member_write_number(file, ",", "free_until_time", path_compute_time(r->states, a->free_until));
     }
     if (a->status == OVOID_ROBOT_HIT) {
-        write_value(file, "hit_at", a->hit_at);
-        if (r->states->times) write_value(file, "hit_at_time", path_compute_time(r->states, a->hit_at));
+        member_write_number(file, ",", "hit_at", a->hit_at);
+        if (r->states->times) member_write_number(file, ",", "hit_at_time", path_compute_time(r->states, a->hit_at));
     }
     if (has_pair(a)) {
         fprintf(file, ",\"segment\":%zu,", get_segment(r));
         if (r->has_proofs)
             fprintf(file, "\"pair\":%lu,", (unsigned long)proof_find_pair(r->cell, &a->hit.a, &a->hit.b));
         write_sides(file, r, &a->hit.a, &a->hit.b);
-        write_value(file, "lower", a->hit.lower);
-        write_value(file, "upper", a->hit.upper);
+        member_write_number(file, ",", "lower", a->hit.lower);
+        member_write_number(file, ",", "upper", a->hit.upper);
     }
     fprintf(file, ",\"looked_at\":%lu,\"steps\":%zu", (unsigned long)a->states, a->step_count);
     if (r->has_proofs) states_write_json(file, r->states, "q", r->states->count);

@@ -194,20 +194,10 @@ static int write_content(FILE *file, const char *path, const cli_cell *cell, con
 }
 
 int spheres_write(const char *path, const cli_cell *cell, const sphere_list *list, const char *urdf, const char *srdf) {
-    ovoid_error error;
-    finish_hold_signals();
-    ovoid_output *output = ovoid_output_open(path, &error);
-    if (output) finish_set_unfinished(ovoid_output_get_temporary(output));
-    finish_release_signals();
-    if (!output) {
-        finish_report_failure(&error);
-        return EXIT_INPUT;
-    }
+    ovoid_output *output = finish_open(path);
+    if (!output) return EXIT_INPUT;
     source s = {.path = outputs_has_extension(path, "urdf") ? urdf : srdf};
     int code = write_content(ovoid_output_get_file(output), path, cell, list, &s);
     free(s.text);
-    if (!code) code = finish_output(output);
-    ovoid_output_close(output);
-    finish_set_unfinished(NULL);
-    return code;
+    return finish_close(output, code);
 }
