@@ -5,23 +5,12 @@
 set -u
 # shellcheck source=tests/cli/need_tool.sh
 . "$(dirname "$0")/need_tool.sh"
+# shellcheck source=tests/common/steps.sh
+. "$(dirname "$0")/../common/steps.sh"
 work=$OVOID_BUILD_DIR/test_cli_run
 rm -rf "$work" && mkdir -p "$work" && cd "$work" || exit 1
-passed=0 failed=0
 LC_ALL=C
 export LC_ALL
-
-# check NAME COMMAND...
-check() {
-    name=$1
-    shift
-    if "$@"; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        echo "FAILED $name"
-    fi
-}
 
 # quiet COMMAND...: the tool, its words kept in a file.
 quiet() { "$OVOID_TOOL" "$@" >said 2>&1; }

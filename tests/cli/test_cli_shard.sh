@@ -7,24 +7,13 @@
 set -u
 # shellcheck source=tests/cli/need_tool.sh
 . "$(dirname "$0")/need_tool.sh"
+# shellcheck source=tests/common/steps.sh
+. "$(dirname "$0")/../common/steps.sh"
 work=$OVOID_BUILD_DIR/test_cli_shard
 rm -rf "$work" && mkdir -p "$work" && cd "$work" || exit 1
-passed=0 failed=0
 LC_ALL=C
 export LC_ALL
 data=$OVOID_SOURCE_DIR/tests/cli/data
-
-# check NAME COMMAND...
-check() {
-    what=$1
-    shift
-    if "$@"; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        echo "FAILED $what"
-    fi
-}
 
 # ---- inputs: pairs with blank lines and CRLF, a scene with a floor that meets all, its motion, states of a robot
 

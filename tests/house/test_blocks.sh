@@ -5,8 +5,8 @@
 set -u
 # shellcheck source=tests/cli/need_tool.sh
 . "$(dirname "$0")/../cli/need_tool.sh"
-# shellcheck source=tests/house/steps.sh
-. "$(dirname "$0")/steps.sh"
+# shellcheck source=tests/common/steps.sh
+. "$(dirname "$0")/../common/steps.sh"
 cd "$OVOID_SOURCE_DIR" || exit 1
 folder=$OVOID_BUILD_DIR/test_blocks
 skipped=0

@@ -4,25 +4,15 @@
 set -u
 # shellcheck source=tests/cli/need_tool.sh
 . "$(dirname "$0")/../cli/need_tool.sh"
+# shellcheck source=tests/common/steps.sh
+. "$(dirname "$0")/../common/steps.sh"
 work=$OVOID_BUILD_DIR/test_cluster
 rm -rf "$work" && mkdir -p "$work" && cd "$work" || exit 1
-passed=0 failed=0 skipped=0
+skipped=0
 examples=$OVOID_SOURCE_DIR/examples/cluster
 OVOID=$OVOID_TOOL
 PATH=$PATH:/usr/sbin
 export OVOID PATH
-
-# check NAME COMMAND...
-check() {
-    name=$1
-    shift
-    if "$@"; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        echo "FAILED $name"
-    fi
-}
 
 skip() {
     skipped=$((skipped + 1))

@@ -4,8 +4,8 @@
 # libraries there by pkg-config and CMake, link and run, and all is removed without a trace. Truth: lintian's and dpkg's
 # exit codes; programs that run. scripts/deb-root.sh does so in a fresh Debian.
 set -u
-# shellcheck source=tests/house/steps.sh
-. "$(dirname "$0")/steps.sh"
+# shellcheck source=tests/common/steps.sh
+. "$(dirname "$0")/../common/steps.sh"
 folder=$OVOID_BUILD_DIR/test_deb
 root=$folder/root
 outside=$OVOID_SOURCE_DIR/tests/house/outside

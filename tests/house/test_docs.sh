@@ -3,8 +3,9 @@
 # public function or type that it names is in a header, docs/index.md lists every page of docs/, and ten questions of users have a page. The manual made of them
 # has no dead link and no two pages of one title; a page with a dead link, made here, is found.
 set -u
+# shellcheck source=tests/common/steps.sh
+. "$(dirname "$0")/../common/steps.sh"
 cd "$OVOID_SOURCE_DIR" || exit 1
-passed=0 failed=0
 for page in *.md docs/*.md; do
     # Links of the form ](target), without those to other hosts and to places within a page.
     # shellcheck disable=SC2013 # targets have no spaces
@@ -71,18 +72,10 @@ answers coal coming-from-fcl.md
 answers license packaging.md
 # ---- the manual
 
-check() {
-    if [ -z "$2" ]; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        printf 'FAILED %s: %s\n' "$1" "$2"
-    fi
-}
 skipped=0
 if command -v doxygen >/dev/null; then
-    check 'the manual' "$(scripts/docs.sh "$known.manual" 2>&1 | grep -v 'index.html$')"
-    check 'two pages of one title' "$(grep -hoE '<li><span class="arrow">[^<]*</span>|<tr[^>]*><td class="entry">.*</td>' "$known.manual/html/pages.html" |
+    check_empty 'the manual' "$(scripts/docs.sh "$known.manual" 2>&1 | grep -v 'index.html$')"
+    check_empty 'two pages of one title' "$(grep -hoE '<li><span class="arrow">[^<]*</span>|<tr[^>]*><td class="entry">.*</td>' "$known.manual/html/pages.html" |
         sed 's/<[^>]*>//g; s/&#160;//g' | sort | uniq -d)"
 else
     skipped=1
@@ -91,10 +84,10 @@ fi
 rm -rf "$known.dead" && mkdir -p "$known.dead/below"
 echo '<a href="below/b.html#there">b</a> <a href="below/b.html">b</a> <a href="https://example.org">far</a>' >"$known.dead/a.html"
 echo '<h1 id="there">b</h1> <a href="../a.html">a</a>' >"$known.dead/below/b.html"
-check 'good links' "$(scripts/check-links "$known.dead")"
+check_empty 'good links' "$(scripts/check-links "$known.dead")"
 for link in c.html below/b.html#here below/../b.html '#a'; do
     echo "<a href=\"$link\">x</a>" >"$known.dead/c0.html"
-    check "the dead link $link" "$(scripts/check-links "$known.dead" | grep -q "^c0.html: $link leads nowhere\$" || echo 'is not found')"
+    check_empty "the dead link $link" "$(scripts/check-links "$known.dead" | grep -q "^c0.html: $link leads nowhere\$" || echo 'is not found')"
 done
 echo "$passed passed, $failed failed, $skipped skipped"
 [ "$failed" -eq 0 ]

@@ -3,8 +3,8 @@
 # nothing of its settings reaches the project, the project's own flags (fast mathematics) change no answer, nothing is
 # installed or tested. Truth: what CMake says of its variables and targets; programs that run; answers of one build.
 set -u
-# shellcheck source=tests/house/steps.sh
-. "$(dirname "$0")/steps.sh"
+# shellcheck source=tests/common/steps.sh
+. "$(dirname "$0")/../common/steps.sh"
 folder=$OVOID_BUILD_DIR/test_embed
 cc=${OVOID_CC:-cc}
 echo "with $(cmake --version | head -n 1), of which 3.22 is the oldest that will do"

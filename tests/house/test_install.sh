@@ -2,8 +2,8 @@
 # The installed copy as its users meet it: an outside CMake project, pkg-config (shared and static), the names that the
 # libraries export and the soname. Truth: each either builds, runs and exits 0 or does not.
 set -u
-# shellcheck source=tests/house/steps.sh
-. "$(dirname "$0")/steps.sh"
+# shellcheck source=tests/common/steps.sh
+. "$(dirname "$0")/../common/steps.sh"
 folder=$OVOID_BUILD_DIR/test_install
 prefix=$folder/prefix
 cc=${OVOID_CC:-cc}

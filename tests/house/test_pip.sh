@@ -2,8 +2,8 @@
 # The Python package by pip, as docs/python.md says: an sdist of the tree, a wheel of that sdist alone, the wheel in a venv.
 # Truth: what pip and the installed package say; one wheel for all versions of CPython by its name; its metadata.
 set -u
-# shellcheck source=tests/house/steps.sh
-. "$(dirname "$0")/steps.sh"
+# shellcheck source=tests/common/steps.sh
+. "$(dirname "$0")/../common/steps.sh"
 python=/usr/bin/python3
 if ! $python -c 'import setuptools, wheel, venv, ensurepip' 2>/dev/null; then
     echo "no python3-setuptools, python3-wheel or python3-venv: skipped"

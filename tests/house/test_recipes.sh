@@ -4,8 +4,8 @@
 # are the project's, the test program links and runs. Truth: the version in the header; CMake, which names options that
 # it does not know.
 set -u
-# shellcheck source=tests/house/steps.sh
-. "$(dirname "$0")/steps.sh"
+# shellcheck source=tests/common/steps.sh
+. "$(dirname "$0")/../common/steps.sh"
 skipped=0
 folder=$OVOID_BUILD_DIR/test_recipes
 here=$OVOID_SOURCE_DIR/tests/house/recipes

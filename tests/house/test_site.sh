@@ -3,8 +3,9 @@
 # the index that its search reads, every page of docs/ and every example is on it, and the navigation has them all. Truth: the headers, the folders. It can fail: a
 # page with a dead link, and one that is not listed, do not build.
 set -u
+# shellcheck source=tests/common/steps.sh
+. "$(dirname "$0")/../common/steps.sh"
 cd "$OVOID_SOURCE_DIR" || exit 1
-passed=0 failed=0
 site=$OVOID_BUILD_DIR/test_site
 for tool in sphinx-build doxygen python3; do
     command -v $tool >/dev/null && continue
@@ -19,21 +20,12 @@ if ! "$(sed -n '1s/^#! *//p' "$(command -v sphinx-build)")" -c 'import furo, mys
     exit 0
 fi
 
-# check NAME WRONG: one check; WRONG, what was found to be so, is empty where it holds.
-check() {
-    if [ -z "$2" ]; then
-        passed=$((passed + 1))
-    else
-        failed=$((failed + 1))
-        printf 'FAILED %s: %s\n' "$1" "$2"
-    fi
-}
-check 'the site builds' "$(scripts/site.sh "$site" 2>&1 | grep -v 'index.html: \|^site: without the live page')"
-check 'a front page' "$([ -s "$site/index.html" ] || echo 'none')"
-check 'nothing from the network, nor from the root of a server' "$(grep -rlE '(src|href)="(https?:)?//[^"]*\.(js|css|woff2?|png|svg)"|url\(["'\'']?(https?:)?/' "$site" --include='*.html' --include='*.css')"
+check_empty 'the site builds' "$(scripts/site.sh "$site" 2>&1 | grep -v 'index.html: \|^site: without the live page')"
+check_empty 'a front page' "$([ -s "$site/index.html" ] || echo 'none')"
+check_empty 'nothing from the network, nor from the root of a server' "$(grep -rlE '(src|href)="(https?:)?//[^"]*\.(js|css|woff2?|png|svg)"|url\(["'\'']?(https?:)?/' "$site" --include='*.html' --include='*.css')"
 # A browser loads it as a plain script, which may not import: Node.js reads files of this name as such scripts.
 if command -v node >/dev/null; then
-    check 'the script of the theme is a plain one' "$(node --check "$site/_static/scripts/furo.js" 2>&1 && ! grep -n '^import ' "$site/_static/scripts/furo.js")"
+    check_empty 'the script of the theme is a plain one' "$(node --check "$site/_static/scripts/furo.js" 2>&1 && ! grep -n '^import ' "$site/_static/scripts/furo.js")"
 fi
 
 # The names of the headers' functions: what is declared with OVOID_API, and the C++ classes.
@@ -43,16 +35,16 @@ for name in $(grep -ohE 'OVOID_API [^(;]*\(' include/ovoid/*.h | grep -oE 'ovoid
     grep -qE "[\"',{[]${name}[\"',:]" "$index" || missing="$missing $name"
     passed=$((passed + 1))
 done
-check 'functions of C that the search does not find' "$missing"
+check_empty 'functions of C that the search does not find' "$missing"
 for name in ovoid::shape::box ovoid::world::add ovoid::robot_cell distance find_hit; do
-    check "$name in the search" "$(grep -qE "[\"',{[]${name}[\"',:]" "$index" || echo 'is absent')"
+    check_empty "$name in the search" "$(grep -qE "[\"',{[]${name}[\"',:]" "$index" || echo 'is absent')"
 done
 for page in docs/*.md; do
     name=$(basename "$page" .md)
-    check "$page" "$([ -s "$site/$name.html" ] || echo 'is not on the site')"
+    check_empty "$page" "$([ -s "$site/$name.html" ] || echo 'is not on the site')"
 done
 for example in examples/*.c examples/*.cpp; do
-    check "$example" "$([ -s "$site/$example.html" ] || echo 'is not on the site')"
+    check_empty "$example" "$([ -s "$site/$example.html" ] || echo 'is not on the site')"
 done
 
 # It can fail: a small site, which builds; then with a dead link, then with a page that is not listed.
@@ -68,14 +60,14 @@ for page in README CHANGELOG CONTRIBUTING docs/cpp docs/python; do echo "# $page
     for page in cpp python ../README ../CHANGELOG ../CONTRIBUTING; do echo "- [$page]($page.md)"; done
 } >"$small/docs/index.md"
 build_small() { (cd "$small" && scripts/site.sh out 2>&1); }
-check 'a small site' "$(build_small | grep -v 'index.html: \|^site: without the live page')"
+check_empty 'a small site' "$(build_small | grep -v 'index.html: \|^site: without the live page')"
 echo '[nowhere](none.md)' >>"$small/docs/cpp.md"
-check 'a dead link' "$(build_small | grep -q 'none.md' || echo 'is not found')"
+check_empty 'a dead link' "$(build_small | grep -q 'none.md' || echo 'is not found')"
 printf '# C++\n\n<a href="none.html">nowhere</a>\n' >"$small/docs/cpp.md"
-check 'a dead link that Sphinx does not know' "$(build_small | grep -q '^cpp.html: none.html leads nowhere' || echo 'is not found')"
+check_empty 'a dead link that Sphinx does not know' "$(build_small | grep -q '^cpp.html: none.html leads nowhere' || echo 'is not found')"
 echo '# C++' >"$small/docs/cpp.md"
 echo '# Alone' >"$small/docs/alone.md"
-check 'a page that is not listed' "$(build_small | grep -q 'alone.md.*toctree' || echo 'is not found')"
+check_empty 'a page that is not listed' "$(build_small | grep -q 'alone.md.*toctree' || echo 'is not found')"
 rm -rf "$small"
 echo "$passed passed, $failed failed, 0 skipped"
 [ "$failed" -eq 0 ]

@@ -7,8 +7,8 @@ set -u
 archives=$OVOID_BUILD_DIR/src
 folder=$OVOID_BUILD_DIR/test_symbols
 cc=${OVOID_CC:-cc}
-# shellcheck source=tests/house/steps.sh
-. "$(dirname "$0")/steps.sh"
+# shellcheck source=tests/common/steps.sh
+. "$(dirname "$0")/../common/steps.sh"
 skipped=0
 
 if [ "${OVOID_ARCHIVES:-one}" != one ] || ! command -v nm >/dev/null || ! [ -f "$archives/libovoid.a" ]; then

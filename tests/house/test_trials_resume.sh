@@ -2,6 +2,8 @@
 # The soak and the long run stop and go on: two runs with a state file make the very counts of one run of the same length.
 # Truth: each round and each block is a function of the seed and its number. Times are left out of the comparison.
 set -u
+# shellcheck source=tests/common/steps.sh
+. "$(dirname "$0")/../common/steps.sh"
 bin=$OVOID_BUILD_DIR/tests
 if [ ! -x "$bin/long_run" ]; then
     echo "0 passed, 0 failed, 1 skipped: the judge is absent"
@@ -9,13 +11,7 @@ if [ ! -x "$bin/long_run" ]; then
 fi
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
-passed=0 failed=0
 
-check() { # NAME COMMAND...
-    name=$1
-    shift
-    if "$@"; then passed=$((passed + 1)); else failed=$((failed + 1)) && echo "FAILED: $name"; fi
-}
 quiet() { "$@" >>"$work/log" 2>&1; }
 # The table of a soak: everything but the progress lines.
 table() { grep -v ' min, seed' "$1" | grep -v 'going on' | grep -v 'passed'; }

@@ -2,8 +2,8 @@
 # The version is one: the header's, the npm package's, vcpkg's, Debian's and the newest of CHANGELOG.md. The record of
 # the binary interface is of this minor version or of one before. The comparison is tried on an altered copy, too.
 set -u
-# shellcheck source=tests/house/steps.sh
-. "$(dirname "$0")/steps.sh"
+# shellcheck source=tests/common/steps.sh
+. "$(dirname "$0")/../common/steps.sh"
 cd "$OVOID_SOURCE_DIR" || exit 1
 folder=$OVOID_BUILD_DIR/test_version
 mkdir -p "$folder"
