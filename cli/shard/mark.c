@@ -4,6 +4,7 @@
 #include "shard/mark.h"
 
 #include "base/message.h"
+#include "tools/array.h"
 
 #include <ovoid/ovoid.h>
 
@@ -14,8 +15,17 @@
 /// The first line.
 #define MAGIC "ovoid shard 2\n"
 
-static const char *const words[SHARD_FIELDS] = {"tool",   "command", "format", "options",
-                                                "inputs", "most",    "part",   "objects"};
+/// The word before a field in its line, and what the field says, for people.
+static const struct {
+    const char *word, *meaning;
+} lines[SHARD_FIELDS] = {{"tool", "of ovoid"},
+                         {"command", "of the command"},
+                         {"format", "in the format"},
+                         {"options", "with the options"},
+                         {"inputs", "of inputs with the digest"},
+                         {"most", "with the limit"},
+                         {"part", "part"},
+                         {"objects", "with a number of objects of"}};
 
 char *shard_get_mark_path(const char *path) {
     static const char end[] = ".mark";
@@ -123,14 +133,15 @@ static int add_files(shard_digest *d, const shard_job *job) {
 }
 
 static void write_fields(FILE *file, const shard_job *job, uint64_t inputs) {
-    fprintf(file, MAGIC "%s %s\n%s %s\n%s %s\n%s", words[SHARD_TOOL], ovoid_get_version(), words[SHARD_COMMAND],
-            job->command->name, words[SHARD_FORMAT], job->is_json ? "json" : "csv", words[SHARD_OPTIONS]);
+    fprintf(file, MAGIC "%s %s\n%s %s\n%s %s\n%s", lines[SHARD_TOOL].word, ovoid_get_version(),
+            lines[SHARD_COMMAND].word, job->command->name, lines[SHARD_FORMAT].word, job->is_json ? "json" : "csv",
+            lines[SHARD_OPTIONS].word);
     for (const cli_option *o = job->command->options; o->name; o++)
         if (o->kind != OPTION_FILE && !is_free(o)) write_option(file, o, job->settings);
     size_t count = job->scene ? ovoid_scene_get_count(job->scene) : 0;
-    fprintf(file, "\n%s %016" PRIx64 "\n%s %" PRIu64 "\n%s %u/%u\n%s %zu\n", words[SHARD_INPUTS], inputs,
-            words[SHARD_MOST], job->most, words[SHARD_PART], job->part.index, job->part.count, words[SHARD_OBJECTS],
-            count);
+    fprintf(file, "\n%s %016" PRIx64 "\n%s %" PRIu64 "\n%s %u/%u\n%s %zu\n", lines[SHARD_INPUTS].word, inputs,
+            lines[SHARD_MOST].word, job->most, lines[SHARD_PART].word, job->part.index, job->part.count,
+            lines[SHARD_OBJECTS].word, count);
     for (size_t i = 0; i < count; i++) {
         const char *name = ovoid_scene_get(job->scene, i).name;
         (job->is_json ? ovoid_text_write_json : ovoid_text_write_csv)(file, name);
@@ -173,12 +184,16 @@ static char *take_value(char *line, const char *word) {
 }
 
 static int read_objects(FILE *file, shard_header *h) {
-    size_t count = 0;
+    size_t count = 0, room = 0;
     if (sscanf(h->fields[SHARD_OBJECTS], "%zu", &count) != 1 || count > UINT32_MAX) return 0;
-    h->objects = calloc(count + 1, sizeof *h->objects);
-    for (size_t i = 0; h->objects && i < count; h->object_count = ++i)
-        if (!(h->objects[i] = (shard_object){read_line(file, h), (uint32_t)i}).text) return 0;
-    return h->objects != NULL;
+    while (h->object_count < count) {
+        if (!array_reserve((void **)&h->objects, &room, h->object_count, sizeof *h->objects)) return 0;
+        char *name = read_line(file, h);
+        if (!name) return 0;
+        h->objects[h->object_count] = (shard_object){name, (uint32_t)h->object_count};
+        h->object_count++;
+    }
+    return 1;
 }
 
 static int read_fields(FILE *file, shard_header *h) {
@@ -186,7 +201,7 @@ static int read_fields(FILE *file, shard_header *h) {
     if (fread(magic, 1, sizeof MAGIC - 1, file) != sizeof MAGIC - 1 || strcmp(magic, MAGIC) != 0) return 0;
     shard_digest_add(&h->digest, MAGIC, sizeof MAGIC - 1);
     for (int i = 0; i < SHARD_FIELDS; i++)
-        if (!(h->fields[i] = take_value(read_line(file, h), words[i]))) return 0;
+        if (!(h->fields[i] = take_value(read_line(file, h), lines[i].word))) return 0;
     if (sscanf(h->fields[SHARD_MOST], "%" SCNu64, &h->most) != 1) return 0;
     if (sscanf(h->fields[SHARD_PART], "%u/%u", &h->part.index, &h->part.count) != 2) return 0;
     if (!h->part.index || h->part.index > h->part.count || h->part.count > SHARD_PARTS_MAX) return 0;
@@ -213,19 +228,6 @@ void shard_header_clear(shard_header *h) {
 
 /* ---- two headers */
 
-/// What a field says, for people.
-static const char *get_meaning(int field) {
-    static const char *const meanings[SHARD_FIELDS] = {"of ovoid",
-                                                       "of the command",
-                                                       "in the format",
-                                                       "with the options",
-                                                       "of inputs with the digest",
-                                                       "with the limit",
-                                                       "part",
-                                                       "with a number of objects of"};
-    return meanings[field];
-}
-
 /// The first option of one line that is not the same in the other, " --name=value".
 static const char *find_difference(const char *a, const char *b, int *length) {
     size_t same = 0, begin = 0;
@@ -245,7 +247,7 @@ int shard_header_differs(const char *path, const shard_header *h, const char *ot
             a = find_difference(a, b, &lengths[0]);
             b = find_difference(b, whole, &lengths[1]);
         }
-        message_error("%s: is %s %.*s, and %s %.*s: they are not of one run", path, get_meaning(i), lengths[0], a,
+        message_error("%s: is %s %.*s, and %s %.*s: they are not of one run", path, lines[i].meaning, lengths[0], a,
                       other, lengths[1], b);
         return 1;
     }

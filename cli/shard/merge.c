@@ -64,7 +64,7 @@ static int open_shards(merge *m, const cli_operands *paths) {
     }
     m->lines.bodies = m->bodies;
     m->lines.order = shard_get_order(m->readers[0].header.fields[SHARD_COMMAND]);
-    qsort(m->bodies, m->lines.body_count, sizeof *m->bodies, shard_object_compare);
+    if (m->bodies) qsort(m->bodies, m->lines.body_count, sizeof *m->bodies, shard_object_compare);
     return 0;
 }
 

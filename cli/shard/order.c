@@ -126,7 +126,8 @@ static int compare_body(const void *key, const void *object) {
 /// The place of a body in the scene. 0 where the scene has none of that name.
 static int find_body(const shard_lines *lines, const text *field, uint64_t *index) {
     const shard_object *found = NULL;
-    if (field->size) found = bsearch(field, lines->bodies, lines->body_count, sizeof *lines->bodies, compare_body);
+    if (field->size && lines->body_count)
+        found = bsearch(field, lines->bodies, lines->body_count, sizeof *lines->bodies, compare_body);
     if (found) *index = found->index;
     return found != NULL;
 }

@@ -251,6 +251,8 @@ cp 2.shard alone.shard
 refuse 'alone.shard: is no shard, as .*: alone.shard.mark, which says of which run it is, is not there' 1.shard alone.shard
 head -n 5 2.shard.mark >alone.shard.mark
 refuse 'alone.shard.mark, which says of which run it is, does not' 1.shard alone.shard
+sed 's/^objects .*/objects 4000000000/' 2.shard.mark >alone.shard.mark
+refuse 'alone.shard.mark, which says of which run it is, does not' 1.shard alone.shard
 sed '$d' 2.shard.mark >alone.shard.mark
 refuse 'alone.shard: part 2/3 is not finished, or damaged; run it again, with --shard 2/3: it goes on' 1.shard alone.shard 3.shard
 # Altered bytes: in all pieces of the results, and in the mark.
