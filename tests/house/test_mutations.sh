@@ -42,7 +42,7 @@ sed -i '/^sphere radius	/s/test_measures/SURVIVED/' scripts/mutations/results.ts
 planted "a survivor without a reason" '"sphere radius" survived: say why'
 sed -i 's/^sphere radius	/spheres radius	/' scripts/mutations/results.tsv
 planted "a result without its mutation" 'there is no fault "spheres radius" any more'
-sed -i '/^survives: it cannot show. A zero/d' scripts/mutations/query.txt
+sed -i '/^survives: it has no effect. A zero/d' scripts/mutations/query.txt
 planted "a reason that is gone" '"direction of nothing" survived'
 sed -i '/^sign	/d' scripts/mutations/results.tsv
 planted "a reason without a result" '"sign" has a line "survives:"'
