@@ -28,9 +28,9 @@ static const struct {
                          {"objects", "with a number of objects of"}};
 
 char *shard_get_mark_path(const char *path) {
-    static const char end[] = ".mark";
-    char *made = malloc(strlen(path) + sizeof end);
-    if (made) (void)strcat(strcpy(made, path), end);
+    size_t size = strlen(path) + sizeof ".mark";
+    char *made = malloc(size);
+    if (made) snprintf(made, size, "%s.mark", path);
     return made;
 }
 
