@@ -80,4 +80,23 @@ static inline void check_bad_inputs(const bad_input *inputs, size_t count,
     }
 }
 
+/// Damaged bytes, and lines that are cut: an end or an error with a sentence and a line, never a crash. read: 0 at the
+/// end, -1 after an error.
+static inline void check_damaged_lines(const char *header, const char *lines,
+                                       int (*read)(const char *path, ovoid_error *error)) {
+    const size_t before = strlen(header), size = strlen(lines);
+    uint64_t state = 29;
+    for (int i = 0; i < 2000; i++) {
+        check_seed = state;
+        char text[400];
+        ovoid_error error = {OVOID_OK, -1, ""};
+        snprintf(text, sizeof text, "%s%s", header, lines);
+        text[before + random_next(&state) % size] = (char)random_next(&state);
+        const size_t cut = random_next(&state) % 2 ? random_next(&state) % 40 : 0;
+        int got = read(file_write("damaged.csv", text, before + size - cut), &error);
+        CHECK(got == 0 || (got == -1 && error.code && error.place > 1 && error.message[0]));
+    }
+    check_seed = 0;
+}
+
 #endif

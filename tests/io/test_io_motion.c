@@ -107,23 +107,6 @@ static void check_bad(void) {
     CHECK(read_all(file_write_text("m_long.csv", text), &error) == -1 && strstr(error.message, "too long"));
 }
 
-// Damaged bytes: an end or an error with a sentence, never a crash.
-static void check_damaged(void) {
-    uint64_t s = 29;
-    const char *good = POSES GOOD "0,\"b, c\",1,2,3,1,0,0,0\n1,a,1,2,3,1,0,0,0\n";
-    for (int i = 0; i < 2000; i++) {
-        check_seed = s;
-        char text[200];
-        strcpy(text, good);
-        size_t length = strlen(good), at = strlen(POSES) + random_next(&s) % (length - strlen(POSES));
-        text[at] = (char)random_next(&s);
-        ovoid_error error = {OVOID_OK, -1, ""};
-        int got = read_all(file_write("m_damaged.csv", text, length), &error);
-        CHECK(got == 0 || (got == -1 && error.code && error.place > 1 && error.message[0]));
-    }
-    check_seed = 0;
-}
-
 int main(void) {
     ovoid_error error = {OVOID_OK, -1, ""};
     scene = ovoid_scene_read(file_write_text("motion_scene.json", scene_text), NULL, &error);
@@ -131,7 +114,7 @@ int main(void) {
     check_poses();
     check_velocities();
     check_bad();
-    check_damaged();
+    check_damaged_lines(POSES, GOOD "0,\"b, c\",1,2,3,1,0,0,0\n1,a,1,2,3,1,0,0,0\n", read_all);
     ovoid_scene_destroy(scene);
     return check_end();
 }

@@ -66,20 +66,7 @@ static void check_bad(void) {
     CHECK(read_all(file_path("absent.csv"), &error) == -1 && error.code == OVOID_ERROR_FILE);
     CHECK(read_all(OVOID_BUILD_DIR, &error) == -1 && error.code == OVOID_ERROR_FILE);
     CHECK(read_all(OVOID_BUILD_DIR, NULL) == -1);
-    // Damaged bytes: an end or an error with a sentence, never a crash.
-    uint64_t s = 23;
-    const char *good = HEADER GOOD GOOD;
-    for (int i = 0; i < 1000; i++) {
-        check_seed = s;
-        char text[200];
-        strcpy(text, good);
-        size_t length = strlen(good), at = strlen(HEADER) + random_next(&s) % (length - strlen(HEADER));
-        text[at] = (char)random_next(&s);
-        error.message[0] = 0;
-        int got = read_all(file_write("damaged.csv", text, length - random_next(&s) % 40), &error);
-        CHECK(got == 0 || error.message[0]);
-    }
-    check_seed = 0;
+    check_damaged_lines(HEADER, GOOD GOOD, read_all);
 }
 
 // Lines around the borders of the reader's buffer, 65536 bytes, come out whole.
