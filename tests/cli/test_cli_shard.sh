@@ -185,6 +185,17 @@ wait $! 2>/dev/null
 check 'killed' cmp whole.shard part.shard
 check 'killed: the mark' cmp whole.shard.mark part.shard.mark
 
+# Two runs of the same shard: the second one ends at once, and changes nothing.
+"$OVOID_TOOL" batch --shapes shapes.txt --pairs many.csv --json --shard 1/1 -o lock.shard >/dev/null 2>&1 &
+while [ ! -s lock.shard.mark ] && kill -0 $! 2>/dev/null; do :; done
+if kill -STOP $! 2>/dev/null && ! grep -q '^done' lock.shard.mark; then
+    "$OVOID_TOOL" batch --shapes shapes.txt --pairs many.csv --json --shard 1/1 -o lock.shard 2>said
+    check 'two runs: said' grep -q 'lock.shard: another run is writing this shard' said
+fi
+kill -CONT $! 2>/dev/null
+wait $! 2>/dev/null
+check 'two runs: the first one' cmp whole.shard lock.shard
+
 # A full disk: a limit of 100 blocks of 512 or 1024 bytes.
 rm -f part.shard*
 (ulimit -f 100 && "$OVOID_TOOL" batch --shapes shapes.txt --pairs many.csv --json --shard 1/1 -o part.shard) >/dev/null 2>said
