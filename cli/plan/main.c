@@ -5,7 +5,6 @@
 #include "base/progress.h"
 #include "plan/ends.h"
 #include "plan/search.h"
-#include "plan/write.h"
 #include "robot/commands.h"
 #include "robot/page.h"
 #include "robot/path/answer.h"
@@ -35,7 +34,7 @@ static int write_output(const plan_run *run, const char *path, void (*write)(FIL
 }
 
 static void write_path(FILE *file, const plan_run *run) {
-    (run->settings->json ? write_trajectory_json : write_states_csv)(file, run->cell, &run->path);
+    (run->settings->json ? states_write_trajectory : states_write_csv)(file, run->cell, &run->path);
 }
 
 static void write_proofs(FILE *file, const plan_run *run) {
@@ -107,6 +106,7 @@ static int plan(plan_run *run, const cli_command *command, cli_states *states) {
     if (code) return code;
     code = find_path(run, states, &ends);
     if (!code) code = prove(run);
+    if (!code && run->settings->json) code = states_check_trajectory(run->cell, &run->path);
     if (!code) code = write_all(run);
     ends_close(&ends);
     states_close(&run->path);

@@ -247,6 +247,11 @@ static uint32_t find_follower(const cli_cell *cell, uint32_t variable, const dou
     return OVOID_ROBOT_NONE;
 }
 
+void cell_tell_outside(void) {
+    message_note("limits are those of the URDF: if the robot may go farther, --limit-slack S takes states that are "
+                 "outside by at most S, radians or metres");
+}
+
 void cell_write_refusal(FILE *file, const cli_cell *cell, const ovoid_robot_answer *answer, const double *q) {
     ovoid_robot_variable v = ovoid_robot_get_variable(cell->robot.robot, answer->variable);
     cell_write_variable_name(file, cell, answer->variable);

@@ -129,6 +129,14 @@ static inline int cell_has_pair(const ovoid_robot_answer *answer) {
            (answer->status == OVOID_ROBOT_UNDECIDED && answer->code != OVOID_ERROR_EMPTY);
 }
 
+/// 1: a variable of the state is outside its limits.
+static inline int cell_is_outside(const ovoid_robot_answer *answer) {
+    return answer->status == OVOID_ROBOT_REFUSED && answer->code == OVOID_ERROR_RANGE;
+}
+
+/// Says what to do where the limits of the URDF are narrower than those that the states were made for.
+void cell_tell_outside(void);
+
 /// Writes why a state is refused: "shoulder: 3 is not within -1.5 .. 2.5".
 void cell_write_refusal(FILE *file, const cli_cell *cell, const ovoid_robot_answer *answer, const double *q);
 

@@ -2,7 +2,7 @@
 #ifndef OVOID_CLI_ROBOT_PAGE_CLEARANCE_H
 #define OVOID_CLI_ROBOT_PAGE_CLEARANCE_H
 
-#include "robot/states.h"
+#include "robot/states/states.h"
 
 /// Writes ,"clearance":[[s,lower,upper,a,b],...]: the bracket of the nearest pair at samples, with its sides as a
 /// path's answer has them. 0, or EXIT_INPUT after a message.

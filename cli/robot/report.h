@@ -3,7 +3,7 @@
 #define OVOID_CLI_ROBOT_REPORT_H
 
 #include "results.h"
-#include "robot/states.h"
+#include "robot/states/states.h"
 
 /// Options of the robot commands that write results; `out` is an output_settings.
 #define REPORT_OPTIONS(settings)                                                                                       \

@@ -37,6 +37,7 @@ static size_t find_place(const tally *t, const tally_pair *pair) {
 int tally_add(tally *t, const ovoid_robot_answer *answer) {
     t->statuses[answer->status]++;
     t->empty += answer->status == OVOID_ROBOT_UNDECIDED && answer->code == OVOID_ERROR_EMPTY;
+    t->outside += (size_t)cell_is_outside(answer);
     if (answer->status != OVOID_ROBOT_HIT) return 1;
     const tally_pair pair = {answer->a, answer->b, 0};
     size_t at = find_place(t, &pair);
@@ -62,21 +63,26 @@ static int compare_counts(const void *a, const void *b) {
     return compare_pairs(p, q);
 }
 
-void tally_report(tally *t, const cli_cell *cell, double seconds) {
-    const size_t *n = t->statuses;
+/// The pairs that were named most often.
+static void report_pairs(tally *t, const cli_cell *cell) {
     char a[CELL_SIDE_ROOM], b[CELL_SIDE_ROOM];
-    size_t all = n[0] + n[1] + n[2] + n[3];
-    message_note("%zu state%s in %.2f s; free: %zu, hit: %zu, undecided: %zu, refused: %zu", all, all == 1 ? "" : "s",
-                 seconds, n[OVOID_ROBOT_FREE], n[OVOID_ROBOT_HIT], n[OVOID_ROBOT_UNDECIDED], n[OVOID_ROBOT_REFUSED]);
-    if (t->empty) message_warning("%s", cell_get_empty());
-    if (!t->pair_count) return;
-    qsort(t->pairs, t->pair_count, sizeof *t->pairs, compare_counts);
+    if (t->pair_count) qsort(t->pairs, t->pair_count, sizeof *t->pairs, compare_counts);
     for (size_t i = 0; i < t->pair_count && i < REPORTED_MAX; i++) {
         (void)cell_format_side(a, cell, &t->pairs[i].a);
         (void)cell_format_side(b, cell, &t->pairs[i].b);
         message_note("  %s, %s: %zu", a, b, t->pairs[i].count);
     }
     if (t->pair_count > REPORTED_MAX) message_note("  and %zu more pairs", t->pair_count - REPORTED_MAX);
+}
+
+void tally_report(tally *t, const cli_cell *cell, double seconds) {
+    const size_t *n = t->statuses;
+    size_t all = n[0] + n[1] + n[2] + n[3];
+    message_note("%zu state%s in %.2f s; free: %zu, hit: %zu, undecided: %zu, refused: %zu", all, all == 1 ? "" : "s",
+                 seconds, n[OVOID_ROBOT_FREE], n[OVOID_ROBOT_HIT], n[OVOID_ROBOT_UNDECIDED], n[OVOID_ROBOT_REFUSED]);
+    if (t->empty) message_warning("%s", cell_get_empty());
+    report_pairs(t, cell);
+    if (t->outside) cell_tell_outside();
 }
 
 void tally_clear(tally *t) {

@@ -14,6 +14,7 @@ typedef struct tally_pair {
 typedef struct tally {
     size_t statuses[4]; ///< by ovoid_robot_status
     size_t empty;       ///< of the undecided, those of which nothing is compared
+    size_t outside;     ///< of the refused, those outside their limits
     tally_pair *pairs;
     size_t pair_count, capacity;
 } tally;

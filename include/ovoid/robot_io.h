@@ -1,7 +1,8 @@
 /**
  * @file robot_io.h
- * Robots from files: URDF and SRDF, scenes of obstacles (MoveIt's YAML, ovoid's JSON) and planning problems. A part of
- * libovoid_robot, which needs libovoid_io, expat and libyaml. docs/robot.md describes the formats.
+ * Robots from files: URDF and SRDF, scenes of obstacles (MoveIt's YAML, ovoid's JSON), planning problems and
+ * trajectories. A part of libovoid_robot, which needs libovoid_io, expat and libyaml. docs/robot.md describes the
+ * formats.
  *
  * Every function returns a code or NULL and fills *error (which may be NULL); message is "path:line: what is wrong,
  * what to do", place the line. Facts that are no errors but should be known are reported as notes: see
@@ -262,6 +263,35 @@ OVOID_API void ovoid_problems_destroy(ovoid_problems *problems);
 OVOID_API size_t ovoid_problems_get_count(const ovoid_problems *problems);
 /** Problem i < count. */
 OVOID_API ovoid_problem ovoid_problems_get(const ovoid_problems *problems, size_t i);
+
+/* ---- trajectories ---- */
+
+/** A trajectory of MoveIt or ROS: joints' numbers at points, one after another. Owned by the caller. */
+typedef struct ovoid_trajectory ovoid_trajectory;
+
+/**
+ * Reads a trajectory (YAML or JSON): moveit_msgs/RobotTrajectory, moveit_msgs/DisplayTrajectory and other messages that
+ * hold one or several as "trajectory", trajectory_msgs/JointTrajectory, or one sensor_msgs/JointState. Several
+ * trajectories follow one another: each begins at the time at which the one before ended. Velocities, accelerations,
+ * efforts and tolerances are not used. Any other key is refused with its line, as are joints of several variables
+ * (multi_dof_joint_trajectory), a start that holds an object, and points of which only some have times. options: note.
+ * Errors: FILE, FORMAT, NOT_FINITE, EMPTY (no points), LIMIT, MEMORY.
+ */
+OVOID_API ovoid_trajectory *ovoid_trajectory_read(const char *path, const ovoid_robot_read_options *options,
+                                                  ovoid_error *error);
+/** Frees it; NULL is allowed. */
+OVOID_API void ovoid_trajectory_destroy(ovoid_trajectory *trajectory);
+/** The joints' numbers of trajectory_start; *count of them, 0 where there is none. A view. */
+OVOID_API const ovoid_joint_position *ovoid_trajectory_get_start(const ovoid_trajectory *trajectory, size_t *count);
+/** How many points there are, at least 1. */
+OVOID_API size_t ovoid_trajectory_get_count(const ovoid_trajectory *trajectory);
+/** The joints' numbers at point i < count; *count of them. Joints that it does not name stand still. A view. */
+OVOID_API const ovoid_joint_position *ovoid_trajectory_get_point(const ovoid_trajectory *trajectory, size_t i,
+                                                                 size_t *count);
+/** The time of point i < count in seconds from the start; NaN where the points have none, or all are 0. */
+OVOID_API double ovoid_trajectory_get_time(const ovoid_trajectory *trajectory, size_t i);
+/** The line of point i < count in the file. */
+OVOID_API int64_t ovoid_trajectory_get_line(const ovoid_trajectory *trajectory, size_t i);
 
 #ifdef __cplusplus
 }

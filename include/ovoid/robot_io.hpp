@@ -1,8 +1,8 @@
 /**
  * @file robot_io.hpp
- * Robots from files, from C++: URDF and SRDF, scenes of obstacles, planning problems. Links libovoid_robot and
- * libovoid_io. Files that cannot be read throw ovoid::error: its sentence is "path:line: what is wrong", its place the
- * line. The objects return views into themselves: C structs of <ovoid/robot_io.h>.
+ * Robots from files, from C++: URDF and SRDF, scenes of obstacles, planning problems, trajectories. Links
+ * libovoid_robot and libovoid_io. Files that cannot be read throw ovoid::error: its sentence is "path:line: what is
+ * wrong", its place the line. The objects return views into themselves: C structs of <ovoid/robot_io.h>.
  */
 #ifndef OVOID_ROBOT_IO_HPP
 #define OVOID_ROBOT_IO_HPP
@@ -115,6 +115,35 @@ class motion_request
         const ovoid_joint_position *items = ovoid_motion_request_get_goal(get(), i, &count);
         return {items, count};
     }
+};
+
+/** A trajectory of MoveIt or ROS, owned. */
+class trajectory : public detail::owner<detail::pointer<ovoid_trajectory>, ovoid_trajectory, ovoid_trajectory_destroy> {
+  public:
+    using owner::owner;
+    /** Reads one. Throws as ovoid_trajectory_read fails. */
+    static trajectory read(const std::string &path, const ovoid_robot_read_options &how = robot_read_options()) {
+        ovoid_error e;
+        return trajectory(detail::require(ovoid_trajectory_read(path.c_str(), &how, &e), e));
+    }
+    /** The joints' numbers of trajectory_start. */
+    span<const ovoid_joint_position> start() const noexcept {
+        std::size_t count;
+        const ovoid_joint_position *items = ovoid_trajectory_get_start(get(), &count);
+        return {items, count};
+    }
+    /** Number of points. */
+    std::size_t size() const noexcept { return ovoid_trajectory_get_count(get()); }
+    /** The joints' numbers at point i < size. */
+    span<const ovoid_joint_position> point(std::size_t i) const noexcept {
+        std::size_t count;
+        const ovoid_joint_position *items = ovoid_trajectory_get_point(get(), i, &count);
+        return {items, count};
+    }
+    /** The time of point i < size in seconds; NaN where there are no times. */
+    double time(std::size_t i) const noexcept { return ovoid_trajectory_get_time(get(), i); }
+    /** The line of point i < size in the file. */
+    std::int64_t line(std::size_t i) const noexcept { return ovoid_trajectory_get_line(get(), i); }
 };
 
 /** The planning problems of a folder, owned. */

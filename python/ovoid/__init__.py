@@ -20,7 +20,7 @@ from ._ovoid import *  # noqa: F403
 from ._ovoid import __version__, has_io, has_robot
 from . import _faces, _pickle
 from ._values import (Cast, Clearance, Comparison, Contacts, Element, Hit, Joint, MatrixPair, MotionRequest, Obstacle,
-                      PartsAudit, Side, SphereAudit, StateAnswer, Variable)
+                      PartsAudit, Side, SphereAudit, StateAnswer, Trajectory, Variable)
 
 
 if not has_io:

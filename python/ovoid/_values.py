@@ -194,6 +194,15 @@ class MotionRequest(NamedTuple):
     goals: list[dict[str, float]]
 
 
+class Trajectory(NamedTuple):
+    """A trajectory of MoveIt or ROS: joints' numbers by their names at trajectory_start ({} where there is none) and at each
+    point; times: of the points in seconds, None where they have none."""
+
+    start: dict[str, float]
+    points: list[dict[str, float]]
+    times: list[float] | None
+
+
 class Clearance(NamedTuple):
     """The smallest clearance of a path: lower <= the least signed distance <= upper, proven. at: where a pair, of Sides a and b,
     is no farther apart than upper, or None. status: a RobotStatus against the margin; of REFUSED which state, Code and variable.

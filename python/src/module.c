@@ -54,9 +54,10 @@ static int import_python(module_state *state) {
     Py_DECREF(enums);
     PyObject *values = failed ? NULL : PyImport_ImportModule("ovoid._values");
     if (!values) return -1;
-    static const char *const tuples[] = {"Contacts", "Hit",           "Cast",        "Joint",      "Variable",
-                                         "Element",  "Side",          "StateAnswer", "MatrixPair", "SphereAudit",
-                                         "Obstacle", "MotionRequest", "Clearance",   "Comparison", "PartsAudit"};
+    static const char *const tuples[] = {"Contacts",   "Hit",         "Cast",       "Joint",
+                                         "Variable",   "Element",     "Side",       "StateAnswer",
+                                         "MatrixPair", "SphereAudit", "Obstacle",   "MotionRequest",
+                                         "Clearance",  "Comparison",  "PartsAudit", "Trajectory"};
     enum { TUPLES = sizeof tuples / sizeof *tuples };
     _Static_assert(offsetof(module_state, enums) - offsetof(module_state, contacts) == TUPLES * sizeof(PyObject *),
                    "a name for each, in their order");

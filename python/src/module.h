@@ -54,7 +54,7 @@ typedef struct module_state {
     PyObject *error; ///< ovoid.Error
     /// Named tuples of ovoid/_values.py.
     PyObject *contacts, *hit, *cast, *joint, *variable, *element, *side, *state_answer, *matrix_pair, *sphere_audit,
-        *obstacle, *motion_request, *clearance, *comparison, *parts_audit;
+        *obstacle, *motion_request, *clearance, *comparison, *parts_audit, *trajectory;
     PyObject *enums[ENUM_COUNT]; ///< tuples
     PyObject *dtype_name;        ///< "dtype"
     PyObject *numpy_array;       ///< numpy.ndarray; None where it cannot be imported, NULL where not yet tried

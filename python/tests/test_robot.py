@@ -439,6 +439,15 @@ class Files(unittest.TestCase):
             ((name, scene, request),) = ovoid.find_problems(folder)
             self.assertEqual(name, "0001")
             self.assertEqual(len(ovoid.read_obstacles(scene)), 2)
+            moved = os.path.join(folder, "moved.json")
+            with open(moved, "w", encoding="utf-8") as file:
+                file.write('{"trajectory_start": {"joint_state": {"name": ["wrist"], "position": [0.5]}}, "trajectory": '
+                           '{"joint_trajectory": {"joint_names": ["shoulder"], "points": [{"positions": [1]}]}}}')
+            self.assertEqual(ovoid.read_trajectory(moved), ({"wrist": 0.5}, [{"shoulder": 1.0}], None))
+            with open(moved, "w", encoding="utf-8") as file:
+                file.write('{"joint_names": ["a"], "points": [{"positions": [1], "time_from_start": {"secs": 1, "nsecs": 5e8}}]}')
+            self.assertEqual(ovoid.read_trajectory(moved).times, [1.5])
+            self.assertRaises(ovoid.Error, ovoid.read_trajectory, scene)
             found = ovoid.read_motion_request(request)
             self.assertEqual(found, ("arm", {"a": 1, "b": -0.25}, [{"b": 3}, {}]))
 

@@ -48,6 +48,12 @@ static void test_problem() {
     CHECK(request.goal(0).size() == 1 && request.goal(0)[0].position == 1.5);
     CHECK_EQ(ovoid::obstacles::read("hpp_scene1.yaml").size(), 0u);
     std::remove("hpp_scene1.yaml");
+    write_file("hpp_trajectory.json", "{\"joint_names\": [\"shoulder\"], \"points\": [{\"positions\": [0.5], "
+                                      "\"time_from_start\": 0},\n{\"positions\": [1], \"time_from_start\": 2}]}");
+    const auto moved = ovoid::trajectory::read("hpp_trajectory.json");
+    CHECK(moved.size() == 2 && moved.start().size() == 0 && moved.point(1)[0].position == 1);
+    CHECK(moved.time(1) == 2 && moved.line(1) == 2);
+    std::remove("hpp_trajectory.json");
     std::remove("hpp_request1.yaml");
 }
 

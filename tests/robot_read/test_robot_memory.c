@@ -1,6 +1,6 @@
-// Failing memory: for every k, the k-th allocation of reading a robot, a scene and a request fails. Truth: then it says
-// MEMORY, and nothing leaks (the leak checker of the sanitizers says so at the end); with enough memory it succeeds.
-// expat and libyaml have memory of their own, which does not fail.
+// Failing memory: for every k, the k-th allocation of reading a robot, a scene, a request and a trajectory fails.
+// Truth: then it says MEMORY, and nothing leaks (the leak checker of the sanitizers says so at the end); with enough
+// memory it succeeds. expat and libyaml have memory of their own, which does not fail.
 #define FILES_FOLDER "test_robot_memory"
 #include "failing.h"
 #include "files.h"
@@ -62,6 +62,12 @@ static int place_scene(ovoid_error *error) {
     return good;
 }
 
+static int read_trajectory(ovoid_error *error) {
+    ovoid_trajectory *t = ovoid_trajectory_read(file_path("moved.json"), NULL, error);
+    ovoid_trajectory_destroy(t);
+    return t != NULL;
+}
+
 static int read_request(ovoid_error *error) {
     ovoid_motion_request *r = ovoid_motion_request_read(file_path("problems/request1.yaml"), NULL, error);
     ovoid_motion_request_destroy(r);
@@ -111,6 +117,7 @@ static const char scene[] =
     "link_padding: [{link_name: a, padding: 0.1}]\n"
     "allowed_collision_matrix: {entry_names: [a, b], entry_values: [[0, 1], [1, 0]], default_entry_names: [o, h], "
     "default_entry_values: [1, 1]}\n";
+static const char moved[] = "{\"joint_names\":[\"a\"],\"points\":[{\"positions\":[1]},{\"positions\":[2]}]}";
 static const char request[] = "start_state: {joint_state: {name: [a], position: [1]}}\ngroup_name: g\n"
                               "goal_constraints: [{joint_constraints: [{joint_name: a, position: 2}]}]\n";
 
@@ -140,6 +147,7 @@ int main(void) {
     file_write_text("scene.yaml", scene);
     file_write_text("problems/scene1.yaml", scene);
     file_write_text("problems/request1.yaml", request);
+    file_write_text("moved.json", moved);
     check_operation("robot", 0, read_robot);
     CHECK(notes > 0);
     with_parts = 0;
@@ -150,6 +158,7 @@ int main(void) {
     check_operation("cell", 0, place_scene);
     ovoid_robot_destroy(robot);
     check_operation("request", 0, read_request);
+    check_operation("trajectory", 0, read_trajectory);
     file_write_text("proofs.jsonl", proofs);
     check_operation("problems", 0, find_problems);
     check_operation("proofs", 0, read_proofs);

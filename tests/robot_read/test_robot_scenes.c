@@ -1,5 +1,5 @@
-// Scenes, requests and planning problems: what is read, what is refused. Truth: files written here; the number of the
-// known problems' files.
+// Scenes, requests, trajectories and planning problems: what is read, what is refused. Truth: files written here; the
+// number of the known problems' files.
 #define FILES_FOLDER "test_scenes"
 #include "robot_files.h"
 
@@ -218,7 +218,7 @@ static const bad_input scenes[] = {
     {"cut.yaml", "world: {collision_objects: [\n", 2, "YAML: "},
     {"alias.yaml", "a: &x [1, 2]\nworld: *x\n", 2, "aliases are not read"},
     {"key.yaml", "{[1, 2]: 3}\n", 1, "a key must be a text"},
-    {"two.yaml", "a: 1\n---\nb: 2\n", 2, "a second document"},
+    {"two.yaml", "a: 1\n---\nb: 2\n", 3, "a second document"},
     {"tags.yaml", TAG4 TAG4 TAG4 TAG4 "%TAG !x! y\n---\na: 1\n", -1, "there are 17 %TAG directives", OVOID_ERROR_LIMIT},
     {"wide.yaml",
      "\xff\xfe"
@@ -345,6 +345,90 @@ static const bad_input requests[] = {
     {"group.yaml", "group_name: [a]\n" START, 1, "\"group_name\" must be a text"},
 };
 
+// ---- trajectories
+
+static void test_trajectory(void) {
+    static const char text[] =
+        "trajectory_start: {joint_state: {name: [a, b], position: [1, 2]}}\nmodel_id: r\ntrajectory:\n"
+        "  - joint_trajectory:\n      header: {frame_id: base}\n      joint_names: [a, b]\n      points:\n"
+        "        - {positions: [1, 2], velocities: [0, 0], time_from_start: {secs: 0, nsecs: 0}}\n"
+        "        - {positions: [1.5, 2], time_from_start: {sec: 1, nanosec: 500000000}}\n"
+        "    multi_dof_joint_trajectory: {header: {frame_id: ''}, joint_names: [], points: []}\n"
+        "  - {joint_names: [b], points: [{positions: [-3], time_from_start: 0.25}]}\n---\n";
+    ovoid_trajectory *t = ovoid_trajectory_read(file_write_text("moved.yaml", text), NULL, NULL);
+    size_t count;
+    if (!CHECK(t)) return;
+    const ovoid_joint_position *start = ovoid_trajectory_get_start(t, &count);
+    CHECK(count == 2 && strcmp(start[1].joint, "b") == 0 && start[1].position == 2);
+    CHECK_EQ(ovoid_trajectory_get_count(t), 3);
+    const ovoid_joint_position *second = ovoid_trajectory_get_point(t, 1, &count);
+    CHECK(count == 2 && second[0].position == 1.5 && ovoid_trajectory_get_line(t, 1) == 9);
+    const ovoid_joint_position *last = ovoid_trajectory_get_point(t, 2, &count);
+    CHECK(count == 1 && strcmp(last[0].joint, "b") == 0 && last[0].position == -3);
+    CHECK(ovoid_trajectory_get_time(t, 0) == 0 && ovoid_trajectory_get_time(t, 1) == 1.5);
+    CHECK_EQ(ovoid_trajectory_get_time(t, 2), 1.75); // the second begins where the first ends
+    ovoid_trajectory_destroy(t);
+}
+
+// Messages of other kinds; times that are absent, or all 0.
+static void test_trajectory_kinds(void) {
+    static const struct {
+        const char *text;
+        size_t points;
+        double time; // of the last point; NaN: none
+    } kinds[] = {
+        {"{\"joint_trajectory\":{\"joint_names\":[\"a\"],\"points\":[{\"positions\":[1]},{\"positions\":[2]}]}}", 2,
+         NAN},
+        {"{\"joint_names\":[\"a\"],\"points\":[{\"positions\":[1],\"time_from_start\":0},{\"positions\":[2],"
+         "\"time_from_start\":{\"secs\":0}}]}",
+         2, NAN},
+        {"trajectory: {joint_names: [a], points: [{positions: [2], time_from_start: 2}]}\ngoal_tolerance: []\n", 1, 2},
+        {"name: [a]\nposition: [2]\nvelocity: []\n", 1, NAN},
+    };
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        ovoid_trajectory *t = ovoid_trajectory_read(file_write_text("kind.json", kinds[i].text), NULL, NULL);
+        size_t count;
+        if (!CHECK(t)) continue;
+        if (CHECK_EQ(ovoid_trajectory_get_count(t), kinds[i].points)) {
+            size_t end = kinds[i].points - 1;
+            const ovoid_joint_position *last = ovoid_trajectory_get_point(t, end, &count);
+            CHECK(count == 1 && strcmp(last[0].joint, "a") == 0 && last[0].position == 2);
+            double time = ovoid_trajectory_get_time(t, end);
+            CHECK(isnan(kinds[i].time) ? isnan(time) : time == kinds[i].time);
+        }
+        (void)ovoid_trajectory_get_start(t, &count);
+        CHECK_EQ(count, 0);
+        ovoid_trajectory_destroy(t);
+    }
+}
+
+#define POINTS "joint_names: [a]\npoints:\n"
+static const bad_input trajectories[] = {
+    {"list.yaml", "[1]\n", 1, "this is no trajectory"},
+    {"scene.yaml", "name: s\nworld: {}\n", 1, "no trajectory: there is neither \"joint_trajectory\""},
+    {"none.yaml", "joint_trajectory: {joint_names: [a], points: []}\n", 1, "has no points", OVOID_ERROR_EMPTY},
+    {"long.yaml", POINTS "  - {positions: [1, 2]}\n", 3, "2 positions for 1 joints"},
+    {"short.yaml", POINTS "  - {velocities: [1]}\n", 3, "0 positions for 1 joints"},
+    {"timed.yaml", POINTS "  - {positions: [1], time_from_start: 0}\n  - {positions: [1]}\n", 4, "no time_from_start"},
+    {"untimed.yaml", POINTS "  - {positions: [1]}\n  - {positions: [1], time_from_start: 1}\n", 4,
+     "a time_from_start, unlike"},
+    {"duration.yaml", POINTS "  - {positions: [1], time_from_start: {hours: 1}}\n", 3, "\"hours\" is no key"},
+    {"infinite.yaml", POINTS "  - {positions: [1e999]}\n", 3, "is not finite", OVOID_ERROR_NOT_FINITE},
+    {"key.yaml", POINTS "  - {positions: [1], jerk: [1]}\n", 3, "\"jerk\" is no key"},
+    {"floats.yaml", "multi_dof_joint_trajectory: {joint_names: [world], points: []}\n", 1, "moves joint \"world\""},
+    {"both.yaml", "trajectory: []\nmulti_dof_trajectory: {joint_names: [v]}\n", 2,
+     "\"multi_dof_trajectory\" is not read"},
+    {"held.yaml", "trajectory_start: {attached_collision_objects: [{weight: 1}]}\ntrajectory: []\n", 1,
+     "\"attached_collision_objects\" of a trajectory are not read"},
+    {"name.yaml", "joint_names: [[a]]\npoints: []\n", 1, "must be a text"},
+};
+
+static int accepts_trajectory(const char *path, ovoid_error *error) {
+    ovoid_trajectory *t = ovoid_trajectory_read(path, NULL, error);
+    ovoid_trajectory_destroy(t);
+    return t != NULL;
+}
+
 static int accepts_request(const char *path, ovoid_error *error) {
     ovoid_motion_request *request = ovoid_motion_request_read(path, NULL, error);
     ovoid_motion_request_destroy(request);
@@ -424,6 +508,9 @@ int main(void) {
     test_own_scene();
     check_bad_inputs(scenes, sizeof scenes / sizeof *scenes, accepts_scene);
     test_request();
+    test_trajectory();
+    test_trajectory_kinds();
+    check_bad_inputs(trajectories, sizeof trajectories / sizeof *trajectories, accepts_trajectory);
     check_bad_inputs(requests, sizeof requests / sizeof *requests, accepts_request);
     test_problems();
     const char *data = check_data_folder();

@@ -19,7 +19,7 @@ typedef struct settings {
     robot_settings robot;
     states_settings states;
     output_settings out;
-    const char *plot, *html;
+    const char *plot, *html, *trajectory;
     double tolerance, clearance_tolerance;
     int proofs, edges, clearance, speed, any_hit;
     unsigned most;
@@ -41,6 +41,8 @@ static const cli_option options[] = {
      "with a column \"time\": report joints that are faster than the URDF's limit"},
     {"plot", 0, OPTION_OUTPUT, offsetof(settings, plot), "FILE", "svg",
      "draw the distance of the nearest pair over the path, sampled"},
+    {"trajectory", 0, OPTION_OUTPUT, offsetof(settings, trajectory), "FILE", "json",
+     "write a path that is free as a robot trajectory of MoveIt, with the times of the states where they have some"},
     PAGE_OPTION(settings),
     {"tol", 0, OPTION_SHARE, offsetof(settings, tolerance), "T", NULL,
      "end when the first hit is known to within T of a segment (default: 1e-6)"},
@@ -82,11 +84,13 @@ typedef struct path_run {
 /// What was found of all paths.
 typedef struct path_counts {
     size_t statuses[4], steps, looked_at;
-    int proven; ///< EXIT_NOT_PROVEN: a proof does not hold
+    size_t outside; ///< of the refused, those with a state outside its limits
+    int proven;     ///< EXIT_NOT_PROVEN: a proof does not hold
 } path_counts;
 
 static void add_counts(path_counts *c, const path_report *r) {
     c->statuses[r->answer.status]++;
+    c->outside += r->answer.status == OVOID_ROBOT_REFUSED && r->answer.hit.code == OVOID_ERROR_RANGE;
     c->steps += r->answer.step_count;
     c->looked_at += r->answer.states;
 }
@@ -135,6 +139,19 @@ static void report_counts(const settings *s, const path_counts *c, const cli_sta
     else
         message_note("%zu state%s in %.3f s; looked at: %zu, steps: %zu", states->count, states->count == 1 ? "" : "s",
                      seconds, c->looked_at, c->steps);
+    if (c->outside) cell_tell_outside();
+}
+
+/// Writes the path for MoveIt, if it is free. 0, or an exit code after a message.
+static int write_trajectory(const settings *s, const path_report *r) {
+    const output_settings out = {.path = s->trajectory};
+    cli_results results;
+    if (!s->trajectory) return 0;
+    if (r->answer.status != OVOID_ROBOT_FREE)
+        return message_warning("%s is not written: the path is not proven free", s->trajectory), 0;
+    if (states_check_trajectory(r->cell, r->states) || results_open(&results, &out, 0, "")) return EXIT_INPUT;
+    states_write_trajectory(results.file, r->cell, r->states);
+    return results_close(&results, 0);
 }
 
 /// Draws the plot and writes the page, those that are wanted. 0, or an exit code after a message.
@@ -142,6 +159,7 @@ static int draw(const settings *s, path_run *run) {
     const path_report *r = &run->report;
     const ovoid_robot_query_options o = cell_make_options(&s->cell);
     int code = s->plot ? path_plot(s->plot, r, run->checker, &o) : 0;
+    if (!code) code = write_trajectory(s, r);
     const path_report *alone = s->edges ? NULL : r;
     const robot_page_source source = {run->urdf, &s->cell, r->cell, r->states, run->checker, alone};
     return code ? code : robot_page_write(&run->page, &source);
@@ -199,8 +217,9 @@ static int settle(const cli_command *command, settings *s) {
     if (code < 0) code = states_settle(command, &s->states, &s->cell);
     if (code < 0 && s->proofs && s->out.csv)
         code = args_complain(command, "%s: --proofs goes with JSON Lines, not with CSV", command->name);
-    if (code < 0 && s->edges && s->plot)
-        code = args_complain(command, "%s: --plot is of one path, not of --edges", command->name);
+    if (code < 0 && s->edges && (s->plot || s->trajectory))
+        code = args_complain(command, "%s: --%s is of one path, not of --edges", command->name,
+                             s->plot ? "plot" : "trajectory");
     if (code < 0 && s->clearance_tolerance > 0 && !s->clearance)
         code = args_complain(command, "%s: --clearance-tol goes with --clearance", command->name);
     if (code < 0 && s->proofs && s->clearance)

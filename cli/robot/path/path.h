@@ -3,7 +3,7 @@
 #define OVOID_CLI_ROBOT_PATH_PATH_H
 
 #include "results.h"
-#include "robot/states.h"
+#include "robot/states/states.h"
 
 #include <ovoid/robot_path.h>
 

@@ -3,7 +3,7 @@
 #ifndef OVOID_CLI_ROBOT_PLAN_PLAN_H
 #define OVOID_CLI_ROBOT_PLAN_PLAN_H
 
-#include "robot/states.h"
+#include "robot/states/states.h"
 
 /// The program that plans, in the folder of the tool. It alone is linked with OMPL.
 #define PLAN_PROGRAM "ovoid-plan"

@@ -2,7 +2,7 @@
 #ifndef OVOID_CLI_ROBOT_SPHERES_SPHERES_H
 #define OVOID_CLI_ROBOT_SPHERES_SPHERES_H
 
-#include "robot/states.h"
+#include "robot/states/states.h"
 
 #include <ovoid/robot_compare.h>
 

@@ -5,6 +5,7 @@
 
 #include <ovoid/robot_io.h>
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -389,6 +390,37 @@ static PyObject *read_motion_request(PyObject *module, PyObject *given) {
     return made;
 }
 
+static PyObject *make_point(const void *trajectory, size_t i) {
+    size_t count;
+    const ovoid_joint_position *point = ovoid_trajectory_get_point(trajectory, i, &count);
+    return make_positions(point, count);
+}
+
+static PyObject *make_time(const void *trajectory, size_t i) {
+    return PyFloat_FromDouble(ovoid_trajectory_get_time(trajectory, i));
+}
+
+static PyObject *make_trajectory(module_state *state, const ovoid_trajectory *trajectory) {
+    size_t count, points = ovoid_trajectory_get_count(trajectory);
+    const ovoid_joint_position *start = ovoid_trajectory_get_start(trajectory, &count);
+    int has_times = !isnan(ovoid_trajectory_get_time(trajectory, 0));
+    return PyObject_CallFunction(state->trajectory, "NNN", make_positions(start, count),
+                                 list_make(points, make_point, trajectory),
+                                 has_times ? list_make(points, make_time, trajectory) : Py_NewRef(Py_None));
+}
+
+static PyObject *read_trajectory(PyObject *module, PyObject *given) {
+    PyObject *path = NULL;
+    ovoid_error error;
+    if (!PyUnicode_FSConverter(given, &path)) return NULL;
+    ovoid_trajectory *trajectory = ovoid_trajectory_read(PyBytes_AsString(path), NULL, &error);
+    Py_DECREF(path);
+    module_state *state = state_of_module(module);
+    PyObject *made = trajectory ? make_trajectory(state, trajectory) : raise_error(state, &error);
+    ovoid_trajectory_destroy(trajectory);
+    return made;
+}
+
 static PyObject *make_problem(const void *problems, size_t i) {
     ovoid_problem p = ovoid_problems_get(problems, i);
     return Py_BuildValue("sNN", p.name, PyUnicode_DecodeFSDefault(p.scene), PyUnicode_DecodeFSDefault(p.request));
@@ -416,6 +448,10 @@ PyMethodDef robot_file_functions[] = {
     {"read_motion_request", read_motion_request, METH_O,
      "read_motion_request(path: PathLike, /) -> MotionRequest\n--\n\nA motion planning request of MoveIt (YAML): a "
      "MotionRequest (group, start, goals), states as dicts of joints."},
+    {"read_trajectory", read_trajectory, METH_O,
+     "read_trajectory(path: PathLike, /) -> Trajectory\n--\n\nA trajectory of MoveIt or ROS (YAML or JSON): a "
+     "Trajectory "
+     "(start, points, times), states as dicts of joints."},
     {"find_problems", find_problems, METH_O,
      "find_problems(folder: PathLike, /) -> list[tuple[str, str, str]]\n--\n\nThe planning problems of a folder: a "
      "list of (name, path of the scene, path of the request)."},

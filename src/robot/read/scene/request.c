@@ -1,15 +1,9 @@
 // A motion planning request in YAML (moveit_msgs/MotionPlanRequest): where the joints begin, and the goals that are
 // given by the joints' numbers. Cost: linear in the file.
-#include "robot/read/scene/message.h"
+#include "robot/read/scene/positions.h"
 
 #include <stdlib.h>
 #include <string.h>
-
-/// The joints' numbers of the start or of a goal.
-typedef struct position_list {
-    ovoid_joint_position *items;
-    size_t count;
-} position_list;
 
 struct ovoid_motion_request {
     pool memory;
@@ -20,57 +14,13 @@ struct ovoid_motion_request {
 
 static const ovoid_robot_read_options no_options;
 
-static ovoid_code make_list(const message_reader *r, size_t most, position_list *out) {
-    out->items = pool_get(r->memory, most, sizeof *out->items);
-    out->count = 0;
-    return out->items ? OVOID_OK : io_fail_memory(r->error, r->path);
-}
-
-static ovoid_code add_position(const message_reader *r, const char *name, const yaml_value *number,
-                               position_list *out) {
-    ovoid_joint_position *item = &out->items[out->count++];
-    item->joint = pool_copy(r->memory, name, strlen(name));
-    if (!item->joint) return io_fail_memory(r->error, r->path);
-    return message_read_number(r, number, &item->position);
-}
-
-// The numbers of a request are those of joints with one variable, so a base must be where it is by default.
-static ovoid_code validate_bases(const message_reader *r, const yaml_value *start) {
-    const yaml_value *state, *list = NULL;
-    double values[7];
-    ovoid_code code = message_find_kind(r, start, "multi_dof_joint_state", YAML_MAP, &state);
-    if (!code && state) code = message_refuse_others(r, state, "header|joint_names|transforms|twist|wrench");
-    if (!code && state) code = message_find_kind(r, state, "transforms", YAML_LIST, &list);
-    for (const yaml_value *v = list ? list->first : NULL; v && !code; v = v->next) {
-        code = message_read_transform(r, v, values);
-        if (!code && !transform_is_identity(values))
-            code = message_fail(r, v, OVOID_ERROR_FORMAT,
-                                "multi_dof_joint_state: a base that is not where its frame is cannot be told here");
-    }
-    return code;
-}
-
 // start_state: joint_state: name and position, two lists of one length.
 static ovoid_code read_start(const message_reader *r, const yaml_value *root, position_list *out) {
-    const yaml_value *start, *state = NULL, *names = NULL, *positions = NULL;
+    const yaml_value *start;
     ovoid_code code = message_find_kind(r, root, "start_state", YAML_MAP, &start);
-    if (!code && start) code = validate_bases(r, start);
-    if (!code && start) code = message_find_kind(r, start, "joint_state", YAML_MAP, &state);
-    if (!code && state) code = message_refuse_others(r, state, "header|name|position|velocity|effort");
-    if (!code && state) code = message_find_kind(r, state, "name", YAML_LIST, &names);
-    if (!code && state) code = message_find_kind(r, state, "position", YAML_LIST, &positions);
-    if (code) return code;
-    if (!names || !positions)
-        return message_fail(r, root, OVOID_ERROR_FORMAT, "a request needs start_state: joint_state: name and position");
-    if (names->count != positions->count)
-        return message_fail(r, positions, OVOID_ERROR_FORMAT, "there are %zu names but %zu positions", names->count,
-                            positions->count);
-    code = make_list(r, names->count, out);
-    const yaml_value *number = positions->first;
-    for (const yaml_value *name = names->first; name && !code; name = name->next, number = number->next)
-        code = name->kind == YAML_TEXT ? add_position(r, name->text, number, out)
-                                       : message_fail(r, name, OVOID_ERROR_FORMAT, "a joint's name must be a text");
-    return code;
+    if (!code && start) code = position_list_read_state(r, start, "a request", out);
+    if (code || out->items) return code;
+    return message_fail(r, root, OVOID_ERROR_FORMAT, "a request needs start_state: joint_state: name and position");
 }
 
 static ovoid_code read_constraint(const message_reader *r, const yaml_value *value, position_list *out) {
@@ -80,7 +30,9 @@ static ovoid_code read_constraint(const message_reader *r, const yaml_value *val
     if (!code) code = message_find(r, value, "position", &number);
     if (!code && (!name || !number))
         code = message_fail(r, value, OVOID_ERROR_FORMAT, "a joint constraint needs joint_name and position");
-    return code ? code : add_position(r, name->text, number, out);
+    const char *kept = NULL;
+    if (!code) code = position_list_copy_name(r, name, &kept);
+    return code ? code : position_list_add(r, kept, number, out);
 }
 
 static ovoid_code read_goal(const message_reader *r, const yaml_value *value, position_list *out) {
@@ -94,27 +46,20 @@ static ovoid_code read_goal(const message_reader *r, const yaml_value *value, po
     for (int i = 0; i < 3 && !code; i++)
         code = message_refuse_filled(r, value, others[i], "of a goal are not read: its states are not known by joints");
     if (code) return code;
-    code = make_list(r, constraints ? constraints->count : 0, out);
+    code = position_list_make(r, constraints ? constraints->count : 0, out);
     for (const yaml_value *v = constraints ? constraints->first : NULL; v && !code; v = v->next)
         code = read_constraint(r, v, out);
     return code;
 }
 
-// What a planner is told of how to search means nothing here. An object that a link holds at the start does.
+// What a planner is told of how to search means nothing here.
 static ovoid_code refuse_others(const message_reader *r, const yaml_value *root) {
-    const yaml_value *start;
-    ovoid_code code = message_refuse_others(
+    return message_refuse_others(
         r, root,
         "group_name|start_state|goal_constraints|path_constraints|trajectory_constraints|reference_trajectories|"
         "workspace_parameters|pipeline_id|planner_id|num_planning_attempts|allowed_planning_time|"
         "max_velocity_scaling_factor|max_acceleration_scaling_factor|cartesian_speed_end_effector_link|"
         "cartesian_speed_limited_link|max_cartesian_speed");
-    if (!code) code = message_find_kind(r, root, "start_state", YAML_MAP, &start);
-    if (code || !start) return code;
-    code = message_refuse_others(r, start, "joint_state|multi_dof_joint_state|attached_collision_objects|is_diff");
-    return code ? code
-                : message_refuse_filled(r, start, "attached_collision_objects",
-                                        "of a request are not read: put them into the scene's robot_state");
 }
 
 // 1: there is a text or a number that is not zero in the value, or in what it holds.
@@ -141,9 +86,9 @@ static ovoid_code tell_unread(const message_reader *r, const yaml_value *root) {
 static ovoid_code read_request(const message_reader *r, const yaml_value *root, ovoid_motion_request *out) {
     const yaml_value *goals;
     ovoid_code code = refuse_others(r, root);
+    if (!code) code = read_start(r, root, &out->start);
     if (!code) code = tell_unread(r, root);
     if (!code) code = message_read_text(r, root, "group_name", &out->group);
-    if (!code) code = read_start(r, root, &out->start);
     if (!code) code = message_find_kind(r, root, "goal_constraints", YAML_LIST, &goals);
     if (code || !goals) return code;
     out->goals = pool_get(r->memory, goals->count, sizeof *out->goals);

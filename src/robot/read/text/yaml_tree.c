@@ -53,7 +53,18 @@ static ovoid_code add_value(yaml_reader *r, const yaml_event_t *event, yaml_kind
 
 static int wants_key(const yaml_reader *r) { return r->open && r->open->kind == YAML_MAP && !r->key; }
 
+// One document is read. "rostopic echo" and "ros2 topic echo" end each message by "---": a last document may be empty.
+static ovoid_code refuse_second(const yaml_reader *r, const yaml_event_t *event) {
+    if (r->documents < 2) return OVOID_OK;
+    return fail(r, event, OVOID_ERROR_FORMAT, "there is a second document; one is read");
+}
+
+static int is_empty(const yaml_event_t *event) {
+    return event->data.scalar.length == 0 && event->data.scalar.style == YAML_PLAIN_SCALAR_STYLE;
+}
+
 static ovoid_code take_text(yaml_reader *r, const yaml_event_t *event) {
+    if (r->documents > 1) return is_empty(event) ? OVOID_OK : refuse_second(r, event);
     const char *text = (const char *)event->data.scalar.value;
     size_t length = event->data.scalar.length;
     if (memchr(text, 0, length)) return fail(r, event, OVOID_ERROR_FORMAT, "a text holds a zero byte");
@@ -70,18 +81,19 @@ static ovoid_code take_text(yaml_reader *r, const yaml_event_t *event) {
 }
 
 static ovoid_code begin(yaml_reader *r, const yaml_event_t *event, yaml_kind kind) {
+    ovoid_code code = refuse_second(r, event);
+    if (code) return code;
     if (wants_key(r)) return fail(r, event, OVOID_ERROR_FORMAT, "a key must be a text");
     if (++r->depth > YAML_DEPTH_MAX) return fail(r, event, OVOID_ERROR_LIMIT, "values are nested more than 64 deep");
     yaml_value *value;
-    ovoid_code code = add_value(r, event, kind, &value);
+    code = add_value(r, event, kind, &value);
     if (!code) r->open = value;
     return code;
 }
 
 static ovoid_code take_event(yaml_reader *r, const yaml_event_t *event) {
     switch (event->type) {
-    case YAML_DOCUMENT_START_EVENT:
-        return r->documents++ ? fail(r, event, OVOID_ERROR_FORMAT, "there is a second document") : OVOID_OK;
+    case YAML_DOCUMENT_START_EVENT: r->documents++; return OVOID_OK;
     case YAML_ALIAS_EVENT: return fail(r, event, OVOID_ERROR_FORMAT, "aliases are not read; write the value itself");
     case YAML_SCALAR_EVENT: return take_text(r, event);
     case YAML_SEQUENCE_START_EVENT: return begin(r, event, YAML_LIST);

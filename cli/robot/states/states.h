@@ -1,4 +1,5 @@
-// States of a robot: from a CSV file with a header, by the SRDF's names, or written on the command line.
+// States of a robot: from a CSV file with a header, a trajectory or a request of MoveIt, by the SRDF's names, or
+// written on the command line.
 #ifndef OVOID_CLI_ROBOT_STATES_H
 #define OVOID_CLI_ROBOT_STATES_H
 
@@ -9,6 +10,7 @@ typedef struct states_settings {
     const char *path;    ///< NULL: not given
     const char *request; ///< NULL: not given
     const char *group;   ///< NULL: named states of all groups
+    const char *others;  ///< of what a state does not give; NULL: MoveIt's default
     char scene[4096];    ///< the scene beside the request
     args_list texts;     ///< names and assignments
 } states_settings;
@@ -19,9 +21,11 @@ typedef struct states_settings {
      0,                                                                                                                \
      OPTION_FILE,                                                                                                      \
      offsetof(settings, states.path),                                                                                  \
-     "Q.csv",                                                                                                          \
+     "FILE",                                                                                                           \
      NULL,                                                                                                             \
-     "states, one a line, below a header of joints' or variables' names in any order; \"-\": standard input"},         \
+     "states: CSV, one a line below a header of joints' or variables' names in any order (\"-\": standard input), "    \
+     "also "                                                                                                           \
+     "the joint states of a bag by rostopic echo -p or PlotJuggler; or a trajectory of MoveIt (.json, .yaml)"},        \
         {"request",                                                                                                    \
          0,                                                                                                            \
          OPTION_FILE,                                                                                                  \
@@ -37,6 +41,14 @@ typedef struct states_settings {
          "NAME",                                                                                                       \
          NULL,                                                                                                         \
          "named states are those of this group of the SRDF (default: of all groups)"},                                 \
+        {"others",                                                                                                     \
+         0,                                                                                                            \
+         OPTION_TEXT,                                                                                                  \
+         offsetof(settings, states.others),                                                                            \
+         "STATE",                                                                                                      \
+         NULL,                                                                                                         \
+         "variables that a state does not give are as in STATE, a name of the SRDF's or \"joint=number,...\" "         \
+         "(default: 0, or the middle of the limits where 0 is outside)"},                                              \
     {                                                                                                                  \
         "state", 0, OPTION_LIST, offsetof(settings, states.texts), "STATE", NULL,                                      \
             "a state: a name of the SRDF's, \"joint=number,...\", or \"\", all at their default; may be given "        \
@@ -70,6 +82,14 @@ const double *states_get(const cli_states *states, size_t i);
 void states_close(cli_states *states);
 /// Writes the first `count` states as a member of an object, and their times where they have some.
 void states_write_json(FILE *file, const cli_states *states, const char *key, size_t count);
+
+/// Writes all states as a file that states_open reads.
+void states_write_csv(FILE *file, const cli_cell *cell, const cli_states *states);
+/// Refuses states that states_write_trajectory cannot write: a joint of several variables moves. 0, or EXIT_INPUT after
+/// a message.
+int states_check_trajectory(const cli_cell *cell, const cli_states *states);
+/// Writes all states as moveit_msgs/RobotTrajectory, without joints of several variables, which stand still.
+void states_write_trajectory(FILE *file, const cli_cell *cell, const cli_states *states);
 
 /// The number of a variable that is not given.
 double states_get_default(const cli_cell *cell, size_t variable);
