@@ -127,8 +127,7 @@ static int find_choice(const char *choices, const char *word, size_t length) {
     return -1;
 }
 
-/// Parses "X Y Z", followed by a quaternion, or by "rpy" or "deg" and three angles; 0 for anything else.
-static int parse_pose(const char *text, ovoid_pose *pose) {
+int args_parse_pose(const char *text, ovoid_pose *pose) {
     static const double degree = 0.017453292519943295;
     double v[7], angles[3];
     size_t head = strcspn(text, "rd");
@@ -151,7 +150,7 @@ static int parse_pose(const char *text, ovoid_pose *pose) {
 }
 
 static int set_pose(const cli_command *command, const cli_option *o, const char *text, ovoid_pose *pose) {
-    if (!parse_pose(text, pose))
+    if (!args_parse_pose(text, pose))
         return args_complain(
             command,
             "%s: --%s needs a pose in one argument: \"0 0 1.5\", a position; \"0 0 1.5 1 0 0 0\", with "

@@ -5,6 +5,8 @@
 
 #include "shard/part.h"
 
+#include <ovoid/linear.h>
+
 #include <stddef.h>
 #include <stdio.h>
 
@@ -95,6 +97,9 @@ args_complain(const cli_command *command, const char *format, ...);
 
 /// Parses a text that is one number, including infinity and NaN; 0 if it is not a number.
 int args_parse_number(const char *text, double *value);
+
+/// Parses "X Y Z", followed by a quaternion, or by "rpy" or "deg" and three angles; 0 for anything else.
+int args_parse_pose(const char *text, ovoid_pose *pose);
 
 /// The subcommand of that name, which is given without the command's own name, or NULL.
 const cli_command *args_find_subcommand(const cli_command *command, const char *name);

@@ -128,7 +128,9 @@ static int run_plan(const cli_command *command, int argc, char **argv) {
     if (code) return robot_page_close(&run.page), code;
     code = states_open(command, &s.states, &cell, &states);
     if (!code) {
-        code = plan(&run, command, &states);
+        code = cell_attach(command, &s.cell, states.q, &cell);
+        if (!code) cell_tell_held(&cell, &s.cell);
+        if (!code) code = plan(&run, command, &states);
         states_close(&states);
     }
     robot_page_close(&run.page);

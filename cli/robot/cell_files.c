@@ -13,6 +13,22 @@ static int compare_ids(const void *a, const void *b) {
     return p->id < q->id ? -1 : p->id > q->id;
 }
 
+int cell_reserve_bodies(cli_cell *cell, size_t more) {
+    size_t count = cell->body_count + more + 1;
+    cell_body *bodies = realloc(cell->bodies, count * sizeof *bodies);
+    if (bodies) cell->bodies = bodies;
+    cell_id *ids = realloc(cell->ids, count * sizeof *ids);
+    if (ids) cell->ids = ids;
+    if (bodies && ids) return 0;
+    message_error("out of memory");
+    return EXIT_INPUT;
+}
+
+void cell_sort_ids(cli_cell *cell) {
+    for (size_t i = 0; i < cell->body_count; i++) cell->ids[i] = (cell_id){cell->bodies[i].at.id, i};
+    if (cell->body_count) qsort(cell->ids, cell->body_count, sizeof *cell->ids, compare_ids);
+}
+
 /// Tells of obstacles whose frame is a link: they stand still.
 static void tell_frames(const cli_cell *cell, const char *scene) {
     for (size_t i = 0; i < ovoid_obstacles_get_count(cell->obstacles); i++) {
@@ -36,15 +52,17 @@ static int add_obstacles(cli_cell *cell, const cell_settings *settings) {
     cell->obstacles = ovoid_obstacles_read(settings->scene, &options, &error);
     if (!cell->obstacles) return message_error("%s", error.message), EXIT_INPUT;
     size_t count = ovoid_obstacles_get_count(cell->obstacles);
-    cell->ids = malloc((count + 1) * sizeof *cell->ids);
-    cell->placed = malloc((count + 1) * sizeof *cell->placed);
-    if (!cell->ids || !cell->placed) return message_error("out of memory"), EXIT_INPUT;
-    if (ovoid_robot_cell_add_obstacles(cell->cell, cell->obstacles, cell->placed, &error) != OVOID_OK)
-        return message_error("%s", error.message), EXIT_INPUT;
+    ovoid_placed_obstacle *placed = malloc((count + 1) * sizeof *placed);
+    if (!placed || cell_reserve_bodies(cell, count)) return free(placed), EXIT_INPUT;
+    ovoid_code code = ovoid_robot_cell_add_obstacles(cell->cell, cell->obstacles, placed, &error);
+    for (size_t i = 0; i < count && !code; i++) {
+        ovoid_obstacle o = ovoid_obstacles_get(cell->obstacles, i);
+        cell->bodies[cell->body_count++] = (cell_body){o.name, o.shape, o.solid, placed[i]};
+    }
+    free(placed);
+    if (code) return message_error("%s", error.message), EXIT_INPUT;
     tell_frames(cell, settings->scene);
-    for (; cell->id_count < count; cell->id_count++)
-        cell->ids[cell->id_count] = (cell_id){cell->placed[cell->id_count].id, cell->id_count};
-    qsort(cell->ids, count, sizeof *cell->ids, compare_ids);
+    cell_sort_ids(cell);
     return 0;
 }
 
@@ -88,8 +106,9 @@ int cell_open(const cli_command *command, const char *urdf, const cell_settings 
 void cell_close(cli_cell *cell) {
     ovoid_robot_cell_destroy(cell->cell);
     ovoid_obstacles_destroy(cell->obstacles);
+    cell_free_held(cell);
     free(cell->ids);
-    free(cell->placed);
+    free(cell->bodies);
     robot_close(&cell->robot);
     *cell = (cli_cell){.cell = NULL};
 }
@@ -100,31 +119,31 @@ ovoid_robot_query_options cell_make_options(const cell_settings *settings) {
 
 // ---- names
 
-/// The obstacle of an id; id_count: there is none.
-static size_t find_obstacle(const cli_cell *cell, ovoid_id id) {
+/// The body of an id; body_count: there is none.
+static size_t find_body(const cli_cell *cell, ovoid_id id) {
     const cell_id key = {id, 0};
-    const cell_id *found = bsearch(&key, cell->ids, cell->id_count, sizeof key, compare_ids);
-    return found ? found->obstacle : cell->id_count;
+    const cell_id *found = cell->ids ? bsearch(&key, cell->ids, cell->body_count, sizeof key, compare_ids) : NULL;
+    return found ? found->body : cell->body_count;
 }
 
 /// The place of an obstacle among those of its name, which follow one another.
 static cell_side get_obstacle(const cli_cell *cell, ovoid_id id) {
-    size_t i = find_obstacle(cell, id), first = i;
-    if (i == cell->id_count) return (cell_side){.obstacle = "?", .is_alone = 1};
-    const char *name = ovoid_obstacles_get(cell->obstacles, i).name;
-    while (first && strcmp(ovoid_obstacles_get(cell->obstacles, first - 1).name, name) == 0) first--;
-    int is_last = i + 1 == cell->id_count || strcmp(ovoid_obstacles_get(cell->obstacles, i + 1).name, name) != 0;
+    size_t i = find_body(cell, id), first = i;
+    if (i == cell->body_count) return (cell_side){.obstacle = "?", .is_alone = 1};
+    const char *name = cell->bodies[i].name;
+    while (first && strcmp(cell->bodies[first - 1].name, name) == 0) first--;
+    int is_last = i + 1 == cell->body_count || strcmp(cell->bodies[i + 1].name, name) != 0;
     return (cell_side){.obstacle = name, .number = i - first, .is_alone = first == i && is_last};
 }
 
 /// What a link holds, as an element that has the object's name, behind the link's own.
 static cell_side get_held(const cli_cell *cell, const ovoid_robot_side *side) {
-    size_t at = find_obstacle(cell, side->body);
+    size_t at = find_body(cell, side->body);
     cell_side s = {.link = cell->description.links[side->link].name};
     for (size_t i = 0; i < cell->description.element_count; i++)
         s.number += cell->description.elements[i].link == side->link;
-    for (size_t i = 0; i < at; i++) s.number += cell->placed[i].link == side->link;
-    s.element = at < cell->id_count ? ovoid_obstacles_get(cell->obstacles, at).name : NULL;
+    for (size_t i = 0; i < at; i++) s.number += cell->bodies[i].at.link == side->link;
+    s.element = at < cell->body_count ? cell->bodies[at].name : NULL;
     return s;
 }
 
@@ -138,7 +157,7 @@ cell_side cell_get_side(const cli_cell *cell, const ovoid_robot_side *side) {
         s.is_alone = 0;
         s.number += i < side->element;
     }
-    for (size_t i = 0; i < cell->id_count; i++) s.is_alone &= cell->placed[i].link != side->link;
+    for (size_t i = 0; i < cell->body_count; i++) s.is_alone &= cell->bodies[i].at.link != side->link;
     if (side->element != OVOID_ROBOT_NONE) s.element = d->elements[side->element].name;
     return s;
 }

@@ -15,7 +15,20 @@ typedef struct cell_settings {
     const char *scene;           ///< NULL: no obstacles
     double margin, slack;        ///< slack: of the joints' limits
     args_list paddings;          ///< LINK=P or P
+    args_list attached;          ///< LINK=OBJECT ..., of commands that have ATTACH_OPTION
 } cell_settings;
+
+/// The row of the option that attaches objects; `cell` is the member of the settings that holds it.
+#define ATTACH_OPTION(settings)                                                                                        \
+    {                                                                                                                  \
+        "attach", 0, OPTION_LIST, offsetof(settings, cell.attached), "LINK=OBJECT", NULL,                              \
+            "a link holds an object: \"box X Y Z\", \"sphere R\", \"cylinder R LENGTH\", \"capsule R LENGTH\", "       \
+            "\"cone R LENGTH\", a mesh file, or an "                                                                   \
+            "object of the scene, held where it stands in the first state; then perhaps \"at POSE\" in the link's "    \
+            "frame, \"scale S\" of a mesh, "                                                                           \
+            "\"touch NAME,...\", links or groups that it may touch (default: the links of the link's end effector); "  \
+            "may be given several times"                                                                               \
+    }
 
 /// The rows of these options; `cell` is the member of the settings that holds them.
 #define CELL_OPTIONS(settings)                                                                                         \
@@ -47,10 +60,18 @@ typedef struct cell_settings {
             "none, 1e50: limits do not count (default: 1e-6)"                                                          \
     }
 
-/// An obstacle by its id.
+/// What stands in the cell or is held by a link: an obstacle of the scene, or an object of --attach.
+typedef struct cell_body {
+    const char *name;
+    const ovoid_shape *shape; ///< of a solid its hull
+    const ovoid_solid *solid; ///< NULL: the shape counts
+    ovoid_placed_obstacle at;
+} cell_body;
+
+/// A body by its id.
 typedef struct cell_id {
     ovoid_id id;
-    size_t obstacle;
+    size_t body;
 } cell_id;
 
 /// A robot, its obstacles, and both as one cell.
@@ -59,14 +80,27 @@ typedef struct cli_cell {
     ovoid_robot_description description;
     ovoid_obstacles *obstacles; ///< NULL: none
     ovoid_robot_cell *cell;
-    cell_id *ids; ///< sorted by id
-    size_t id_count;
-    ovoid_placed_obstacle *placed; ///< of each obstacle
+    cell_body *bodies; ///< those of a name follow one another
+    cell_id *ids;      ///< of the bodies, sorted by id
+    size_t body_count;
+    struct cell_held *held; ///< what --attach made: attach.c
 } cli_cell;
 
 /// Reads the files and makes the cell. 0, or an exit code after a message, with nothing left open.
 int cell_open(const cli_command *command, const char *urdf, const cell_settings *settings, cli_cell *cell);
 void cell_close(cli_cell *cell);
+
+/// Attaches the objects of settings->attached; q: the first state. 0, or an exit code after a message; the cell stays
+/// open.
+int cell_attach(const cli_command *command, const cell_settings *settings, const double *q, cli_cell *cell);
+/// Says what links hold and may touch, where --attach was given.
+void cell_tell_held(const cli_cell *cell, const cell_settings *settings);
+/// Frees what cell_attach made.
+void cell_free_held(cli_cell *cell);
+/// Makes room for that many more bodies. 0, or EXIT_INPUT after a message.
+int cell_reserve_bodies(cli_cell *cell, size_t more);
+/// Puts the ids of the bodies in order, once bodies were added or have another id.
+void cell_sort_ids(cli_cell *cell);
 
 /// Sets the paddings of the options in the cell of a robot that has the same links: those of all links first, then each
 /// link's own. 0, or an exit code after a message.

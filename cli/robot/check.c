@@ -29,6 +29,7 @@ typedef struct settings {
 static const cli_option options[] = {
     STATES_OPTIONS(settings),
     CELL_OPTIONS(settings),
+    ATTACH_OPTION(settings),
     {"near", 0, OPTION_POSITIVE, offsetof(settings, near), "D", NULL,
      "of each state all pairs that are not proven farther apart than D, nearest first"},
     {"gradient", 0, OPTION_FLAG, offsetof(settings, gradient), NULL, NULL,
@@ -251,15 +252,12 @@ static int check_states(check *c) {
 
 /// Adds the shapes of the links and of the obstacles.
 static void add_shapes(shard_digest *digest, const cli_cell *cell) {
-    size_t obstacles = cell->obstacles ? ovoid_obstacles_get_count(cell->obstacles) : 0;
     for (size_t i = 0; i < cell->description.element_count; i++) {
         const ovoid_robot_element *element = &cell->description.elements[i];
         shard_digest_add_body(digest, element->shape, element->solid);
     }
-    for (size_t i = 0; i < obstacles; i++) {
-        ovoid_obstacle obstacle = ovoid_obstacles_get(cell->obstacles, i);
-        shard_digest_add_body(digest, obstacle.shape, obstacle.solid);
-    }
+    for (size_t i = 0; i < cell->body_count; i++)
+        shard_digest_add_body(digest, cell->bodies[i].shape, cell->bodies[i].solid);
 }
 
 /// Writes the header of CSV, which is not that of records, where it is due.
@@ -335,7 +333,11 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (code) return robot_page_close(&page), code;
     states.part = s.part;
     code = states_open(command, &s.states, &cell, &states);
+    // Of a shard the first state may be another's.
+    if (!code) code = cell_attach(command, &s.cell, s.part.count ? NULL : states.q, &cell);
+    if (code) states_close(&states);
     if (!code) {
+        cell_tell_held(&cell, &s.cell);
         check c = {.settings = &s,
                    .form = {&cell, &states, s.near > 0, s.gradient},
                    .options = cell_make_options(&s.cell),

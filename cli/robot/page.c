@@ -113,10 +113,8 @@ static int add_shapes(page_shapes *shapes, cli_page *page, const cli_cell *cell)
         const ovoid_robot_element *e = &cell->description.elements[i];
         code = add_shape(shapes, page, e->shape, e->solid);
     }
-    for (size_t i = 0; i < cell->id_count && !code; i++) {
-        ovoid_obstacle o = ovoid_obstacles_get(cell->obstacles, i);
-        code = add_shape(shapes, page, o.shape, o.solid);
-    }
+    for (size_t i = 0; i < cell->body_count && !code; i++)
+        code = add_shape(shapes, page, cell->bodies[i].shape, cell->bodies[i].solid);
     return code;
 }
 
@@ -165,13 +163,13 @@ static void write_elements(FILE *file, page_shapes *shapes, const cli_cell *cell
 static void write_obstacles(FILE *file, page_shapes *shapes, const cli_cell *cell, int is_held) {
     const char *before = "{";
     fprintf(file, ",\"%s\":[", is_held ? "held" : "obstacles");
-    for (size_t i = 0; i < cell->id_count; i++) {
-        ovoid_obstacle o = ovoid_obstacles_get(cell->obstacles, i);
-        const ovoid_placed_obstacle *at = &cell->placed[i];
+    for (size_t i = 0; i < cell->body_count; i++) {
+        const cell_body *o = &cell->bodies[i];
+        const ovoid_placed_obstacle *at = &o->at;
         if ((at->link != OVOID_ROBOT_NONE) != is_held) continue;
-        write_key(file, before, "name", o.name);
+        write_key(file, before, "name", o->name);
         if (is_held) write_key(file, ",", "link", cell->description.links[at->link].name);
-        write_place(file, shapes, &(placed_shape){o.shape, o.solid, &at->pose});
+        write_place(file, shapes, &(placed_shape){o->shape, o->solid, &at->pose});
         write_allowed(file, cell, at->id);
         fputc('}', file);
         before = ",{";

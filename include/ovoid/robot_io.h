@@ -106,7 +106,7 @@ OVOID_API size_t ovoid_robot_file_get_mesh_count(const ovoid_robot_file *file);
 OVOID_API ovoid_robot_mesh ovoid_robot_file_get_mesh(const ovoid_robot_file *file, size_t i);
 
 /**
- * Elements that were not read, by their path, "link/inertial", "robot/transmission", "robot/end_effector"; and
+ * Elements that were not read, by their path, "link/inertial", "robot/transmission", "joint/dynamics"; and
  * attributes without effect of elements that were read, "limit@uper".
  */
 typedef struct ovoid_robot_ignored {
@@ -135,6 +135,18 @@ typedef struct ovoid_robot_group {
 OVOID_API size_t ovoid_robot_file_get_group_count(const ovoid_robot_file *file);
 /** Group i < group count, in the order of the file. */
 OVOID_API ovoid_robot_group ovoid_robot_file_get_group(const ovoid_robot_file *file, size_t i);
+
+/** An end effector of an SRDF: the group of its own links, and the link that carries it. A view. */
+typedef struct ovoid_robot_end_effector {
+    const char *name;
+    uint32_t link; /**< parent_link */
+    size_t group;  /**< an index below the group count */
+} ovoid_robot_end_effector;
+
+/** How many end effectors there are. */
+OVOID_API size_t ovoid_robot_file_get_end_effector_count(const ovoid_robot_file *file);
+/** End effector i < that count, in the order of the file. */
+OVOID_API ovoid_robot_end_effector ovoid_robot_file_get_end_effector(const ovoid_robot_file *file, size_t i);
 
 /** The values of one joint in a state. */
 typedef struct ovoid_robot_value {

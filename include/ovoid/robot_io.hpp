@@ -46,6 +46,12 @@ class robot_file : public detail::owner<detail::pointer<ovoid_robot_file>, ovoid
     std::size_t group_count() const noexcept { return ovoid_robot_file_get_group_count(get()); }
     /** Group i < group_count. */
     ovoid_robot_group group(std::size_t i) const noexcept { return ovoid_robot_file_get_group(get(), i); }
+    /** Number of end effectors. */
+    std::size_t end_effector_count() const noexcept { return ovoid_robot_file_get_end_effector_count(get()); }
+    /** End effector i < end_effector_count. */
+    ovoid_robot_end_effector end_effector(std::size_t i) const noexcept {
+        return ovoid_robot_file_get_end_effector(get(), i);
+    }
     /** Number of named states. */
     std::size_t state_count() const noexcept { return ovoid_robot_file_get_state_count(get()); }
     /** State i < state_count. */

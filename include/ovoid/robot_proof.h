@@ -77,6 +77,12 @@ OVOID_API int ovoid_robot_proofs_reader_read(ovoid_robot_proofs_reader *proofs, 
  * none was read.
  */
 OVOID_API const ovoid_robot_proof_source *ovoid_robot_proofs_reader_get_source(const ovoid_robot_proofs_reader *proofs);
+/**
+ * What links of that source hold beside the scene's own: texts as "ovoid robot path --attach" takes them; *count of
+ * them. Views, valid as the source is.
+ */
+OVOID_API const char *const *ovoid_robot_proofs_reader_get_attached(const ovoid_robot_proofs_reader *proofs,
+                                                                    size_t *count);
 /** The line that was read last. */
 OVOID_API int64_t ovoid_robot_proofs_reader_get_line(const ovoid_robot_proofs_reader *proofs);
 

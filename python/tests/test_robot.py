@@ -359,6 +359,7 @@ class Files(unittest.TestCase):
         self.assertEqual([variable.name for variable in robot.variables][3:], ["floor/x", "floor/y", "floor/angle"])
         self.assertEqual(robot.groups[0], ("reach", ("shoulder", "wrist"), ("base", "upper", "hand")))
         self.assertEqual(robot.states, (("up", "reach", {"shoulder": (0,), "wrist": (1.5,)}),))
+        self.assertEqual(robot.end_effectors, (("fingers", "hand", "fingers"),))
         self.assertEqual((robot.passive, robot.spheres), (("right_slide",), (("upper", (0, 0, 0.5), 0.6),)))
         self.assertEqual(robot.meshes[0]["kind"], "solid")
         self.assertIn(("link/inertial", 1), robot.ignored)

@@ -228,6 +228,7 @@ class Proofs(unittest.TestCase):
         (source,) = ovoid.read_path_sources(self.path)
         self.assertEqual((source["robot"], source["srdf"], source["scene"], source["packages"], source["digest"], source["path_count"]),
                          ("arm.urdf", None, "cell.yaml", ("a=b",), 255, 3))
+        self.assertEqual(source["attached"], ())
         self.assertEqual((source["variables"], source["fixed_base"], source["parts"], source["margin"]), (("shoulder", "elbow"), True, False, 0))
 
     def test_refused(self):

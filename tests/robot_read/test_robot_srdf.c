@@ -133,8 +133,29 @@ static void test_base(void) {
     CHECK(count == 1 && spheres[0].link == C && spheres[0].ball.center.y == 2 && spheres[0].ball.radius == 0.5);
     const uint32_t *passive = ovoid_robot_file_get_passive(file, &count);
     CHECK(count == 1 && passive[0] == 2);
-    CHECK_EQ(count_ignored(file, "robot/end_effector"), 1);
-    CHECK_EQ(notes.count, 0);
+    CHECK_EQ(ovoid_robot_file_get_end_effector_count(file), 0);
+    CHECK_EQ(notes.count, 1);
+    CHECK(has_note("<end_effector> has no group; it is passed over"));
+    ovoid_robot_file_destroy(file);
+}
+
+static void test_end_effectors(void) {
+    static const char text[] = SRDF(
+        "<end_effector name=\"late\" group=\"two\" parent_link=\"b\"/><group name=\"one\"><link name=\"a\"/></group>"
+        "<group name=\"two\"><link name=\"c\"/></group><end_effector name=\"e\" group=\"one\" parent_link=\"c\"/>"
+        "<end_effector name=\"x\" group=\"three\" parent_link=\"c\"/><end_effector name=\"y\" group=\"one\" "
+        "parent_link=\"z\"/>");
+    ovoid_robot_read_options options = make_read_options();
+    ovoid_robot_file *file = read_both(urdf, text, &options, NULL);
+    if (!CHECK(file)) return;
+    if (CHECK_EQ(ovoid_robot_file_get_end_effector_count(file), 2)) {
+        ovoid_robot_end_effector late = ovoid_robot_file_get_end_effector(file, 0);
+        ovoid_robot_end_effector e = ovoid_robot_file_get_end_effector(file, 1);
+        CHECK(strcmp(late.name, "late") == 0 && late.link == B && late.group == 1);
+        CHECK(strcmp(e.name, "e") == 0 && e.link == C && e.group == 0);
+    }
+    CHECK_EQ(notes.count, 2);
+    CHECK(has_note("there is no group three") && has_note("there is no link z"));
     ovoid_robot_file_destroy(file);
 }
 
@@ -235,6 +256,7 @@ int main(void) {
     test_pairs();
     test_defaults();
     test_base();
+    test_end_effectors();
     test_fixed_base();
     test_passed_over();
     test_refusals();

@@ -132,6 +132,18 @@ static void write_groups(FILE *file, const cli_robot *robot, const ovoid_robot_d
     fputc(']', file);
 }
 
+static void write_end_effectors(FILE *file, const cli_robot *robot, const ovoid_robot_description *d) {
+    fputs(",\"end_effectors\":[", file);
+    for (size_t i = 0; i < ovoid_robot_file_get_end_effector_count(robot->file); i++) {
+        ovoid_robot_end_effector e = ovoid_robot_file_get_end_effector(robot->file, i);
+        write_member(file, i ? ",{" : "{", "name", e.name);
+        write_member(file, ",", "link", d->links[e.link].name);
+        write_member(file, ",", "group", ovoid_robot_file_get_group(robot->file, e.group).name);
+        fputc('}', file);
+    }
+    fputc(']', file);
+}
+
 static void write_states(FILE *file, const cli_robot *robot, const ovoid_robot_description *d) {
     fputs(",\"states\":[", file);
     for (size_t i = 0; i < ovoid_robot_file_get_state_count(robot->file); i++) {
@@ -183,6 +195,7 @@ void info_write_json(FILE *file, const cli_robot *robot, const link_count *links
     write_meshes(file, robot);
     write_disabled(file, &d);
     write_groups(file, robot, &d);
+    write_end_effectors(file, robot, &d);
     write_states(file, robot, &d);
     write_rest(file, robot, &d);
 }

@@ -164,6 +164,16 @@ static void write_srdf(FILE *file, const cli_robot *robot) {
         message_write_text(file, g.name);
         fprintf(file, ": joints %zu, links %zu\n", g.joint_count, g.link_count);
     }
+    for (size_t i = 0; i < ovoid_robot_file_get_end_effector_count(robot->file); i++) {
+        ovoid_robot_end_effector e = ovoid_robot_file_get_end_effector(robot->file, i);
+        fputs("effector   ", file);
+        message_write_text(file, e.name);
+        fputs(": group ", file);
+        message_write_text(file, ovoid_robot_file_get_group(robot->file, e.group).name);
+        fputs(", on link ", file);
+        message_write_text(file, ovoid_robot_get_description(robot->robot).links[e.link].name);
+        fputc('\n', file);
+    }
     for (size_t i = 0; i < ovoid_robot_file_get_state_count(robot->file); i++) {
         ovoid_robot_state s = ovoid_robot_file_get_state(robot->file, i);
         fputs("state      ", file);

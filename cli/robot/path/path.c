@@ -28,6 +28,7 @@ typedef struct settings {
 static const cli_option options[] = {
     STATES_OPTIONS(settings),
     CELL_OPTIONS(settings),
+    ATTACH_OPTION(settings),
     {"proofs", 0, OPTION_FLAG, offsetof(settings, proofs), NULL, NULL,
      "write JSON Lines, the robot, the answer and then each step of its proof, for ovoid verify, and check all of "
      "them"},
@@ -250,6 +251,8 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (!code && s.edges && states.count % 2)
         message_error("--edges: an even number of states is wanted, not %zu", states.count), code = EXIT_INPUT;
     if (!code) code = check_times(&s, &cell, &states, &is_too_fast);
+    if (!code) code = cell_attach(command, &s.cell, states.q, &cell);
+    if (!code) cell_tell_held(&cell, &s.cell);
     if (!code) {
         path_report *r = &run.report;
         *r = (path_report){

@@ -78,10 +78,10 @@ uint64_t proof_compute_digest(const cli_cell *cell) {
     }
     for (size_t i = 0; i < d->disabled_count; i++)
         hash = add_index(add_index(hash, d->disabled[i].a), d->disabled[i].b);
-    for (size_t i = 0; i < cell->id_count; i++) {
-        ovoid_obstacle o = ovoid_obstacles_get(cell->obstacles, i);
-        const ovoid_placed_obstacle *at = &cell->placed[i];
-        hash = add_solid(add_shape(add_pose(add_text(hash, o.name), &at->pose), o.shape), o.solid);
+    for (size_t i = 0; i < cell->body_count; i++) {
+        const cell_body *o = &cell->bodies[i];
+        const ovoid_placed_obstacle *at = &o->at;
+        hash = add_solid(add_shape(add_pose(add_text(hash, o->name), &at->pose), o->shape), o->solid);
         if (at->link != OVOID_ROBOT_NONE) hash = add_index(hash, at->link);
     }
     return hash;
@@ -139,6 +139,8 @@ void proof_write_source(FILE *file, const proof_source *source) {
     write_list(file, "packages", &s->robot->packages);
     write_list(file, "scales", &s->robot->scales);
     write_list(file, "paddings", &s->paddings);
+    // Most files have none, and are read by versions that do not know the key.
+    if (s->attached.count) write_list(file, "attached", &s->attached);
     write_flag(file, "parts", s->robot->parts);
     write_flag(file, "hull", s->robot->hull);
     write_flag(file, "visual", s->robot->visual);

@@ -74,8 +74,11 @@ static void take_list(args_list *list, const char *const *items, size_t count) {
     for (size_t i = 0; i < count && i < ARGS_LIST_MAX; i++) list->items[list->count++] = items[i];
 }
 
-/// Opens the robot and the obstacles. 0, or an exit code after a message.
-static int open_cell(verify *v, const ovoid_robot_proof_source *source) {
+/// Opens the robot and the obstacles; q: the first state of the source. 0, or an exit code after a message.
+static int open_cell(verify *v, ovoid_robot_proofs_reader *proofs, const double *q) {
+    const ovoid_robot_proof_source *source = ovoid_robot_proofs_reader_get_source(proofs);
+    size_t attached_count;
+    const char *const *attached = ovoid_robot_proofs_reader_get_attached(proofs, &attached_count);
     const path_verify_settings *s = v->settings;
     cell_close(&v->cell);
     v->robot = (robot_settings){.srdf = s->srdf ? s->srdf : source->srdf,
@@ -92,7 +95,10 @@ static int open_cell(verify *v, const ovoid_robot_proof_source *source) {
     if (!s->packages.count) take_list(&v->robot.packages, source->packages, source->package_count);
     take_list(&v->robot.scales, source->scales, source->scale_count);
     take_list(&v->options.paddings, source->paddings, source->padding_count);
+    take_list(&v->options.attached, attached, attached_count);
     int code = cell_open(v->command, v->urdf ? v->urdf : source->robot, &v->options, &v->cell);
+    // A state of another robot is not looked at: the difference is reported below.
+    if (!code && has_variables(&v->cell, source)) code = cell_attach(v->command, &v->options, q, &v->cell);
     // A package that is not one is a fault of the file, not of the command line.
     if (code) return EXIT_INPUT;
     const char *difference = find_difference(&v->cell, source);
@@ -181,7 +187,7 @@ static int run_proofs(verify *v, ovoid_robot_proofs_reader *proofs) {
     int got, code = 0;
     while (!code && (got = ovoid_robot_proofs_reader_read(proofs, &p, &error)) > 0) {
         if (!v->cell.cell || p.source != v->source) {
-            code = open_cell(v, ovoid_robot_proofs_reader_get_source(proofs));
+            code = open_cell(v, proofs, p.count ? p.states : NULL);
             v->source = p.source;
         }
         if (!code) code = open_states(v);

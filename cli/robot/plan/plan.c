@@ -16,6 +16,7 @@
 static const cli_option options[] = {
     STATES_OPTIONS(plan_settings),
     CELL_OPTIONS(plan_settings),
+    ATTACH_OPTION(plan_settings),
     {"moving", 0, OPTION_TEXT, offsetof(plan_settings, moving), "GROUP", NULL,
      "the joints of this group of the SRDF move, all others stand still (default: the group of the request, where the "
      "SRDF has it; else all joints but floating ones and lengths without limits)"},

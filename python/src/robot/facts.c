@@ -150,6 +150,9 @@ PyGetSetDef robot_fields[] = {
      "tuple[tuple[str, tuple[str, ...], tuple[str, ...]], ...]: Of an SRDF: (name, joints, links) of each group, "
      "names.",
      "groups"},
+    {"end_effectors", get_fact, NULL,
+     "tuple[tuple[str, str, str], ...]: Of an SRDF: (name, the link that carries it, the group of its links).",
+     "end_effectors"},
     {"states", get_fact, NULL,
      "tuple[tuple[str, str, dict[str, tuple[float, ...]]], ...]: Of an SRDF: (name, group, {joint: numbers}) of each "
      "named state.",

@@ -164,6 +164,12 @@ static PyObject *make_group(const void *context, size_t i) {
                          tuple_make(g.link_count, make_link_name, &links));
 }
 
+static PyObject *make_end_effector(const void *context, size_t i) {
+    const file_part *p = context;
+    ovoid_robot_end_effector e = ovoid_robot_file_get_end_effector(p->file, i);
+    return Py_BuildValue("sss", e.name, p->d.links[e.link].name, ovoid_robot_file_get_group(p->file, e.group).name);
+}
+
 static PyObject *make_number(const void *numbers, size_t i) { return PyFloat_FromDouble(((const double *)numbers)[i]); }
 
 static PyObject *make_named_state(const void *context, size_t i) {
@@ -208,6 +214,7 @@ static PyObject *make_facts(const ovoid_robot_file *file) {
         size_t count;
         PyObject *(*make)(const void *context, size_t i);
     } facts[] = {{"groups", ovoid_robot_file_get_group_count(file), make_group},
+                 {"end_effectors", ovoid_robot_file_get_end_effector_count(file), make_end_effector},
                  {"states", ovoid_robot_file_get_state_count(file), make_named_state},
                  {"meshes", ovoid_robot_file_get_mesh_count(file), make_mesh},
                  {"spheres", spheres, make_sphere},

@@ -12,16 +12,19 @@
 static PyObject *make_text(const void *texts, size_t i) { return robot_name_make(((const char *const *)texts)[i]); }
 static PyObject *make_texts(const char *const *texts, size_t count) { return tuple_make(count, make_text, texts); }
 
-static PyObject *make_source(const ovoid_robot_proof_source *s) {
-    return Py_BuildValue("{s:N,s:N,s:N,s:N,s:N,s:N,s:O,s:O,s:O,s:O,s:d,s:d,s:d,s:n,s:K,s:N}", "robot",
+static PyObject *make_source(const ovoid_robot_proofs_reader *file) {
+    const ovoid_robot_proof_source *s = ovoid_robot_proofs_reader_get_source(file);
+    size_t attached_count;
+    const char *const *attached = ovoid_robot_proofs_reader_get_attached(file, &attached_count);
+    return Py_BuildValue("{s:N,s:N,s:N,s:N,s:N,s:N,s:N,s:O,s:O,s:O,s:O,s:d,s:d,s:d,s:n,s:K,s:N}", "robot",
                          robot_name_make(s->robot), "srdf", robot_name_make(s->srdf), "scene",
                          robot_name_make(s->scene), "packages", make_texts(s->packages, s->package_count), "scales",
                          make_texts(s->scales, s->scale_count), "paddings", make_texts(s->paddings, s->padding_count),
-                         "parts", s->parts ? Py_True : Py_False, "hull", s->hull ? Py_True : Py_False, "visual",
-                         s->visual ? Py_True : Py_False, "fixed_base", s->fixed_base ? Py_True : Py_False, "tolerance",
-                         s->tolerance, "margin", s->margin, "limit_slack", s->limit_slack, "path_count",
-                         (Py_ssize_t)s->path_count, "digest", (unsigned long long)s->digest, "variables",
-                         make_texts(s->variables, s->variable_count));
+                         "attached", make_texts(attached, attached_count), "parts", s->parts ? Py_True : Py_False,
+                         "hull", s->hull ? Py_True : Py_False, "visual", s->visual ? Py_True : Py_False, "fixed_base",
+                         s->fixed_base ? Py_True : Py_False, "tolerance", s->tolerance, "margin", s->margin,
+                         "limit_slack", s->limit_slack, "path_count", (Py_ssize_t)s->path_count, "digest",
+                         (unsigned long long)s->digest, "variables", make_texts(s->variables, s->variable_count));
 }
 
 // ---- the same robot and pairs
@@ -32,6 +35,7 @@ static int is_text(const char *a, const char *b) { return !a == !b && (!a || str
 static int is_side(const cell_object *cell, const ovoid_robot_side *side, const ovoid_robot_proof_side *named) {
     ovoid_robot_description d = ovoid_robot_get_description(cell->robot->robot);
     if (side->link == OVOID_ROBOT_NONE) return !named->link;
+    if (side->body) return is_text(d.links[side->link].name, named->link); // nor has what a link holds
     const char *element = side->element == OVOID_ROBOT_NONE ? NULL : d.elements[side->element].name;
     return is_text(d.links[side->link].name, named->link) && is_text(element, named->name);
 }
@@ -71,13 +75,13 @@ static int validate_source(const cell_object *cell, const ovoid_robot_proof_sour
 
 // Calls take for each path; -1: an exception.
 static int read_all(module_state *state, ovoid_robot_proofs_reader *file, PyObject *list,
-                    PyObject *(*take)(void *context, const ovoid_robot_proof *, const ovoid_robot_proof_source *),
+                    PyObject *(*take)(void *context, const ovoid_robot_proof *, const ovoid_robot_proofs_reader *),
                     void *context) {
     ovoid_robot_proof proof;
     ovoid_error error;
     int got;
     while ((got = ovoid_robot_proofs_reader_read(file, &proof, &error)) > 0) {
-        PyObject *one = take(context, &proof, ovoid_robot_proofs_reader_get_source(file));
+        PyObject *one = take(context, &proof, file);
         int failed = !one || (one != Py_None && PyList_Append(list, one)) || PyErr_CheckSignals();
         Py_XDECREF(one);
         if (failed) return -1;
@@ -87,7 +91,7 @@ static int read_all(module_state *state, ovoid_robot_proofs_reader *file, PyObje
 }
 
 static PyObject *read_file(module_state *state, PyObject *given,
-                           PyObject *(*take)(void *, const ovoid_robot_proof *, const ovoid_robot_proof_source *),
+                           PyObject *(*take)(void *, const ovoid_robot_proof *, const ovoid_robot_proofs_reader *),
                            void *context) {
     PyObject *path = NULL;
     ovoid_error error;
@@ -107,8 +111,9 @@ typedef struct claims {
     size_t sources;
 } claims;
 
-static PyObject *take_path(void *context, const ovoid_robot_proof *proof, const ovoid_robot_proof_source *source) {
+static PyObject *take_path(void *context, const ovoid_robot_proof *proof, const ovoid_robot_proofs_reader *file) {
     claims *c = context;
+    const ovoid_robot_proof_source *source = ovoid_robot_proofs_reader_get_source(file);
     if (proof->source >= c->sources && validate_source(c->cell, source, proof->line)) return NULL;
     c->sources = proof->source + 1;
     return path_claim(c->cell, proof, source->limit_slack);
@@ -119,11 +124,11 @@ static PyObject *read_paths(PyObject *object, PyObject *given) {
     return read_file(state_of(object), given, take_path, &c);
 }
 
-static PyObject *take_source(void *context, const ovoid_robot_proof *proof, const ovoid_robot_proof_source *source) {
+static PyObject *take_source(void *context, const ovoid_robot_proof *proof, const ovoid_robot_proofs_reader *file) {
     size_t *sources = context;
     if (proof->source < *sources) Py_RETURN_NONE;
     *sources = proof->source + 1;
-    return make_source(source);
+    return make_source(file);
 }
 
 static PyObject *read_path_sources(PyObject *module, PyObject *given) {
@@ -140,7 +145,8 @@ PyMethodDef cell_proofs[] = {
 PyMethodDef robot_proof_functions[] = {
     {"read_path_sources", read_path_sources, METH_O,
      "read_path_sources(path: PathLike, /) -> list[dict[str, Any]]\n--\n\nWhat the paths of a file of path proofs are "
-     "of, a list of dicts: the files robot, srdf and scene, packages, scales,\npaddings, how they were read, margin, "
+     "of, a list of dicts: the files robot, srdf and scene, packages, scales,\npaddings, what links hold, how they "
+     "were read, margin, "
      "limit_slack, variables, path_count, digest."},
     {NULL, NULL, 0, NULL}};
 #else

@@ -18,6 +18,8 @@ struct ovoid_robot_proofs_reader {
     json_t *source_json, *path_json;          ///< texts point into them
     fields_reader source_fields, path_fields; ///< their lists
     ovoid_robot_proof_source source;
+    const char *const *attached; ///< of the source
+    size_t attached_count;
     size_t source_count, path_count; ///< paths of the source that were read
     ovoid_robot_proof_side *sides;
     ovoid_robot_step *steps;
@@ -40,7 +42,8 @@ enum {
     PATH_HIT_TIME = 16,
     PATH_PAIR = 32,
     PATH_TIMES = 64,
-    STEP_NORMAL = 1
+    STEP_NORMAL = 1,
+    SOURCE_ATTACHED = 1
 };
 
 #define TEXT "must be a text"
@@ -72,6 +75,8 @@ static int read_side(const json_t *value, ovoid_robot_proof_side *side) {
 /// The first line.
 typedef struct source_line {
     ovoid_robot_proof_source source;
+    const char *const *attached;
+    size_t attached_count;
     uint64_t version;
     ovoid_robot_proofs_reader *file;
 } source_line;
@@ -112,6 +117,8 @@ static const field source_fields[] = {
     {"packages", FIELD_TEXTS, LIST(packages, package_count)},
     {"scales", FIELD_TEXTS, LIST(scales, scale_count)},
     {"paddings", FIELD_TEXTS, LIST(paddings, padding_count)},
+    {"attached", FIELD_TEXTS, FIELD_AT(source_line, attached), .count = offsetof(source_line, attached_count),
+     .bit = SOURCE_ATTACHED, .wrong = TEXTS},
     {"parts", FIELD_FLAG, SOURCE(parts), .wrong = FLAG},
     {"hull", FIELD_FLAG, SOURCE(hull), .wrong = FLAG},
     {"visual", FIELD_FLAG, SOURCE(visual), .wrong = FLAG},
@@ -402,6 +409,8 @@ static int read_source(ovoid_robot_proofs_reader *f, json_t *json) {
         f->source_fields.key = "path_proofs", wrong = "is not 2: they were written by another version";
     if (!wrong && !line.source.robot) f->source_fields.key = "robot", wrong = TEXT;
     f->source = line.source;
+    f->attached = line.attached;
+    f->attached_count = line.attached_count;
     return wrong ? fail(f, &f->source_fields, wrong) : 1;
 }
 
@@ -463,6 +472,11 @@ void ovoid_robot_proofs_reader_close(ovoid_robot_proofs_reader *f) {
 
 const ovoid_robot_proof_source *ovoid_robot_proofs_reader_get_source(const ovoid_robot_proofs_reader *f) {
     return f->source_count ? &f->source : NULL;
+}
+
+const char *const *ovoid_robot_proofs_reader_get_attached(const ovoid_robot_proofs_reader *f, size_t *count) {
+    *count = f->attached_count;
+    return f->attached;
 }
 
 int64_t ovoid_robot_proofs_reader_get_line(const ovoid_robot_proofs_reader *f) { return f->lines.line; }

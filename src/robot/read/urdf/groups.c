@@ -261,11 +261,47 @@ static ovoid_code read_states(robot_reader *r, const xml_element *root) {
     return OVOID_OK;
 }
 
+// ---- end effectors
+
+static size_t find_group(const ovoid_robot_file *file, const char *name) {
+    size_t i = 0;
+    while (i < file->group_count && strcmp(file->groups[i].name, name) != 0) i++;
+    return i;
+}
+
+// One without its name, its group or its link is passed over, as in MoveIt.
+static ovoid_code read_effector(robot_reader *r, const xml_element *e) {
+    static const char *const needed[] = {"name", "group", "parent_link"};
+    const char *values[3];
+    for (int i = 0; i < 3; i++)
+        if (!(values[i] = xml_get(e, needed[i])))
+            return robot_note(r, e, "<end_effector> has no %s; it is passed over", needed[i]), OVOID_OK;
+    uint32_t link = name_index_find(&r->link_names, values[2]);
+    size_t group = find_group(r->file, values[1]);
+    if (link == OVOID_ROBOT_NONE) return robot_add_unknown(r, e, "link", values[2]);
+    if (group == r->file->group_count) return robot_add_unknown(r, e, "group", values[1]);
+    const char *name = pool_copy(&r->file->memory, values[0], strlen(values[0]));
+    if (!name) return robot_fail_memory(r);
+    r->file->effectors[r->file->effector_count++] = (ovoid_robot_end_effector){name, link, group};
+    return OVOID_OK;
+}
+
+static ovoid_code read_effectors(robot_reader *r, const xml_element *root) {
+    size_t most = 0;
+    for (const xml_element *e = root->first; e; e = e->next) most += (size_t)xml_is(e, "end_effector");
+    r->file->effectors = pool_get(&r->file->memory, most, sizeof *r->file->effectors);
+    ovoid_code code = r->file->effectors ? OVOID_OK : robot_fail_memory(r);
+    for (const xml_element *e = root->first; e && !code; e = e->next)
+        if (xml_is(e, "end_effector")) code = read_effector(r, e);
+    return code;
+}
+
 ovoid_code groups_read(robot_reader *r, const xml_element *root) {
     group_list list = {.total = 0};
     ovoid_code code = list_groups(r, root, &list);
     if (!code) code = compute_depths(r, &list);
     for (uint32_t i = 0; i < list.names.count && !code; i++)
         if (list.states[i] == NOT_RESOLVED) code = resolve(r, &list, i, 0);
+    if (!code) code = read_effectors(r, root);
     return code ? code : read_states(r, root);
 }

@@ -25,6 +25,8 @@ struct ovoid_robot_file {
     size_t state_count;
     ovoid_robot_link_sphere *spheres;
     size_t sphere_count;
+    ovoid_robot_end_effector *effectors;
+    size_t effector_count;
     uint32_t *passive;
     size_t passive_count;
 };

@@ -71,6 +71,11 @@ size_t ovoid_robot_file_get_fixed_mimic_count(const ovoid_robot_file *file) { re
 size_t ovoid_robot_file_get_group_count(const ovoid_robot_file *file) { return file->group_count; }
 ovoid_robot_group ovoid_robot_file_get_group(const ovoid_robot_file *file, size_t i) { return file->groups[i]; }
 
+size_t ovoid_robot_file_get_end_effector_count(const ovoid_robot_file *file) { return file->effector_count; }
+ovoid_robot_end_effector ovoid_robot_file_get_end_effector(const ovoid_robot_file *file, size_t i) {
+    return file->effectors[i];
+}
+
 size_t ovoid_robot_file_get_state_count(const ovoid_robot_file *file) { return file->state_count; }
 ovoid_robot_state ovoid_robot_file_get_state(const ovoid_robot_file *file, size_t i) { return file->states[i]; }
 

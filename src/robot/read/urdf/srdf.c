@@ -250,9 +250,10 @@ ovoid_code srdf_read(robot_reader *r, const xml_element *root) {
     const char *name = xml_get(root, "name"), *own = r->file->description.name;
     if (name && strcmp(name, own) != 0)
         robot_note(r, root, "the SRDF is of the robot %.100s, the URDF of %.100s", name, own);
-    ovoid_code code = robot_ignore_others(r, root,
-                                          "group|group_state|disable_collisions|disable_default_collisions|"
-                                          "enable_collisions|virtual_joint|passive_joint|link_sphere_approximation");
+    ovoid_code code =
+        robot_ignore_others(r, root,
+                            "group|group_state|disable_collisions|disable_default_collisions|"
+                            "enable_collisions|virtual_joint|passive_joint|link_sphere_approximation|end_effector");
     if (!code) code = robot_ignore_attributes(r, root);
     const xml_element *joint = NULL;
     if (!code) code = robot_get_child(r, root, "virtual_joint", &joint);
