@@ -58,7 +58,7 @@ tests_of() {
     robot_compare) echo "test_robot_compare" ;;
     robot_watch) echo "test_robot_watch" ;;
     ompl) echo "test_hpp_ompl" ;;
-    robot_cli) echo "test_cli.sh:robot_check:robot_path:robot_states:robot_attach test_cli_altered_paths.sh" ;;
+    robot_cli) echo "test_cli.sh:robot:robot_check:robot_path:robot_states:robot_attach test_cli_altered_paths.sh" ;;
     robot_spheres_cli) echo "test_cli.sh:robot_spheres:robot_matrix" ;;
     shard) echo "test_io_pairs test_cli_shard.sh" ;;
     verify) echo "test_cli_run.sh test_cli_altered.sh test_cli_lies.sh" ;;

@@ -2,6 +2,7 @@
 #include "robot/inputs.h"
 
 #include "base/message.h"
+#include "robot/xacro.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -79,8 +80,25 @@ void robot_warn(void *context, const ovoid_robot_note *note) {
         message_warning("%s: %s", note->path, note->text);
 }
 
-static int read_file(const char *urdf, const robot_settings *s, const package_list *packages, const scale_list *scales,
-                     cli_robot *robot) {
+/// The texts of a robot: those of xacro files are expanded, all others are left to the library.
+typedef struct robot_texts {
+    ovoid_robot_text urdf, srdf;
+} robot_texts;
+
+/// 0, or an exit code after a message.
+static int expand_texts(const cli_command *command, const char *urdf, const robot_settings *s, robot_texts *texts) {
+    static const args_list none;
+    int has_urdf = xacro_is_file(urdf), has_srdf = xacro_is_file(s->srdf);
+    *texts = (robot_texts){{urdf, NULL, 0}, {s->srdf, NULL, 0}};
+    if (s->xacro.count && !has_urdf && !has_srdf)
+        return args_complain(command, "%s: --xacro goes with a file that ends in .xacro", command->name);
+    int code = has_urdf ? xacro_expand(command, urdf, &s->xacro, &texts->urdf) : 0;
+    if (!code && has_srdf) code = xacro_expand(command, s->srdf, has_urdf ? &none : &s->xacro, &texts->srdf);
+    return code;
+}
+
+static int read_file(const robot_texts *texts, const robot_settings *s, const package_list *packages,
+                     const scale_list *scales, cli_robot *robot) {
     ovoid_error error;
     ovoid_robot_read_options options = {.packages = packages->items,
                                         .package_count = (size_t)packages->count,
@@ -93,14 +111,15 @@ static int read_file(const char *urdf, const robot_settings *s, const package_li
                                         .tolerance = s->tolerance,
                                         .note = robot_warn,
                                         .context = robot};
-    robot->file = ovoid_robot_file_read(urdf, s->srdf, &options, &error);
+    robot->file = ovoid_robot_file_read_text(&texts->urdf, texts->srdf.path ? &texts->srdf : NULL, &options, &error);
     if (robot->note_count > NOTES_MAX) message_warning("and %zu more", robot->note_count - NOTES_MAX);
     if (robot->file) {
         ovoid_robot_description description = ovoid_robot_file_get_description(robot->file);
         robot->robot = ovoid_robot_create(&description, NULL, &error);
-        if (!robot->robot) message_error("%s: %s", urdf, error.message);
+        if (!robot->robot) message_error("%s: %s", texts->urdf.path, error.message);
     } else {
         message_error("%s", error.message);
+        if (texts->urdf.data || texts->srdf.data) message_note("lines of a .xacro file are those that xacro writes");
     }
     if (robot->robot) return 0;
     robot_close(robot);
@@ -139,13 +158,17 @@ typedef struct option_lists {
 int robot_open_beside(const cli_command *command, const char *urdf, const robot_settings *settings, cli_robot *robot) {
     *robot = (cli_robot){NULL, NULL, 0};
     option_lists *lists = calloc(1, sizeof *lists);
+    robot_texts texts = {.urdf.data = NULL};
     if (!lists) {
         message_error("out of memory");
         return EXIT_INPUT;
     }
     int code = split_packages(command, &settings->packages, &lists->packages);
     if (!code) code = split_scales(command, &settings->scales, &lists->scales);
-    if (!code) code = read_file(urdf, settings, &lists->packages, &lists->scales, robot);
+    if (!code) code = expand_texts(command, urdf, settings, &texts);
+    if (!code) code = read_file(&texts, settings, &lists->packages, &lists->scales, robot);
+    free((char *)texts.urdf.data);
+    free((char *)texts.srdf.data);
     free_packages(&lists->packages);
     free(lists);
     return code;

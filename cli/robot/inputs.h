@@ -11,6 +11,7 @@ typedef struct robot_settings {
     const char *srdf;   ///< NULL: none
     args_list packages; ///< NAME=DIR
     args_list scales;   ///< LINK=F or F
+    args_list xacro;    ///< NAME:=VALUE
     int parts, visual, fixed_base;
     int hull;         ///< meshes are their hulls, of links and obstacles
     double tolerance; ///< of cylinders; 0: radius/200
@@ -41,6 +42,13 @@ typedef struct robot_settings {
          NULL,                                                                                                         \
          "the shapes of a link, or of all links that have no other factor, F times as large, each about its own "      \
          "origin; may be given several times"},                                                                        \
+        {"xacro",                                                                                                      \
+         0,                                                                                                            \
+         OPTION_LIST,                                                                                                  \
+         offsetof(settings, robot.xacro),                                                                              \
+         "NAME:=VALUE",                                                                                                \
+         NULL,                                                                                                         \
+         "an argument of a .xacro file, which the program xacro expands; may be given several times"},                 \
         {"parts",                                                                                                      \
          0,                                                                                                            \
          OPTION_FLAG,                                                                                                  \

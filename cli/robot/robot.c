@@ -41,8 +41,8 @@ const cli_command command_robot = {
     .summary = "robots from URDF files: what they are, and what they hit",
     .usage = "COMMAND [ARGUMENT...]",
     .description = "A robot is a URDF with its meshes, and perhaps an SRDF, which says which of its links need not be "
-                   "looked at. Lengths are metres, angles radians. A xacro file is expanded first: "
-                   "xacro FILE > robot.urdf.",
+                   "looked at. Lengths are metres, angles radians. A file that ends in .xacro is expanded by the "
+                   "program xacro, if it is on PATH; else: xacro FILE > robot.urdf.",
     .exits = "0 done, or free\n"
              "1 a state or a path hits\n"
              "2 the command line is wrong\n"

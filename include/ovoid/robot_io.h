@@ -79,6 +79,17 @@ typedef struct ovoid_robot_file ovoid_robot_file;
  */
 OVOID_API ovoid_robot_file *ovoid_robot_file_read(const char *urdf, const char *srdf,
                                                   const ovoid_robot_read_options *options, ovoid_error *error);
+
+/** A URDF or an SRDF in memory, as ROS keeps it in the parameter robot_description. */
+typedef struct ovoid_robot_text {
+    const char *path; /**< errors name the text by it; meshes are looked for from its folder. It need not be there */
+    const char *data; /**< NULL: the file of the path is read */
+    size_t size;
+} ovoid_robot_text;
+
+/** As ovoid_robot_file_read, of texts. srdf: NULL for none. Errors: as there; LIMIT: a text of more than 64 MB. */
+OVOID_API ovoid_robot_file *ovoid_robot_file_read_text(const ovoid_robot_text *urdf, const ovoid_robot_text *srdf,
+                                                       const ovoid_robot_read_options *options, ovoid_error *error);
 /** Frees it and its shapes; NULL is allowed. */
 OVOID_API void ovoid_robot_file_destroy(ovoid_robot_file *file);
 /**

@@ -28,6 +28,12 @@ class robot_file : public detail::owner<detail::pointer<ovoid_robot_file>, ovoid
         const char *second = srdf.empty() ? nullptr : srdf.c_str();
         return robot_file(detail::require(ovoid_robot_file_read(urdf.c_str(), second, &how, &e), e));
     }
+    /** Reads texts; srdf: nullptr for none. Throws as ovoid_robot_file_read_text fails. */
+    static robot_file read_text(const ovoid_robot_text &urdf, const ovoid_robot_text *srdf = nullptr,
+                                const ovoid_robot_read_options &how = robot_read_options()) {
+        ovoid_error e;
+        return robot_file(detail::require(ovoid_robot_file_read_text(&urdf, srdf, &how, &e), e));
+    }
     /** The argument of robot::create: a view. */
     ovoid_robot_description description() const noexcept { return ovoid_robot_file_get_description(get()); }
     /** The robot, which borrows the shapes of this file. Throws as ovoid_robot_create fails. */

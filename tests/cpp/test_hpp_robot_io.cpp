@@ -50,6 +50,8 @@ static void test_problem() {
     std::remove("hpp_scene1.yaml");
     write_file("hpp_trajectory.json", "{\"joint_names\": [\"shoulder\"], \"points\": [{\"positions\": [0.5], "
                                       "\"time_from_start\": 0},\n{\"positions\": [1], \"time_from_start\": 2}]}");
+    const std::string whole = "<robot name='r'><link name='a'/></robot>";
+    CHECK(ovoid::robot_file::read_text({"memory.urdf", whole.data(), whole.size()}).description().link_count == 1);
     const auto moved = ovoid::trajectory::read("hpp_trajectory.json");
     CHECK(moved.size() == 2 && moved.start().size() == 0 && moved.point(1)[0].position == 1);
     CHECK(moved.time(1) == 2 && moved.line(1) == 2);

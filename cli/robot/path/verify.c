@@ -6,6 +6,7 @@
 #include "base/message.h"
 #include "base/progress.h"
 #include "robot/path/proof.h"
+#include "robot/xacro.h"
 
 #include <ovoid/robot_proof.h>
 
@@ -95,6 +96,12 @@ static int open_cell(verify *v, ovoid_robot_proofs_reader *proofs, const double 
     if (!s->packages.count) take_list(&v->robot.packages, source->packages, source->package_count);
     take_list(&v->robot.scales, source->scales, source->scale_count);
     take_list(&v->options.paddings, source->paddings, source->padding_count);
+    // A file of proofs is no reason to run a program.
+    if ((!v->urdf && xacro_is_file(source->robot)) || (!s->srdf && xacro_is_file(source->srdf)))
+        return message_error("%s: the robot is in xacro: expand it, \"xacro FILE > robot.urdf\", and give that: ovoid "
+                             "verify PROOFS.jsonl robot.urdf --srdf robot.srdf",
+                             v->path),
+               EXIT_INPUT;
     take_list(&v->options.attached, attached, attached_count);
     int code = cell_open(v->command, v->urdf ? v->urdf : source->robot, &v->options, &v->cell);
     // A state of another robot is not looked at: the difference is reported below.

@@ -7,6 +7,7 @@
 #include "base/outputs.h"
 #include "base/progress.h"
 #include "robot/commands.h"
+#include "robot/xacro.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -286,6 +287,12 @@ static int run(const cli_command *command, int argc, char **argv) {
     run_state r = {.settings = &s};
     int code = command_parse(command, argc, argv, &s, &operands);
     if (code < 0) code = settle(command, &s);
+    if (code < 0 && s.output && outputs_has_extension(s.output, "urdf") && xacro_is_file(operands.items[0]))
+        code =
+            args_complain(command,
+                          "%s: --output %s: a URDF is written with the text of the robot's: expand it first, \"xacro "
+                          "FILE > robot.urdf\"",
+                          command->name, s.output);
     if (code >= 0) return code;
     s.cell.robot = &s.robot;
     // Spheres are of hulls, and so is what they are compared with.

@@ -129,15 +129,20 @@ static ovoid_code parse(xml_reader *r, bytes file) {
     return status == XML_STATUS_OK ? OVOID_OK : fail_parser(r);
 }
 
+ovoid_code xml_read_text(const char *path, bytes text, pool *memory, xml_element **root, ovoid_error *error) {
+    xml_reader r = {.path = path, .memory = memory, .error = error, .parser = XML_ParserCreate(NULL)};
+    ovoid_code code = r.parser ? parse(&r, text) : io_fail_memory(error, path);
+    XML_ParserFree(r.parser);
+    *root = code ? NULL : r.root;
+    return code;
+}
+
 ovoid_code xml_read(const char *path, pool *memory, xml_element **root, ovoid_error *error) {
     bytes file;
     ovoid_code code = bytes_read_input(path, XML_SIZE_MAX, &file, error);
     if (code) return code;
-    xml_reader r = {.path = path, .memory = memory, .error = error, .parser = XML_ParserCreate(NULL)};
-    code = r.parser ? parse(&r, file) : io_fail_memory(error, path);
-    XML_ParserFree(r.parser);
+    code = xml_read_text(path, file, memory, root, error);
     free(file.data);
-    *root = code ? NULL : r.root;
     return code;
 }
 

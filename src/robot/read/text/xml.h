@@ -24,6 +24,9 @@ typedef struct xml_element {
 /// Reads the file ("-": standard input); all of the tree is in the pool.
 ovoid_code xml_read(const char *path, pool *memory, xml_element **root, ovoid_error *error);
 
+/// Reads a text of at most XML_SIZE_MAX bytes, which errors name by the path.
+ovoid_code xml_read_text(const char *path, bytes text, pool *memory, xml_element **root, ovoid_error *error);
+
 /// The value of an attribute, or NULL.
 const char *xml_get(const xml_element *element, const char *name);
 /// The first child of that name, or NULL.

@@ -24,17 +24,32 @@ static ovoid_code validate_options(const robot_reader *r) {
     return OVOID_OK;
 }
 
-static ovoid_code read_part(robot_reader *r, const char *path,
+// A text, or the file of its path.
+static ovoid_code read_root(const robot_reader *r, const ovoid_robot_text *text, pool *memory, xml_element **root) {
+    if (!text->data) return xml_read(text->path, memory, root, r->error);
+    if (text->size > XML_SIZE_MAX)
+        return io_fail(r->error, OVOID_ERROR_LIMIT, (where){text->path, 0, -1}, "the text has %zu bytes, above %zu",
+                       text->size, XML_SIZE_MAX);
+    return xml_read_text(text->path, (bytes){(char *)text->data, text->size}, memory, root, r->error);
+}
+
+static ovoid_code read_part(robot_reader *r, const ovoid_robot_text *text,
                             ovoid_code (*read)(robot_reader *, const xml_element *)) {
     xml_element *root;
-    r->path = path;
-    ovoid_code code = xml_read(path, &r->scratch, &root, r->error);
+    r->path = text->path;
+    ovoid_code code = read_root(r, text, &r->scratch, &root);
     return code ? code : read(r, root);
 }
 
 ovoid_robot_file *ovoid_robot_file_read(const char *urdf, const char *srdf, const ovoid_robot_read_options *options,
                                         ovoid_error *error) {
-    robot_reader r = {.path = urdf, .options = options ? options : &no_options, .error = error};
+    const ovoid_robot_text texts[2] = {{urdf, NULL, 0}, {srdf, NULL, 0}};
+    return ovoid_robot_file_read_text(&texts[0], srdf ? &texts[1] : NULL, options, error);
+}
+
+ovoid_robot_file *ovoid_robot_file_read_text(const ovoid_robot_text *urdf, const ovoid_robot_text *srdf,
+                                             const ovoid_robot_read_options *options, ovoid_error *error) {
+    robot_reader r = {.path = urdf->path, .options = options ? options : &no_options, .error = error};
     r.file = calloc(1, sizeof *r.file);
     ovoid_code code = r.file ? validate_options(&r) : robot_fail_memory(&r);
     if (!code) code = read_part(&r, urdf, urdf_read);
