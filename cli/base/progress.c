@@ -1,4 +1,4 @@
-// The progress bar: items done, share, speed and the remaining time, redrawn in place.
+// The progress bar: items done, share, speed, the time so far and the remaining time, redrawn in place.
 #include "base/progress.h"
 
 #include "base/message.h"
@@ -18,7 +18,7 @@
 /// The only bar; only the main thread uses it.
 static struct {
     const char *what;
-    size_t total;
+    size_t total, done;
     double start, drawn;
     int active, visible;
 } bar;
@@ -32,6 +32,7 @@ double progress_get_seconds(void) {
 void progress_start(const char *what, size_t total) {
     bar.what = what;
     bar.total = total;
+    bar.done = 0;
     bar.start = bar.drawn = progress_get_seconds();
     bar.active = isatty(fileno(stderr));
 }
@@ -48,29 +49,56 @@ void progress_read(const char *path) {
     bar.visible = 1;
 }
 
-static void draw(size_t done, double seconds) {
+/// "12 of 40 links, 31 s, 72 s left", with the speed where it is one a second or more.
+static void draw(double seconds) {
+    size_t done = bar.total && bar.done > bar.total ? bar.total : bar.done;
     double speed = seconds > 0 ? (double)done / seconds : 0;
+    char of[32] = "", rate[48] = "";
+    if (speed >= 1) snprintf(rate, sizeof rate, ", %.0f/s", speed);
+    fputc('\r', stderr);
     if (bar.total) {
         char cells[BAR_WIDTH + 1];
-        double share = done < bar.total ? (double)done / (double)bar.total : 1;
-        size_t full = (size_t)(share * BAR_WIDTH);
+        double share = (double)done / (double)bar.total;
         memset(cells, '.', BAR_WIDTH);
-        memset(cells, '#', full);
+        memset(cells, '#', (size_t)(share * BAR_WIDTH));
         cells[BAR_WIDTH] = 0;
-        fprintf(stderr, "\r[%s] %3.0f %%  %zu %s, %.0f/s, %.0f s left \033[K", cells, 100 * share, done, bar.what,
-                speed, speed > 0 ? (double)(bar.total - (done < bar.total ? done : bar.total)) / speed : 0);
-    } else
-        fprintf(stderr, "\r%zu %s, %.0f/s \033[K", done, bar.what, speed);
+        fprintf(stderr, "[%s] %3.0f %%  ", cells, 100 * share);
+        snprintf(of, sizeof of, " of %zu", bar.total);
+    }
+    fprintf(stderr, "%zu%s %s, %.0f s%s", done, of, bar.what, seconds, rate);
+    if (bar.total && speed > 0) fprintf(stderr, ", %.0f s left", (double)(bar.total - done) / speed);
+    fputs(" \033[K", stderr);
     fflush(stderr);
     bar.visible = 1;
 }
 
-void progress_set(size_t done) {
+/// Draws the bar, at most ten times a second.
+static void redraw(void) {
     if (!bar.active) return;
     double now = progress_get_seconds();
     if (now - bar.drawn < 0.1) return;
     bar.drawn = now;
-    draw(done, now - bar.start);
+    draw(now - bar.start);
+}
+
+void progress_set(size_t done) {
+    bar.done = done;
+    redraw();
+}
+
+static int keep_drawing(void *context) {
+    (void)context;
+    redraw();
+    return 0;
+}
+
+static int count_and_draw(void *context) {
+    bar.done++;
+    return keep_drawing(context);
+}
+
+ovoid_watch progress_make_watch(int counts) {
+    return (ovoid_watch){.is_stopped = counts ? count_and_draw : keep_drawing};
 }
 
 void progress_hide(void) {

@@ -5,6 +5,7 @@
 #include "base/finish.h"
 #include "base/message.h"
 #include "base/outputs.h"
+#include "base/progress.h"
 #include "robot/commands.h"
 
 typedef struct settings {
@@ -60,8 +61,11 @@ static int run(const cli_command *command, int argc, char **argv) {
     code = robot_open(command, operands.items[0], &s.robot, &robot);
     if (code) return code;
     ovoid_error error;
-    ovoid_robot_matrix_options making = {.samples = s.samples, .budget = s.budget, .seed = s.seed};
+    ovoid_robot_matrix_options making = {
+        .samples = s.samples, .budget = s.budget, .seed = s.seed, .watch = progress_make_watch(1)};
+    progress_start("groups of states and cells of joint space", 0);
     ovoid_robot_matrix *matrix = ovoid_robot_matrix_create(robot.robot, &making, &error);
+    progress_end();
     if (matrix) {
         matrix_view view = {robot.robot, ovoid_robot_get_description(robot.robot), matrix, s.robot.srdf != NULL};
         code = report(&s, &view);

@@ -130,7 +130,8 @@ static size_t get_count(const run_state *r, uint32_t link) {
 static int find_spheres(const run_state *r, uint32_t link, size_t count, sphere_list *list) {
     const settings *s = r->settings;
     const char *name = r->cell.description.links[link].name;
-    ovoid_robot_cover_options o = {.excess = s->excess, .rounds = s->rounds, .seed = s->seed};
+    ovoid_robot_cover_options o = {
+        .excess = s->excess, .rounds = s->rounds, .seed = s->seed, .watch = progress_make_watch(0)};
     ovoid_error error;
     ovoid_robot_sphere *balls = malloc(count * sizeof *balls);
     if (!balls) return message_error("out of memory"), 0;
@@ -237,7 +238,7 @@ static int has_given_states(const settings *s) { return s->states.path || s->sta
 static int work(const cli_command *command, run_state *r, const char *urdf) {
     const settings *s = r->settings;
     int has_states = s->samples || has_given_states(s);
-    const ovoid_robot_audit_options how = {.volume_cells = s->cells};
+    const ovoid_robot_audit_options how = {.volume_cells = s->cells, .watch = progress_make_watch(0)};
     int code = has_states ? get_samples(command, r) : 0;
     if (!code) code = get_sets(command, r, urdf);
     for (int i = 0; i < r->set_count && !code; i++) {
