@@ -89,6 +89,10 @@ static int complain_unknown(const cli_command *command, const char *given, const
     char word[64];
     snprintf(word, sizeof word, "%.*s", (int)(length < 63 ? length : 63), name);
     const char *similar = args_find_similar(word, words, count);
+    if (strcmp(word, "html") == 0)
+        return args_complain(command,
+                             "%s: unknown option %s; \"ovoid view\" makes pages and pictures of bodies and scenes",
+                             command->name, given);
     if (similar)
         return args_complain(command, "%s: unknown option %s; did you mean --%s?", command->name, given, similar);
     return args_complain(command, "%s: unknown option %s", command->name, given);
@@ -320,8 +324,9 @@ static int complain_missing(const cli_command *command, int place) {
 static int validate_count(const cli_command *command, const cli_operands *operands) {
     if (operands->count < command->operands_min) return complain_missing(command, operands->count);
     if (command->operands_max >= 0 && operands->count > command->operands_max)
-        return args_complain(command, "%s: one argument too many: %s", command->name,
-                             operands->items[command->operands_max]);
+        return args_complain(command, "%s: one argument too many: %s%s", command->name,
+                             operands->items[command->operands_max],
+                             find_by_name(command, "states", 6) ? "; states are given by --states FILE" : "");
     return -1;
 }
 

@@ -106,6 +106,7 @@ static void report_end(const cli_cell *cell, size_t i, const ovoid_robot_answer 
     else
         message_error("the start: %s", why ? why : "out of memory");
     free(why);
+    if (answer->status == OVOID_ROBOT_HIT) cell_tell_links(cell, &answer->a, &answer->b);
     if (cell_is_outside(answer)) cell_tell_outside();
 }
 

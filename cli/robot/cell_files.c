@@ -271,6 +271,13 @@ void cell_tell_outside(void) {
                  "outside by at most S, radians or metres");
 }
 
+void cell_tell_links(const cli_cell *cell, const ovoid_robot_side *a, const ovoid_robot_side *b) {
+    if (a->element == OVOID_ROBOT_NONE || b->element == OVOID_ROBOT_NONE || cell->description.disabled_count) return;
+    message_note(
+        "two links of the robot touch, and no SRDF says which may, as neighbours do: give it by --srdf; \"ovoid "
+        "robot matrix ROBOT.urdf -o ROBOT.srdf\" writes one");
+}
+
 void cell_write_refusal(FILE *file, const cli_cell *cell, const ovoid_robot_answer *answer, const double *q) {
     ovoid_robot_variable v = ovoid_robot_get_variable(cell->robot.robot, answer->variable);
     cell_write_variable_name(file, cell, answer->variable);

@@ -171,6 +171,9 @@ static inline int cell_is_outside(const ovoid_robot_answer *answer) {
 /// Says what to do where the limits of the URDF are narrower than those that the states were made for.
 void cell_tell_outside(void);
 
+/// Says of two links that touch what an SRDF is for, where the robot has none that disables a pair.
+void cell_tell_links(const cli_cell *cell, const ovoid_robot_side *a, const ovoid_robot_side *b);
+
 /// Writes why a state is refused: "shoulder: 3 is not within -1.5 .. 2.5".
 void cell_write_refusal(FILE *file, const cli_cell *cell, const ovoid_robot_answer *answer, const double *q);
 

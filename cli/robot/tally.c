@@ -73,6 +73,11 @@ static void report_pairs(tally *t, const cli_cell *cell) {
         message_note("  %s, %s: %zu", a, b, t->pairs[i].count);
     }
     if (t->pair_count > REPORTED_MAX) message_note("  and %zu more pairs", t->pair_count - REPORTED_MAX);
+    for (size_t i = 0; i < t->pair_count; i++)
+        if (t->pairs[i].b.element != OVOID_ROBOT_NONE) {
+            cell_tell_links(cell, &t->pairs[i].a, &t->pairs[i].b);
+            break;
+        }
 }
 
 void tally_report(tally *t, const cli_cell *cell, double seconds) {
