@@ -96,12 +96,13 @@ class Element(NamedTuple):
 
 class Side(NamedTuple):
     """One side of a pair: the link's index (None: an obstacle), the element's (None: a body), the body's id (0: an
-    element) and its part."""
+    element) and its part; name: of the link or the obstacle, as "hand", "hand[palm]" of links with several elements, "table"."""
 
     link: int | None
     element: int | None
     body: int
     part: int
+    name: str
 
 
 def _refuse_bool(self: object) -> NoReturn:

@@ -48,20 +48,37 @@ static int read_rotation(module_state *state, PyObject *from, double q[4]) {
     return result;
 }
 
+// 1: what says how a pose is turned, an object like SciPy's Rotation or a 3x3 matrix; 0: its position.
+static int is_turn(PyObject *from) { return PyObject_HasAttrString(from, "as_quat") || array_axes(from) == 2; }
+
+static int read_turned(module_state *state, PyObject *xyz, PyObject *turn, ovoid_pose *pose) {
+    ovoid_vec3 position;
+    double q[4], matrix[9];
+    ovoid_error error;
+    if (vec3_read(state, xyz, "xyz", &position)) return -1;
+    if (PyObject_HasAttrString(turn, "as_quat")) {
+        if (read_rotation(state, turn, q)) return -1;
+        *pose = make_pose(position, q, 1);
+        return validate_pose(state, "as_quat()", -1, pose);
+    }
+    if (doubles_read(state, turn, "rotation", 2, (Py_ssize_t[]){3, 3}, matrix)) return -1;
+    if (ovoid_pose_make_matrix(matrix, position, pose, &error) == OVOID_OK) return 0;
+    raise_code(state, error.code, (Py_ssize_t)error.place, "rotation: %s", error.message);
+    return -1;
+}
+
+// (xyz, rotation) or (rotation, xyz): which is which their shapes say.
 static int read_two(module_state *state, PyObject *from, const char *what, ovoid_pose *pose) {
-    PyObject *rotation = PyTuple_GetItem(from, 1);
-    ovoid_vec3 xyz;
-    double q[4];
-    if (!PyObject_HasAttrString(rotation, "as_quat")) {
+    PyObject *first = PyTuple_GetItem(from, 0), *second = PyTuple_GetItem(from, 1);
+    if (is_turn(first) == is_turn(second)) {
         PyErr_Format(PyExc_TypeError,
-                     "%s: of (xyz, rotation) the second is an object with as_quat(), as SciPy's Rotation; where it is "
-                     "four numbers, say their order: Pose.from_quaternion(xyz, wxyz=...) or xyzw=...",
+                     "%s: of two things one is a position, the other a 3x3 matrix or an object with as_quat(), as "
+                     "SciPy's Rotation; where it is four numbers, say their order: Pose.from_quaternion(xyz, wxyz=...) "
+                     "or xyzw=...",
                      what);
         return -1;
     }
-    if (vec3_read(state, PyTuple_GetItem(from, 0), what, &xyz) || read_rotation(state, rotation, q)) return -1;
-    *pose = make_pose(xyz, q, 1);
-    return validate_pose(state, what, -1, pose);
+    return is_turn(first) ? read_turned(state, second, first, pose) : read_turned(state, first, second, pose);
 }
 
 // A position alone: nothing is turned.
@@ -211,23 +228,23 @@ static PyObject *from_rotation(PyObject *type, PyObject *arguments, PyObject *ke
     PyObject *xyz, *rotation;
     module_state *state = state_of_type(type);
     if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OO:from_rotation", names, &xyz, &rotation)) return NULL;
-    PyObject *two = PyTuple_Pack(2, xyz, rotation);
     ovoid_pose pose;
-    int result = -1;
-    if (two && PyObject_HasAttrString(rotation, "as_quat")) {
-        result = read_two(state, two, "from_rotation", &pose);
-    } else if (two) {
-        double matrix[9];
-        ovoid_vec3 position;
-        ovoid_error error;
-        if (!vec3_read(state, xyz, "xyz", &position) &&
-            !doubles_read(state, rotation, "rotation", 2, (Py_ssize_t[]){3, 3}, matrix)) {
-            result = ovoid_pose_make_matrix(matrix, position, &pose, &error) == OVOID_OK ? 0 : -1;
-            if (result) raise_error(state, &error);
-        }
-    }
-    Py_XDECREF(two);
-    return result ? NULL : pose_wrap(state, pose);
+    return read_turned(state, xyz, rotation, &pose) ? NULL : pose_wrap(state, pose);
+}
+
+static PyObject *make_of_seven(PyObject *type, PyObject *given, const char *what, int is_xyzw) {
+    module_state *state = state_of_type(type);
+    double n[7];
+    if (doubles_read(state, given, what, 1, (Py_ssize_t[]){7}, n)) return NULL;
+    ovoid_pose pose = make_pose((ovoid_vec3){n[0], n[1], n[2]}, n + 3, is_xyzw);
+    return validate_pose(state, what, -1, &pose) ? NULL : pose_wrap(state, pose);
+}
+
+static PyObject *from_xyz_wxyz(PyObject *type, PyObject *given) {
+    return make_of_seven(type, given, "from_xyz_wxyz", 0);
+}
+static PyObject *from_xyz_xyzw(PyObject *type, PyObject *given) {
+    return make_of_seven(type, given, "from_xyz_xyzw", 1);
 }
 
 static PyObject *from_rpy(PyObject *type, PyObject *arguments, PyObject *keywords) {
@@ -268,6 +285,21 @@ static PyObject *get_matrix(PyObject *self, void *closure) {
     double matrix[16];
     ovoid_pose_compute_transform(get(self), matrix);
     return array_copy(state_of(self), RECORD_DOUBLE, 2, (Py_ssize_t[]){4, 4}, matrix);
+}
+
+static PyObject *get_rotation(PyObject *self, void *closure) {
+    (void)closure;
+    double m[16];
+    ovoid_pose_compute_transform(get(self), m);
+    const double rows[9] = {m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]};
+    return array_copy(state_of(self), RECORD_DOUBLE, 2, (Py_ssize_t[]){3, 3}, rows);
+}
+
+static PyObject *get_seven(PyObject *self, void *closure) {
+    ovoid_vec3 p = get(self)->position;
+    ovoid_quat q = get(self)->rotation;
+    if (closure) return Py_BuildValue("(ddddddd)", p.x, p.y, p.z, q.x, q.y, q.z, q.w);
+    return Py_BuildValue("(ddddddd)", p.x, p.y, p.z, q.w, q.x, q.y, q.z);
 }
 
 static PyObject *get_quaternion(PyObject *self, void *closure) {
@@ -353,9 +385,16 @@ static PyMethodDef methods[] = {
     {"from_quaternion", METHOD_KEYWORDS(from_quaternion), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
      "from_quaternion(xyz: Numbers, *, wxyz: Numbers = None, xyzw: Numbers = None) -> Pose\n--\n\nFrom a position and "
      "four numbers whose order is named.\n\nAny norm but zero: the rotation is that of the normalised quaternion."},
+    {"from_xyz_wxyz", from_xyz_wxyz, METH_O | METH_CLASS,
+     "from_xyz_wxyz(numbers: Numbers, /) -> Pose\n--\n\nFrom seven numbers: the position, then the quaternion w x y "
+     "z."},
+    {"from_xyz_xyzw", from_xyz_xyzw, METH_O | METH_CLASS,
+     "from_xyz_xyzw(numbers: Numbers, /) -> Pose\n--\n\nFrom seven numbers: the position, then the quaternion x y z "
+     "w, as ROS and PyBullet have them."},
     {"from_rotation", METHOD_KEYWORDS(from_rotation), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
      "from_rotation(xyz: Numbers, rotation: Rotation | Numbers) -> Pose\n--\n\nFrom a position and a 3x3 matrix or a "
-     "SciPy Rotation (anything with as_quat(), x y z w)."},
+     "SciPy Rotation (anything with as_quat(), x y z w). The way back: scipy.spatial.transform.Rotation.from_quat(\n"
+     "pose.xyzw), and pose.rotation."},
     {"from_rpy", METHOD_KEYWORDS(from_rpy), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
      "from_rpy(xyz: Numbers, rpy: Numbers) -> Pose\n--\n\nAs in URDF: fixed-axis roll, pitch, yaw in radians, Rz(yaw) "
      "Ry(pitch) Rx(roll)."},
@@ -375,13 +414,20 @@ static PyGetSetDef fields[] = {
     FIELD(pose_object, VEC3, "xyz", pose.position, "The position, in the world frame."),
     {"wxyz", get_quaternion, NULL, "Vec4: The quaternion, w x y z, as it was given.", NULL},
     {"xyzw", get_quaternion, NULL, "Vec4: The quaternion, x y z w, as it was given.", ""},
+    {"xyz_wxyz", get_seven, NULL,
+     "tuple[float, float, float, float, float, float, float]: The position and the quaternion, w x y z.", NULL},
+    {"xyz_xyzw", get_seven, NULL,
+     "tuple[float, float, float, float, float, float, float]: The position and the quaternion, x y z w.", ""},
+    {"rotation", get_rotation, NULL, "Floats: The 3x3 rotation matrix R: world = R @ local + xyz.", NULL},
     {"matrix", get_matrix, NULL, "Floats: The 4x4 homogeneous matrix: world = matrix @ local.", NULL},
     {NULL, NULL, NULL, NULL, NULL}};
 
 static PyType_Slot slots[] = {
-    {Py_tp_doc, "Pose(pose: PoseLike = None) -> Pose\n--\n\nWhere a body is: world = xyz + R local.\n\nFrom None (the "
-                "identity), three numbers (a position), a 4x4 array whose last row is\n0 0 0 1, a tuple (xyz, SciPy "
-                "Rotation), or another Pose. a @ b is the pose of b in the frame that a poses. Immutable."},
+    {Py_tp_doc,
+     "Pose(pose: PoseLike = None) -> Pose\n--\n\nWhere a body is: world = xyz + R local.\n\nFrom None (the "
+     "identity), three numbers (a position), a 4x4 array whose last row is\n0 0 0 1, a tuple (xyz, rotation) "
+     "or (rotation, xyz) of a position and a 3x3 matrix or SciPy Rotation, or another Pose. a\n@ b is the "
+     "pose of b in the frame that a poses. Immutable."},
     {Py_tp_new, pose_new},
     {Py_tp_dealloc, object_free},
     {Py_tp_richcompare, compare},

@@ -138,6 +138,26 @@ class Poses(unittest.TestCase):
         quarter = ovoid.Pose.from_quaternion((1, 2, 3), wxyz=(1, 0, 0, 1))
         self.assertEqual(ovoid.Pose(((1, 2, 3), Rotation())), quarter)
         self.assertEqual(ovoid.Pose.from_rotation((1, 2, 3), Rotation()), quarter)
+        self.assertEqual(ovoid.Pose((Rotation(), [1, 2, 3])), quarter)
+
+    def test_pairs_and_sevens(self):
+        pose = ovoid.Pose.from_rpy((1, 2, 3), (0.1, 0.2, 0.3))
+        turn, there = pose.rotation, pose.xyz
+        self.assertEqual([list(row) for row in turn.tolist()], [row[:3] for row in pose.matrix.tolist()[:3]])
+        for given in (turn, there), (there, turn), (turn.tolist(), list(there)):
+            self.assertEqual(ovoid.Pose(given), ovoid.Pose(pose.matrix))
+        self.assertEqual(pose.xyz_wxyz, (*there, *pose.wxyz))
+        self.assertEqual(pose.xyz_xyzw, (*there, *pose.xyzw))
+        self.assertEqual(ovoid.Pose.from_xyz_wxyz(pose.xyz_wxyz), pose)
+        self.assertEqual(ovoid.Pose.from_xyz_xyzw(list(pose.xyz_xyzw)), pose)
+        for bad, sentence in (((there, there), "3x3"), ((turn, turn), "3x3"), ((there, [[1, 0, 0]] * 3), "no rotation"),
+                              ((there, [[1, 0], [0, 1]]), "shape"), (([[1, 0, 0]], there), "shape")):
+            with self.assertRaisesRegex((TypeError, ovoid.Error), sentence):
+                ovoid.Pose(bad)
+        for make in ovoid.Pose.from_xyz_wxyz, ovoid.Pose.from_xyz_xyzw:
+            for bad, sentence in (pose.xyz, "shape"), ((0,) * 7, "quaternion is zero"), ((math.nan,) * 7, "NaN"):
+                with self.assertRaisesRegex(ovoid.Error, sentence):
+                    make(bad)
 
     def test_conversions(self):
         pose = ovoid.Pose.from_rpy((1, 2, 3), (0.1, 0.2, 0.3))

@@ -344,6 +344,47 @@ class Cells(unittest.TestCase):
             self.assertTrue((statuses == ovoid.RobotStatus.REFUSED).all())
 
 
+@unittest.skipUnless(ovoid.has_robot, "built without libovoid_robot")
+class Names(unittest.TestCase):
+    def test_sides(self):
+        cell = ovoid.Cell(make_arm())
+        first = cell.add(BALL, (0, 1.5, 0), name="ball")
+        hit = cell.collide((1.5, 0))
+        self.assertEqual((hit.a.name, hit.b.name), ("lower", "ball"))
+        # Of one name they are numbered; what a link holds stands behind it, and its own element then too.
+        second = cell.add(BALL, (5, 5, 0), name="ball")
+        cell.move(second, (0, -1.5, 0))
+        self.assertEqual([cell.collide((angle, 0)).b.name for angle in (1.5, -1.5)], ["ball[0]", "ball[1]"])
+        held = cell.attach("lower", BALL, (1, 0, 0))
+        self.assertEqual(cell.names, {first: "ball", second: "ball", held: f"body {held}"})
+        near, _ = cell.near((1.2, 0), 0.5)
+        self.assertEqual(set(cell.pair_names(near)), {("lower[bar]", "ball[0]"), ("upper", "ball[0]"), (f"lower[body {held}]", "ball[0]")})
+        self.assertEqual(cell.pair_names(cell.collide_batch([(0.3, 0.4), (1.5, 0), (9, 9)])), [None, ("lower[bar]", "ball[0]"), None])
+        self.assertIn(("upper", "ball[0]"), [(a.name, b.name) for a, b in map(cell.pair, range(cell.pair_count))])
+        cell.remove(first)
+        self.assertEqual(cell.collide((-1.5, 0)).b.name, "ball")
+        for call in (lambda: cell.add(BALL, name=3), lambda: cell.attach("upper", BALL, name=b"x"), lambda: cell.pair_names(ovoid.zeros("verdicts", 1)),
+                     lambda: cell.pair_names(3)):
+            with self.assertRaises(TypeError):
+                call()
+        self.assertEqual(len(cell.names), 2)
+
+    def test_states(self):
+        arm = make_arm()
+        cell = ovoid.Cell(arm)
+        cell.add(BALL, (0, 1.5, 0))
+        bent = {"elbow": 0.5}
+        self.assertEqual(arm.poses(bent).tolist(), arm.poses((0, 0.5)).tolist())
+        self.assertEqual(arm.poses([bent, (1, 2)]).tolist(), arm.poses([(0, 0.5), (1, 2)]).tolist())
+        self.assertEqual(cell.collide({"shoulder": 1.5}), cell.collide((1.5, 0)))
+        self.assertEqual(bytes(memoryview(cell.collide_batch([bent, {"shoulder": 1.5}])).cast("B")),
+                         bytes(memoryview(cell.collide_batch([(0, 0.5), (1.5, 0)])).cast("B")))
+        self.assertEqual(cell.find_hit([bent, {"shoulder": 1.5}]).hit_at, cell.find_hit([(0, 0.5), (1.5, 0)]).hit_at)
+        for call in (lambda: cell.collide({"elbo": 1}), lambda: cell.collide("ready"), lambda: cell.find_hit(["ready", (0, 0)])):
+            with self.assertRaisesRegex(ovoid.Error, "elbo|ready"):
+                call()
+
+
 @unittest.skipUnless(ovoid.has_robot and ovoid.has_io, "built without readers of robots")
 class Files(unittest.TestCase):
     def read(self, *more, **options):
@@ -368,6 +409,16 @@ class Files(unittest.TestCase):
         shape = self.read()[0].elements[2].shape
         self.assertAlmostEqual(shape.volume, 0.007, delta=1e-9)
         self.assertEqual(len(self.read(parts=True)[0].meshes), 1)
+
+    def test_names(self):
+        """Sides are called as the tool calls them: transcripts/robot_check.txt."""
+        cell = ovoid.Cell(self.read(os.path.join(ARM, "arm.srdf"), fixed_base=True, parts=True)[0])
+        cell.read(os.path.join(ARM, "cell.yaml"))
+        self.assertEqual(list(cell.names.values()), ["table", "pillar"])
+        hit = cell.collide({"shoulder": 1.4})
+        self.assertEqual((hit.a.name, hit.b.name), ("upper", "table"))
+        self.assertEqual(cell.find_hit(["up", {"shoulder": 1.4}]).hit.b.name, "table")
+        self.assertEqual(cell.pair_names(cell.near("up", 0.5)[0])[0], ("base", "table"))
 
     def test_trouble(self):
         with self.assertRaises(ovoid.Error) as raised:

@@ -95,31 +95,54 @@ static PyObject *end_change(cell_object *self, ovoid_code code, const ovoid_erro
     return code == OVOID_OK ? Py_NewRef(Py_None) : raise_error(state_of((PyObject *)self), error);
 }
 
-int cell_keep(cell_object *self, ovoid_id id, PyObject *body) {
-    PyObject *key = PyLong_FromUnsignedLongLong(id);
-    int result = key ? PyDict_SetItem(self->kept, key, body) : -1;
+static int set_kept(cell_object *self, const placed_body *placed, PyObject *body, PyObject *name) {
+    if (name && name != Py_None && !PyUnicode_Check(name)) {
+        PyErr_Format(PyExc_TypeError, "name: a string is wanted, not %R", (PyObject *)Py_TYPE(name));
+        return -1;
+    }
+    PyObject *key = PyLong_FromUnsignedLongLong(placed->id);
+    PyObject *link = placed->link == OVOID_ROBOT_NONE ? Py_NewRef(Py_None) : PyLong_FromUnsignedLong(placed->link);
+    PyObject *named = name && name != Py_None ? Py_NewRef(name) : PyUnicode_FromFormat("body %llu", placed->id);
+    PyObject *kept = Py_BuildValue("(ONNN)", body, named, link, pose_wrap(state_of((PyObject *)self), placed->pose));
+    int result = key && kept ? PyDict_SetItem(self->kept, key, kept) : -1;
     Py_XDECREF(key);
-    if (result) ovoid_robot_cell_remove(self->cell, id, NULL);
+    Py_XDECREF(kept);
+    return result;
+}
+
+int cell_keep(cell_object *self, const placed_body *placed, PyObject *body, PyObject *name) {
+    int result = set_kept(self, placed, body, name);
+    if (result) ovoid_robot_cell_remove(self->cell, placed->id, NULL);
     self->version++;
     return result;
 }
 
-static PyObject *end_adding(cell_object *self, ovoid_id id, PyObject *body, const ovoid_error *error) {
+/// A body that is added: what the caller gave.
+typedef struct added_body {
+    PyObject *body, *name;
+    ovoid_pose pose;
+    uint32_t link;
+} added_body;
+
+static PyObject *end_adding(cell_object *self, ovoid_id id, const added_body *added, const ovoid_error *error) {
     if (!id) return raise_error(state_of((PyObject *)self), error);
-    return cell_keep(self, id, body) ? NULL : PyLong_FromUnsignedLongLong(id);
+    const placed_body placed = {id, added->link, added->pose};
+    return cell_keep(self, &placed, added->body, added->name) ? NULL : PyLong_FromUnsignedLongLong(id);
 }
 
 static PyObject *add(PyObject *object, PyObject *arguments, PyObject *keywords) {
-    static char *names[] = {"body", "pose", NULL};
+    static char *names[] = {"body", "pose", "name", NULL};
     cell_object *self = (cell_object *)object;
     module_state *state = state_of(object);
-    PyObject *given, *pose = NULL;
+    PyObject *pose = NULL;
+    added_body added = {.link = OVOID_ROBOT_NONE};
     ovoid_body body;
     ovoid_error error;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|O:add", names, &given, &pose) ||
-        body_read(state, given, "body", &body) || pose_read(state, pose, "pose", &body.pose) || begin_change(self))
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|O$O:add", names, &added.body, &pose, &added.name) ||
+        body_read(state, added.body, "body", &body) || pose_read(state, pose, "pose", &body.pose) || begin_change(self))
         return NULL;
-    return end_adding(self, ovoid_robot_cell_add(self->cell, &body, &error), given, &error);
+    added.pose = body.pose;
+    return end_adding(self, ovoid_robot_cell_add(self->cell, &body, &error), &added, &error);
 }
 
 // Links as an array of its own, which the caller frees; NULL: an exception.
@@ -139,23 +162,24 @@ static uint32_t *read_links(const cell_object *self, PyObject *given, size_t *co
 }
 
 static PyObject *attach(PyObject *object, PyObject *arguments, PyObject *keywords) {
-    static char *names[] = {"link", "body", "pose", "touching", NULL};
+    static char *names[] = {"link", "body", "pose", "touching", "name", NULL};
     cell_object *self = (cell_object *)object;
     module_state *state = state_of(object);
-    PyObject *link_given, *given, *pose = NULL, *touching = NULL, *made = NULL;
-    uint32_t link, *links = NULL;
+    PyObject *link_given, *pose = NULL, *touching = NULL, *made = NULL;
+    added_body added = {.name = NULL};
+    uint32_t *links = NULL;
     size_t count = 0;
     ovoid_body body;
     ovoid_error error;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OO|OO:attach", names, &link_given, &given, &pose,
-                                     &touching) ||
-        link_read(self->robot, link_given, &link) || body_read(state, given, "body", &body) ||
+    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OO|OO$O:attach", names, &link_given, &added.body, &pose,
+                                     &touching, &added.name) ||
+        link_read(self->robot, link_given, &added.link) || body_read(state, added.body, "body", &body) ||
         pose_read(state, pose, "pose", &body.pose) || (touching && !(links = read_links(self, touching, &count))))
         return NULL;
+    added.pose = body.pose;
+    const ovoid_robot_attachment attachment = {added.link, body, links, count};
     if (!begin_change(self))
-        made = end_adding(
-            self, ovoid_robot_cell_attach(self->cell, &(ovoid_robot_attachment){link, body, links, count}, &error),
-            given, &error);
+        made = end_adding(self, ovoid_robot_cell_attach(self->cell, &attachment, &error), &added, &error);
     free(links);
     return made;
 }
@@ -172,6 +196,20 @@ static PyObject *remove_body(PyObject *object, PyObject *given) {
     return end_change(self, code, &error);
 }
 
+// Keeps where a body is now.
+static int keep_pose(cell_object *self, ovoid_id id, ovoid_pose pose) {
+    PyObject *key = PyLong_FromUnsignedLongLong(id), *kept = key ? PyDict_GetItem(self->kept, key) : NULL;
+    Py_XDECREF(key);
+    if (!kept) return PyErr_Occurred() ? -1 : 0;
+    PyObject *link = PyTuple_GetItem(kept, KEPT_LINK), *body = Py_NewRef(PyTuple_GetItem(kept, KEPT_BODY));
+    PyObject *name = Py_NewRef(PyTuple_GetItem(kept, KEPT_NAME));
+    uint32_t index = link == Py_None ? OVOID_ROBOT_NONE : (uint32_t)PyLong_AsUnsignedLong(link);
+    int result = set_kept(self, &(placed_body){id, index, pose}, body, name);
+    Py_DECREF(body);
+    Py_DECREF(name);
+    return result;
+}
+
 static PyObject *move(PyObject *object, PyObject *arguments) {
     cell_object *self = (cell_object *)object;
     PyObject *given = NULL;
@@ -181,7 +219,9 @@ static PyObject *move(PyObject *object, PyObject *arguments) {
     if (!PyArg_ParseTuple(arguments, "O&O:move", id_read, &id, &given) ||
         pose_read(state_of(object), given, "pose", &pose) || begin_change(self))
         return NULL;
-    return end_change(self, ovoid_robot_cell_move(self->cell, id, &pose, &error), &error);
+    ovoid_code code = ovoid_robot_cell_move(self->cell, id, &pose, &error);
+    if (code == OVOID_OK && keep_pose(self, id, pose)) return NULL;
+    return end_change(self, code, &error);
 }
 
 static PyObject *allow(PyObject *object, PyObject *arguments, PyObject *keywords) {
@@ -260,9 +300,14 @@ static PyObject *get_padding(PyObject *object, PyObject *given) {
     return PyFloat_FromDouble(ovoid_robot_cell_get_padding(self->cell, link));
 }
 
-static PyObject *get_bodies(PyObject *self, void *closure) {
-    (void)closure;
-    return PyDict_Copy(((cell_object *)self)->kept);
+// What is kept of each id at one place, or all of it.
+static PyObject *get_kept(PyObject *self, void *closure) {
+    PyObject *key, *value, *made = PyDict_New();
+    const kept_place *place = closure;
+    Py_ssize_t at = 0;
+    while (made && PyDict_Next(((cell_object *)self)->kept, &at, &key, &value))
+        if (PyDict_SetItem(made, key, place ? PyTuple_GetItem(value, *place) : value)) Py_CLEAR(made);
+    return made;
 }
 
 static PyObject *get_pair_count(PyObject *self, void *closure) {
@@ -278,7 +323,7 @@ static PyObject *pair(PyObject *object, PyObject *given) {
     ovoid_robot_sides sides;
     ovoid_error error;
     if (ovoid_robot_cell_get_pair(self->cell, number, &sides, &error) != OVOID_OK) return raise_error(state, &error);
-    PyObject *first = side_make(state, &sides.a), *second = side_make(state, &sides.b);
+    PyObject *first = side_make(self, &sides.a), *second = side_make(self, &sides.b);
     if (first && second) return Py_BuildValue("NN", first, second);
     Py_XDECREF(first);
     Py_XDECREF(second);
@@ -289,12 +334,14 @@ static PyObject *pair(PyObject *object, PyObject *given) {
 
 static PyMethodDef own_methods[] = {
     {"add", METHOD_KEYWORDS(add), METH_VARARGS | METH_KEYWORDS,
-     "add(body: Body, pose: PoseLike = None) -> int\n--\n\nAdds an obstacle, a Shape or a Compound, posed in the root "
-     "link's frame: its id."},
+     "add(body: Body, pose: PoseLike = None, *, name: str | None = None) -> int\n--\n\nAdds an obstacle, posed in the "
+     "root "
+     "link's frame: its id. name: by which answers call it, by default \"body ID\"."},
     {"attach", METHOD_KEYWORDS(attach), METH_VARARGS | METH_KEYWORDS,
-     "attach(link: LinkLike, body: Body, pose: PoseLike = None, touching: Sequence[LinkLike] = ()) -> "
-     "int\n--\n\nAttaches a body to a link, in whose frame its pose is: its id. It may touch this link and those of "
-     "touching."},
+     "attach(link: LinkLike, body: Body, pose: PoseLike = None, touching: Sequence[LinkLike] = (), *, name: str "
+     "| None = None) -> int\n--\n\nAttaches a body to a link, in whose frame its pose is: its id. It may touch this "
+     "link and "
+     "those of touching. name: by\nwhich answers call it, by default \"body ID\"."},
     {"remove", remove_body, METH_O, "remove(id: int, /) -> None\n--\n\nRemoves an obstacle or an attached body."},
     {"move", move, METH_VARARGS,
      "move(id: int, pose: PoseLike, /) -> None\n--\n\nMoves an obstacle, or an attached body in its link's frame."},
@@ -322,7 +369,9 @@ static PyMethodDef own_methods[] = {
 
 static PyGetSetDef fields[] = {
     FIELD_PYTHON(cell_object, "Robot", "robot", robot, "The Robot."),
-    {"bodies", get_bodies, NULL, "dict[int, Body]: A dict of the bodies by their ids.", NULL},
+    {"bodies", get_kept, NULL, "dict[int, Body]: A dict of the bodies by their ids.", &(kept_place){KEPT_BODY}},
+    {"names", get_kept, NULL, "dict[int, str]: A dict of the bodies' names by their ids.", &(kept_place){KEPT_NAME}},
+    {"_kept", get_kept, NULL, NULL, NULL},
     {"pair_count", get_pair_count, NULL, "int: How many pairs there are, queried or left out.", NULL},
     {NULL, NULL, NULL, NULL, NULL}};
 
@@ -340,7 +389,9 @@ static PyType_Spec spec = {"ovoid.Cell", sizeof(cell_object), 0, Py_TPFLAGS_DEFA
 
 int cell_add(PyObject *module) {
     static PyMethodDef queries[24], all[24];
-    slots_set_methods(slots, queries, cell_queries, cell_clearances);
+    static PyMethodDef about[8];
+    slots_set_methods(slots, about, cell_clearances, cell_sides);
+    slots_set_methods(slots, queries, cell_queries, about);
     slots_set_methods(slots, all, own_methods, queries);
 #ifdef OVOID_PYTHON_ROBOT_READ
     static PyMethodDef files[8], with_files[32];

@@ -5,10 +5,11 @@
 #include <stdlib.h>
 
 // What is not known is None.
-static PyObject *make_clearance(module_state *state, const ovoid_robot_clearance *c) {
+static PyObject *make_clearance(const cell_object *cell, const ovoid_robot_clearance *c) {
+    module_state *state = state_of((PyObject *)cell);
     int is_refused = c->status == OVOID_ROBOT_REFUSED, has_pair = !is_refused && c->upper < INFINITY;
-    PyObject *a = has_pair ? side_make(state, &c->a) : Py_NewRef(Py_None);
-    PyObject *b = has_pair ? side_make(state, &c->b) : Py_NewRef(Py_None);
+    PyObject *a = has_pair ? side_make(cell, &c->a) : Py_NewRef(Py_None);
+    PyObject *b = has_pair ? side_make(cell, &c->b) : Py_NewRef(Py_None);
     PyObject *at = has_pair ? PyFloat_FromDouble(c->at) : Py_NewRef(Py_None);
     PyObject *refused = is_refused ? PyLong_FromSize_t(c->refused) : Py_NewRef(Py_None);
     PyObject *code = is_refused ? enum_get(state, ENUM_CODE, c->code) : Py_NewRef(Py_None);
@@ -40,7 +41,7 @@ static PyObject *clearance(PyObject *object, PyObject *arguments, PyObject *keyw
     checkers_return(self, &checker, 1);
     free(in.states.data);
     if (is_raised) return NULL;
-    return code == OVOID_OK ? make_clearance(state, &found) : raise_error(state, &error);
+    return code == OVOID_OK ? make_clearance(self, &found) : raise_error(state, &error);
 }
 
 PyMethodDef cell_clearances[] = {

@@ -15,18 +15,18 @@ _Static_assert(sizeof(ovoid_robot_side) == 24 && sizeof(ovoid_robot_answer) == 8
 
 // ---- answers
 
-PyObject *side_make(module_state *state, const ovoid_robot_side *side) {
-    PyObject *link = side->link == OVOID_ROBOT_NONE ? Py_NewRef(Py_None) : PyLong_FromUnsignedLong(side->link);
-    PyObject *element = side->element == OVOID_ROBOT_NONE ? Py_NewRef(Py_None) : PyLong_FromUnsignedLong(side->element);
-    return PyObject_CallFunction(state->side, "NNKI", link, element, side->body, side->part);
+int state_has_pair(const ovoid_robot_answer *answer) {
+    int is_empty = answer->status == OVOID_ROBOT_UNDECIDED && answer->code == OVOID_ERROR_EMPTY;
+    return answer->status == OVOID_ROBOT_HIT || (answer->status == OVOID_ROBOT_UNDECIDED && !is_empty);
 }
 
-PyObject *state_answer_make(module_state *state, const ovoid_robot_answer *answer) {
+PyObject *state_answer_make(const cell_object *cell, const ovoid_robot_answer *answer) {
+    module_state *state = state_of((PyObject *)cell);
     int is_refused = answer->status == OVOID_ROBOT_REFUSED;
     int is_empty = answer->status == OVOID_ROBOT_UNDECIDED && answer->code == OVOID_ERROR_EMPTY;
-    int has_pair = answer->status == OVOID_ROBOT_HIT || (answer->status == OVOID_ROBOT_UNDECIDED && !is_empty);
-    PyObject *a = has_pair ? side_make(state, &answer->a) : Py_NewRef(Py_None);
-    PyObject *b = has_pair ? side_make(state, &answer->b) : Py_NewRef(Py_None);
+    int has_pair = state_has_pair(answer);
+    PyObject *a = has_pair ? side_make(cell, &answer->a) : Py_NewRef(Py_None);
+    PyObject *b = has_pair ? side_make(cell, &answer->b) : Py_NewRef(Py_None);
     PyObject *code = is_refused || is_empty ? enum_get(state, ENUM_CODE, answer->code) : Py_NewRef(Py_None);
     PyObject *variable = is_refused ? PyLong_FromUnsignedLong(answer->variable) : Py_NewRef(Py_None);
     return PyObject_CallFunction(state->state_answer, "NNNddNN", enum_get(state, ENUM_ROBOT_STATUS, answer->status), a,
@@ -65,7 +65,7 @@ static PyObject *collide(PyObject *object, PyObject *arguments, PyObject *keywor
     Py_END_ALLOW_THREADS;
     checkers_return(self, &checker, 1);
     free(q);
-    return code == OVOID_OK ? state_answer_make(state, &answer) : raise_error(state, &error);
+    return code == OVOID_OK ? state_answer_make(self, &answer) : raise_error(state, &error);
 }
 
 // ---- near pairs
@@ -203,7 +203,11 @@ static int read_input(cell_object *self, states_input *in, job *j) {
     j->variables = robot_variable_count(self->robot);
     if (query_options_validate(state, &j->options)) return -1;
     if (threads_validate(state, in->threads) || progress_validate(in->progress)) return -1;
-    if (items_read(state, in->q, "q", 2, (Py_ssize_t[]){-1, (Py_ssize_t)j->variables}, 'd', &in->states)) return -1;
+    PyObject *given = states_resolve(self->robot, in->q);
+    int failed =
+        !given || items_read(state, given, "q", 2, (Py_ssize_t[]){-1, (Py_ssize_t)j->variables}, 'd', &in->states);
+    Py_XDECREF(given);
+    if (failed) return -1;
     j->q = in->states.data;
     j->count = (size_t)in->states.shape[0];
     j->checker_count = (size_t)in->threads;

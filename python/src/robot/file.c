@@ -505,11 +505,14 @@ static PyObject *add_obstacles(cell_object *self, PyObject *owner) {
     for (size_t i = 0; list && i < count; i++) {
         ovoid_obstacle o = ovoid_obstacles_get(obstacles, i);
         PyObject *body = o.solid ? solid_borrow(state, o.solid, owner) : shape_borrow(state, o.shape, owner);
-        PyObject *one = body && !cell_keep(self, placed[i].id, body)
-                            ? Py_BuildValue("(sK)", o.name, (unsigned long long)placed[i].id)
+        PyObject *name = robot_name_make(o.name);
+        const placed_body at = {placed[i].id, placed[i].link, placed[i].pose};
+        PyObject *one = body && name && !cell_keep(self, &at, body, name)
+                            ? Py_BuildValue("(OK)", name, (unsigned long long)placed[i].id)
                             : NULL;
         if (!one || PyList_Append(list, one)) Py_CLEAR(list);
         Py_XDECREF(one);
+        Py_XDECREF(name);
         Py_XDECREF(body);
     }
     free(placed);

@@ -79,7 +79,10 @@ int path_arguments_read(cell_object *cell, PyObject *arguments, PyObject *keywor
     }
     in->most_states = (uint32_t)most;
     Py_ssize_t variables = (Py_ssize_t)robot_variable_count(cell->robot);
-    return items_read(state, given, "states", 2, (Py_ssize_t[]){-1, variables}, 'd', &in->states);
+    given = states_resolve(cell->robot, given);
+    int failed = !given || items_read(state, given, "states", 2, (Py_ssize_t[]){-1, variables}, 'd', &in->states);
+    Py_XDECREF(given);
+    return failed ? -1 : 0;
 }
 
 PyObject *find_hit(PyObject *object, PyObject *arguments, PyObject *keywords);
@@ -165,7 +168,7 @@ static PyObject *get_hit(PyObject *self, void *closure) {
     const path_object *path = (path_object *)self;
     if (path->of.status == OVOID_ROBOT_FREE || (path->of.status == OVOID_ROBOT_REFUSED && path->of.refused == SIZE_MAX))
         Py_RETURN_NONE;
-    return state_answer_make(state_of(self), &path->of.hit);
+    return state_answer_make(path->cell, &path->of.hit);
 }
 
 static PyObject *get_refused(PyObject *self, void *closure) {

@@ -69,17 +69,47 @@ int link_read(const robot_object *self, PyObject *from, uint32_t *to) {
     return -1;
 }
 
+static int is_named_state(PyObject *from) { return PyUnicode_Check(from) || PyDict_Check(from); }
+
+// The numbers of a name or a dict; of all else itself.
+static PyObject *resolve_one(const robot_object *self, PyObject *from) {
+    return is_named_state(from) ? PyObject_CallMethod((PyObject *)self, "q", "O", from) : Py_NewRef(from);
+}
+
+PyObject *states_resolve(const robot_object *self, PyObject *from) {
+    int is_list = PyList_Check(from) || PyTuple_Check(from), has_named = 0;
+    Py_ssize_t count = is_list ? PySequence_Size(from) : 0;
+    PyObject *list = is_list ? PySequence_Tuple(from) : NULL;
+    if (is_list && !list) return NULL;
+    for (Py_ssize_t i = 0; i < count && !has_named; i++) has_named = is_named_state(PyTuple_GetItem(list, i));
+    PyObject *made = has_named ? PyList_New(0) : resolve_one(self, from);
+    for (Py_ssize_t i = 0; i < count && has_named && made; i++) {
+        PyObject *one = resolve_one(self, PyTuple_GetItem(list, i));
+        if (!one || PyList_Append(made, one)) Py_CLEAR(made);
+        Py_XDECREF(one);
+    }
+    Py_XDECREF(list);
+    return made;
+}
+
 int states_read(const robot_object *self, PyObject *from, const char *what, int *axes, items *states) {
     Py_ssize_t count = (Py_ssize_t)robot_variable_count(self);
-    *axes = array_axes(from);
-    return items_read(state_of((PyObject *)self), from, what, *axes,
-                      *axes == 1 ? (Py_ssize_t[]){count} : (Py_ssize_t[]){-1, count}, 'd', states);
+    PyObject *given = states_resolve(self, from);
+    if (!given) return -1;
+    *axes = array_axes(given);
+    int failed = items_read(state_of((PyObject *)self), given, what, *axes,
+                            *axes == 1 ? (Py_ssize_t[]){count} : (Py_ssize_t[]){-1, count}, 'd', states);
+    Py_DECREF(given);
+    return failed;
 }
 
 double *state_read(const robot_object *self, PyObject *from) {
     items state;
     Py_ssize_t count = (Py_ssize_t)robot_variable_count(self);
-    return items_read(state_of((PyObject *)self), from, "q", 1, &count, 'd', &state) ? NULL : state.data;
+    PyObject *given = resolve_one(self, from);
+    int failed = !given || items_read(state_of((PyObject *)self), given, "q", 1, &count, 'd', &state);
+    Py_XDECREF(given);
+    return failed ? NULL : state.data;
 }
 
 // ---- where its links are

@@ -14,11 +14,22 @@ typedef struct robot_object {
     PyObject *facts;  ///< a dict: what its files say beside the description; empty where there is no file
 } robot_object;
 
+/// What is kept of an obstacle or of a body that a link holds: the body, its name, the index of the link or None, its
+/// Pose in the frame of that link or the root link.
+typedef enum kept_place { KEPT_BODY, KEPT_NAME, KEPT_LINK, KEPT_POSE } kept_place;
+
+/// A body that the library took.
+typedef struct placed_body {
+    ovoid_id id;
+    uint32_t link; ///< OVOID_ROBOT_NONE: an obstacle
+    ovoid_pose pose;
+} placed_body;
+
 /// A robot among obstacles, with the checkers that no call is using.
 typedef struct cell_object {
     PyObject_HEAD ovoid_robot_cell *cell;
     robot_object *robot;
-    PyObject *kept; ///< a dict: the Shape or Compound of each id
+    PyObject *kept; ///< a dict: of each id a tuple, by the kept_place
     ovoid_robot_checker **idle;
     size_t idle_count, idle_capacity;
     size_t version; ///< grows with every change
@@ -34,6 +45,9 @@ PyObject *robot_wrap(PyTypeObject *type, ovoid_robot *robot, PyObject *shapes, P
 int robot_read(module_state *state, PyObject *from, const char *what, robot_object **to);
 /// A link by its name or index.
 int link_read(const robot_object *self, PyObject *from, uint32_t *to);
+/// What a state may be given as beside numbers, the name of one or a dict by variables' names, alone or in a list, as
+/// lists of numbers; a new reference.
+PyObject *states_resolve(const robot_object *self, PyObject *from);
 /// States (n, variables), or one (variables,): then axes is 1. The caller frees states->data.
 int states_read(const robot_object *self, PyObject *from, const char *what, int *axes, items *states);
 /// One state into memory of its own, which the caller frees; NULL: an exception.
@@ -55,8 +69,13 @@ PyObject *robot_shapes_make(module_state *state, const ovoid_robot_description *
 /// Every query of a cell is between these: count checkers, from the idle ones or new.
 int checkers_borrow(cell_object *self, ovoid_robot_checker **checkers, size_t count);
 void checkers_return(cell_object *self, ovoid_robot_checker *const *checkers, size_t count);
-/// An obstacle or attached body that the library took is kept alive.
-int cell_keep(cell_object *self, ovoid_id id, PyObject *body);
+/// Keeps an obstacle or attached body that the library took alive, with its name (NULL: "body ID") and its place.
+int cell_keep(cell_object *self, const placed_body *placed, PyObject *body, PyObject *name);
+
+// ---- side.c
+
+/// The Side of Python.
+PyObject *side_make(const cell_object *cell, const ovoid_robot_side *side);
 
 // ---- collide.c
 
@@ -80,16 +99,17 @@ typedef struct path_arguments {
 /// raised, nothing to free.
 int path_arguments_read(cell_object *cell, PyObject *arguments, PyObject *keywords, const char *format, char **names,
                         path_arguments *in);
-/// The StateAnswer and the Side of Python.
-PyObject *state_answer_make(module_state *state, const ovoid_robot_answer *answer);
-PyObject *side_make(module_state *state, const ovoid_robot_side *side);
+/// 1: an answer names a pair.
+int state_has_pair(const ovoid_robot_answer *answer);
+/// The StateAnswer of Python.
+PyObject *state_answer_make(const cell_object *cell, const ovoid_robot_answer *answer);
 /// Refuses options that C would read in another order, or not at all.
 int query_options_validate(module_state *state, const ovoid_robot_query_options *o);
 
 // ---- tables of methods, and what each file adds
 
 extern PyMethodDef robot_constructors[], robot_spheres_methods[], robot_matrix_methods[], robot_file_functions[];
-extern PyMethodDef cell_queries[], cell_clearances[], cell_scenes[], cell_proofs[], robot_functions[];
+extern PyMethodDef cell_queries[], cell_clearances[], cell_sides[], cell_scenes[], cell_proofs[], robot_functions[];
 extern PyMethodDef robot_facts_methods[];
 extern PyGetSetDef robot_fields[];
 extern PyMethodDef robot_proof_functions[];
