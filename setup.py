@@ -40,7 +40,12 @@ class CMakeBuild(build_ext):
                 break
             print(f"ovoid: not with {' '.join(parts)}: jansson, or expat or libyaml, is missing", file=sys.stderr)
         subprocess.run(["cmake", "--build", str(folder), "--target", "ovoid_python", f"-j{os.cpu_count()}"], check=True)
-        self.copy_file(folder / "python/ovoid/_ovoid.abi3.so", self.get_ext_fullpath(extension.name))
+        target = Path(self.get_ext_fullpath(extension.name))
+        self.copy_file(folder / "python/ovoid/_ovoid.abi3.so", target)
+        # The template of ovoid.show(), where `make page` has built it.
+        template = ROOT / "build/release/page.html"
+        if template.is_file():
+            self.copy_file(template, target.parent / "page.html")
 
 
 setup(

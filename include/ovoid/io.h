@@ -546,6 +546,10 @@ typedef struct ovoid_picture_options {
 OVOID_API ovoid_code ovoid_picture_write_svg(const char *path, const ovoid_picture *picture,
                                              const ovoid_picture_options *options, ovoid_error *error);
 
+/** Writes the picture to a stream, as one svg element. Its errors are those of ovoid_picture_write_svg. */
+OVOID_API ovoid_code ovoid_picture_write_stream(FILE *file, const ovoid_picture *picture,
+                                                const ovoid_picture_options *options, ovoid_error *error);
+
 /* ---- charts ---- */
 
 /** How a series is drawn. */

@@ -6,7 +6,9 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from . import _ovoid
+from ._draw import _repr_html_, _repr_svg_
 from ._enums import Code, Error
+from ._page import show_one
 
 
 def _count(number: int, noun: str) -> str:
@@ -90,6 +92,11 @@ def q_dict(self: Any, q: Any, /) -> dict[str, float]:
 for _name, _words in _WORDS.items():
     if hasattr(_ovoid, _name):
         setattr(getattr(_ovoid, _name), "__repr__", _make_repr(_name, _words))
+for _name in ("Answer", "Approach", "Bodies", "Cell", "Compound", "Impact", "Prepared", "Robot", "RobotPath", "Shape", "Solid", "World"):
+    if hasattr(_ovoid, _name):
+        setattr(getattr(_ovoid, _name), "show", show_one)
+        setattr(getattr(_ovoid, _name), "_repr_svg_", _repr_svg_)
+        setattr(getattr(_ovoid, _name), "_repr_html_", _repr_html_)
 if hasattr(_ovoid, "Robot"):
     for _method in (q, default_state, named_state, q_dict):
         setattr(_ovoid.Robot, _method.__name__, _method)

@@ -86,12 +86,14 @@ class Variable(NamedTuple):
 
 
 class Element(NamedTuple):
-    """A convex part of a link's collision geometry; pose in the link's frame."""
+    """A part of a link's collision geometry; pose in the link's frame. solid: counts in the place of the shape, which is its
+    hull, or None."""
 
     link: str
     shape: Shape
     pose: PoseLike = None
     name: str | None = None
+    solid: Solid | None = None
 
 
 class Side(NamedTuple):

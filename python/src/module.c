@@ -107,7 +107,7 @@ static int execute(PyObject *module) {
         own_methods,        query_methods,  batch_methods,     impact_methods, smooth_methods,
         array_methods,      bounds_methods, decompose_methods, state_methods,
 #ifdef OVOID_PYTHON_IO
-        shape_file_methods,
+        shape_file_methods, draw_methods,
 #endif
     };
     if (import_python(state_of_module(module))) return -1;

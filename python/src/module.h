@@ -337,7 +337,7 @@ int cell_add(PyObject *module);
 int robot_path_add(PyObject *module);
 
 extern PyMethodDef query_methods[], batch_methods[], impact_methods[], smooth_methods[], array_methods[],
-    bounds_methods[], shape_file_methods[], decompose_methods[], state_methods[];
+    bounds_methods[], shape_file_methods[], draw_methods[], decompose_methods[], state_methods[];
 extern PyMethodDef shape_constructors[], world_queries[], solid_decompositions[];
 
 /// Joins two tables of methods in `all`, which the type keeps, and enters it in the slots.

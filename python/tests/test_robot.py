@@ -3,6 +3,7 @@ distances beside gradients, the proofs' own checks."""
 
 import math
 import os
+import pickle
 import shutil
 import tempfile
 import threading
@@ -369,6 +370,25 @@ class Names(unittest.TestCase):
                 call()
         self.assertEqual(len(cell.names), 2)
 
+    def test_solids(self):
+        """A ball in the notch of an L is free of it; a robot that is pickled keeps its solids."""
+        outline = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
+        cap = [(3, 4, 5), (3, 5, 0), (3, 0, 1), (3, 1, 2)]
+        faces = [(a, c, b) for a, b, c in cap] + [(a + 6, b + 6, c + 6) for a, b, c in cap]
+        for i in range(6):
+            k = (i + 1) % 6
+            faces += [(i, k, k + 6), (i, k + 6, i + 6)]
+        corner = ovoid.Solid.from_triangles([(x, y, z) for z in (0, 1) for x, y in outline], faces)
+        joint = ovoid.Joint("j", "prismatic", "base", "tip", axis=(1, 0, 0), lower=-9, upper=9)
+        robot = ovoid.Robot(["base", "tip"], [joint], [("tip", corner)])
+        hulls = ovoid.Robot(["base", "tip"], [joint], [("tip", robot.elements[0].shape)])
+        statuses = []
+        for one in robot, pickle.loads(pickle.dumps(robot)), hulls:
+            cell = ovoid.Cell(one)
+            cell.add(BALL, (1.5, 1.5, 0.5))
+            statuses.append(str(cell.collide((0,)).status))
+        self.assertEqual(statuses, ["free", "free", "hit"])
+
     def test_states(self):
         arm = make_arm()
         cell = ovoid.Cell(arm)
@@ -409,6 +429,21 @@ class Files(unittest.TestCase):
         shape = self.read()[0].elements[2].shape
         self.assertAlmostEqual(shape.volume, 0.007, delta=1e-9)
         self.assertEqual(len(self.read(parts=True)[0].meshes), 1)
+
+    def test_solids_of_links(self):
+        """A robot of solids stays one of solids where it is made again of its parts."""
+        robot = self.read(os.path.join(ARM, "arm.srdf"), fixed_base=True)[0]
+        hand = robot.elements[2]
+        self.assertTrue(hand.solid.is_closed)
+        self.assertEqual(robot.elements[0].solid, None)
+        for again in (pickle.loads(pickle.dumps(robot)), ovoid.Robot(robot.links, robot.joints, robot.elements, robot.disabled),
+                      ovoid.Robot(robot.links, robot.joints, [(e.link, e.solid or e.shape, e.pose, e.name) for e in robot.elements])):
+            element = again.elements[2]
+            self.assertEqual(element.solid.faces.tolist(), hand.solid.faces.tolist())
+            self.assertAlmostEqual(element.shape.volume, hand.shape.volume, delta=1e-12)
+        for bad in (("hand", 3), ("hand", hand.shape, None, None, 3), ("hand", None, None, None, hand.shape)):
+            with self.assertRaisesRegex(TypeError, "a Shape or a Solid is wanted"):
+                ovoid.Robot(robot.links, robot.joints, [bad])
 
     def test_names(self):
         """Sides are called as the tool calls them: transcripts/robot_check.txt."""

@@ -435,6 +435,29 @@ static void check_bad(void) {
     ovoid_shape_destroy(shape);
 }
 
+// A stream receives the bytes of the file, and what it does not take is an error.
+static void check_stream(void) {
+    ovoid_shape *shape = ovoid_shape_create_box((ovoid_vec3){1, 2, 3}, NULL, NULL);
+    ovoid_picture_body body = make_body("box", shape, 0, 0, 0);
+    ovoid_picture picture = {.bodies = &body, .body_count = 1};
+    ovoid_error error = {OVOID_OK, -1, ""};
+    size_t size;
+    char *wanted = draw(&picture, NULL, &size);
+    FILE *file = fopen(file_path("stream.svg"), "wb");
+    CHECK(file && ovoid_picture_write_stream(file, &picture, NULL, &error) == OVOID_OK);
+    if (file) fclose(file);
+    char *text = file_read(file_path("stream.svg"), &size);
+    CHECK(text && strcmp(text, wanted) == 0);
+    file = fopen("/dev/full", "wb");
+    if (file) CHECK(ovoid_picture_write_stream(file, &picture, NULL, &error) == OVOID_ERROR_FILE);
+    if (file) fclose(file);
+    picture.body_count = 0;
+    CHECK(ovoid_picture_write_stream(stdout, &picture, NULL, &error) == OVOID_ERROR_EMPTY);
+    free(text);
+    free(wanted);
+    ovoid_shape_destroy(shape);
+}
+
 // A segment is drawn from end to end, though a vertex off it by less than rounding is the first or the last.
 static void check_nearly_straight(void) {
     const double ends[6] = {0, 0, 0, 39, 0, 0};
@@ -466,6 +489,7 @@ int main(void) {
     check_many();
     check_mesh();
     check_bad();
+    check_stream();
     check_nearly_straight();
     return check_end();
 }

@@ -1,4 +1,5 @@
 // Robot(...): a description that is read from tuples of names, Joints and elements.
+#include "src/query.h"
 #include "src/robot/robot.h"
 
 #include <stdlib.h>
@@ -125,37 +126,65 @@ static int read_joints(module_state *state, parts *p, PyObject *given) {
     return failed ? -1 : 0;
 }
 
-// (link, shape, pose, name)
-static int read_element(module_state *state, parts *p, PyObject *from, ovoid_robot_element *to, PyObject **shape) {
-    PyObject *link, *pose = Py_None, *name = Py_None;
+/// The bodies of an element, new references; the solid may be NULL.
+typedef struct element_bodies {
+    PyObject *shape, *solid;
+} element_bodies;
+
+// A solid's hull is made anew, whatever shape was given beside it: the library takes it for the hull.
+static int read_bodies(module_state *state, PyObject *body, PyObject *solid, element_bodies *to) {
+    if (Py_TYPE(body) == state->solid) solid = body;
+    if (solid == Py_None && Py_TYPE(body) == state->shape) {
+        to->shape = Py_NewRef(body);
+        return 0;
+    }
+    if (Py_TYPE(solid) != state->solid) {
+        PyErr_Format(PyExc_TypeError, "elements: a Shape or a Solid is wanted, not %R",
+                     (PyObject *)Py_TYPE(solid == Py_None ? body : solid));
+        return -1;
+    }
+    const ovoid_solid *of = ((solid_object *)solid)->solid;
+    ovoid_error error;
+    ovoid_shape *hull = ovoid_shape_create_from_points(ovoid_solid_get_points(of),
+                                                       (size_t)ovoid_solid_get_report(of).points, NULL, &error);
+    to->shape = shape_wrap(state, hull, &error);
+    to->solid = Py_NewRef(solid);
+    return to->shape ? 0 : -1;
+}
+
+// (link, shape, pose, name, solid)
+static int read_element(module_state *state, parts *p, PyObject *from, ovoid_robot_element *to,
+                        element_bodies *bodies) {
+    PyObject *link, *body, *pose = Py_None, *name = Py_None, *solid = Py_None;
     if (!PyTuple_Check(from)) {
         PyErr_Format(PyExc_TypeError, "elements: tuples (link, shape, pose, name) are wanted, not %R",
                      (PyObject *)Py_TYPE(from));
         return -1;
     }
-    if (!PyArg_ParseTuple(from, "OO|OO;elements: (link, shape, pose, name) is wanted", &link, shape, &pose, &name) ||
-        read_index(p->links, p->d.link_count, read_name(p, link, "elements"), "elements", &to->link))
+    if (!PyArg_ParseTuple(from, "OO|OOO;elements: (link, shape, pose, name) is wanted", &link, &body, &pose, &name,
+                          &solid) ||
+        read_index(p->links, p->d.link_count, read_name(p, link, "elements"), "elements", &to->link) ||
+        (name != Py_None && !(to->name = read_name(p, name, "elements"))) ||
+        pose_read(state, pose, "pose of an element", &to->pose) || read_bodies(state, body, solid, bodies))
         return -1;
-    if (Py_TYPE(*shape) != state->shape) {
-        PyErr_Format(PyExc_TypeError, "elements: a Shape is wanted, not %R", (PyObject *)Py_TYPE(*shape));
-        return -1;
-    }
-    to->shape = ((shape_object *)*shape)->shape;
-    if (name != Py_None && !(to->name = read_name(p, name, "elements"))) return -1;
-    return pose_read(state, pose, "pose of an element", &to->pose);
+    to->shape = ((shape_object *)bodies->shape)->shape;
+    if (bodies->solid) to->solid = ((solid_object *)bodies->solid)->solid;
+    return 0;
 }
 
-// The shapes go to a tuple; NULL: an exception.
+// The shapes go to a tuple, the solids behind them; NULL: an exception.
 static PyObject *read_elements(module_state *state, parts *p, PyObject *given) {
-    PyObject *elements = PySequence_Tuple(given), *shape;
+    PyObject *elements = PySequence_Tuple(given);
     Py_ssize_t count = elements ? PyTuple_Size(elements) : 0;
-    PyObject *shapes = elements ? PyTuple_New(count) : NULL;
+    PyObject *shapes = elements ? PyTuple_New(2 * count) : NULL;
     p->elements = shapes ? calloc((size_t)count + 1, sizeof *p->elements) : NULL;
     int failed = !p->elements || PyList_Append(p->kept, elements);
     if (shapes && !p->elements) PyErr_NoMemory();
     for (Py_ssize_t i = 0; !failed && i < count; i++) {
-        failed = read_element(state, p, PyTuple_GetItem(elements, i), &p->elements[i], &shape);
-        if (!failed) PyTuple_SetItem(shapes, i, Py_NewRef(shape));
+        element_bodies bodies = {NULL, NULL};
+        failed = read_element(state, p, PyTuple_GetItem(elements, i), &p->elements[i], &bodies);
+        PyTuple_SetItem(shapes, i, bodies.shape ? bodies.shape : Py_NewRef(Py_None));
+        PyTuple_SetItem(shapes, count + i, bodies.solid ? bodies.solid : Py_NewRef(Py_None));
     }
     Py_XDECREF(elements);
     if (failed) Py_CLEAR(shapes);

@@ -1,4 +1,5 @@
 // What a Robot is made of, as attributes: names, joints, variables, elements, limits, and what its files said beside.
+#include "src/query.h"
 #include "src/robot/robot.h"
 
 #include <string.h>
@@ -67,8 +68,9 @@ static PyObject *make_element(const void *context, size_t i) {
     PyObject *self = (PyObject *)context;
     const ovoid_robot_element *e = &ovoid_robot_get_description(get(self)).elements[i];
     PyObject *shape = PyTuple_GetItem(((robot_object *)self)->shapes, (Py_ssize_t)i);
-    return PyObject_CallFunction(state_of(self)->element, "NONN", make_link(self, e->link), shape,
-                                 pose_wrap(state_of(self), e->pose), robot_name_make(e->name));
+    PyObject *solid = e->solid ? solid_borrow(state_of(self), e->solid, self) : Py_NewRef(Py_None);
+    return PyObject_CallFunction(state_of(self)->element, "NONNN", make_link(self, e->link), shape,
+                                 pose_wrap(state_of(self), e->pose), robot_name_make(e->name), solid);
 }
 
 static PyObject *make_disabled(const void *context, size_t i) {
@@ -141,7 +143,8 @@ PyGetSetDef robot_fields[] = {
     {"links", get_links, NULL, "tuple[str, ...]: The links' names.", NULL},
     {"joints", get_joints, NULL, "tuple[Joint, ...]: The joints: Joint tuples.", NULL},
     {"variables", get_variables, NULL, "tuple[Variable, ...]: What the numbers of a state are: Variable tuples.", NULL},
-    {"elements", get_elements, NULL, "tuple[Element, ...]: The convex parts of the links: Element tuples.", NULL},
+    {"elements", get_elements, NULL, "tuple[Element, ...]: The parts of the links, shapes and solids: Element tuples.",
+     NULL},
     {"disabled", get_disabled, NULL,
      "tuple[tuple[str, str, str | None], ...]: Pairs of links that are never queried: (a, b, reason), sorted.", NULL},
     {"lower", get_limits, NULL, "Floats: The variables' lower limits, an array; -inf where there is none.", NULL},

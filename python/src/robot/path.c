@@ -206,6 +206,9 @@ static PyGetSetDef fields[] = {
     FIELD(path_object, DOUBLE, "free_until", of.free_until,
           "Proven: free at all s before it; s is i at state i, linear in between."),
     FIELD(path_object, DOUBLE, "hit_at", of.hit_at, "Where it is proven to be a hit; inf where it is not one."),
+    FIELD(path_object, DOUBLE, "margin", options.query.margin, "What is nearer than this counts as a hit."),
+    FIELD(path_object, DOUBLE, "limit_slack", options.query.limit_slack,
+          "By how much variables may be outside of their limits."),
     FIELD(path_object, UINT, "looked_at", of.states, "How many states were looked at."),
     {"hit", get_hit, NULL,
      "StateAnswer | None: The StateAnswer at hit_at, or of what is undecided or refused; None where it is free, or a "

@@ -295,8 +295,10 @@ static PyType_Slot slots[] = {
      "Robot(links: Sequence[str], joints: Sequence[Joint], elements: Sequence[tuple[Any, ...]] = (), disabled: "
      "Sequence[tuple[Any, ...]] = (), *, name: str | None = None) -> Robot\n--\n\nLinks that hang on joints. "
      "Robot.read reads a URDF.\n\nlinks: names. joints: Joint tuples, which make one tree of all links; mimic names "
-     "another joint. elements:\n(link, shape, pose, name) each, pose and name may be left out. disabled: pairs of "
-     "names. Lengths are the caller's\nunit, angles radians. Immutable; a Cell says what it touches."},
+     "another joint. elements:\n(link, shape, pose, name) each, pose and name may be left out; a Solid may be in the "
+     "place "
+     "of the shape. disabled: pairs of names.\nLengths are the caller's unit, angles radians. Immutable; a Cell says "
+     "what it touches."},
     {Py_tp_new, robot_new},
     {Py_tp_dealloc, robot_dealloc},
     {Py_tp_repr, repr},

@@ -244,16 +244,30 @@ static ovoid_code write_picture(const char *path, const ovoid_picture *picture, 
     return code;
 }
 
+static ovoid_code write_valid(const char *path, FILE *file, const ovoid_picture *picture,
+                              const ovoid_picture_options *options, ovoid_error *error) {
+    drawing d = make_drawing(picture, options, file);
+    locale_scope locale = locale_enter();
+    ovoid_code code = write_picture(path, picture, &d, error);
+    locale_leave(locale);
+    return code;
+}
+
+ovoid_code ovoid_picture_write_stream(FILE *file, const ovoid_picture *picture, const ovoid_picture_options *options,
+                                      ovoid_error *error) {
+    ovoid_code code = validate_picture("picture", picture, error);
+    if (!code) code = write_valid("picture", file, picture, options, error);
+    if (code || !(fflush(file) || ferror(file))) return code;
+    return io_fail(error, OVOID_ERROR_FILE, (where){"picture", 0, -1}, "the stream failed");
+}
+
 ovoid_code ovoid_picture_write_svg(const char *path, const ovoid_picture *picture, const ovoid_picture_options *options,
                                    ovoid_error *error) {
     ovoid_code code = validate_picture(path, picture, error);
     if (code) return code;
     ovoid_output *output = ovoid_output_open(path, error);
     if (!output) return OVOID_ERROR_FILE;
-    drawing d = make_drawing(picture, options, ovoid_output_get_file(output));
-    locale_scope locale = locale_enter();
-    code = write_picture(path, picture, &d, error);
-    locale_leave(locale);
+    code = write_valid(path, ovoid_output_get_file(output), picture, options, error);
     if (!code) code = ovoid_output_commit(output, error);
     ovoid_output_close(output);
     return code;
