@@ -42,10 +42,10 @@ class CMakeBuild(build_ext):
         subprocess.run(["cmake", "--build", str(folder), "--target", "ovoid_python", f"-j{os.cpu_count()}"], check=True)
         target = Path(self.get_ext_fullpath(extension.name))
         self.copy_file(folder / "python/ovoid/_ovoid.abi3.so", target)
-        # The template of ovoid.show(), where `make page` has built it.
-        template = ROOT / "build/release/page.html"
-        if template.is_file():
-            self.copy_file(template, target.parent / "page.html")
+        # The planners, where OMPL is; the template of ovoid.show(), where `make page` has built it.
+        for more in (folder / "python/ovoid/_ompl.abi3.so", ROOT / "build/release/page.html"):
+            if more.is_file():
+                self.copy_file(more, target.parent / more.name)
 
 
 setup(

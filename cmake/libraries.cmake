@@ -1,5 +1,5 @@
 # What ovoid stands on. The core: libm. libovoid_io: jansson and Assimp. libovoid_robot, where it reads: expat and libyaml. The exact judge: GMP. One test: Qhull, as a peer.
-# <ovoid/ompl.hpp>, which is a header alone, is tested, and `ovoid robot plan` is built, where OMPL and a C++ compiler are.
+# <ovoid/ompl.hpp>, which is a header alone, is tested, and `ovoid robot plan` and Python's `Cell.plan` are built, where OMPL and a C++ compiler are.
 
 # ovoid_find(NAME header library package): an interface target ovoid_NAME, or a sentence that names what is missing.
 function(ovoid_find name header library package required)
@@ -33,7 +33,7 @@ endif()
 if(OVOID_JUDGE)
   ovoid_find(gmp gmp.h gmp libgmp-dev FALSE)
 endif()
-if(OVOID_IO AND OVOID_ROBOT AND (OVOID_CLI OR OVOID_TESTS OR OVOID_EXAMPLES OR OVOID_BENCH))
+if(OVOID_IO AND OVOID_ROBOT AND (OVOID_CLI OR OVOID_PYTHON OR OVOID_TESTS OR OVOID_EXAMPLES OR OVOID_BENCH))
   include(CheckLanguage)
   check_language(CXX)
   find_path(OVOID_EIGEN_FOLDER Eigen/Geometry PATH_SUFFIXES eigen3)

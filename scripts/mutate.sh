@@ -65,7 +65,7 @@ tests_of() {
     page) echo "test_cli.sh:page test_page.sh" ;;
     report) echo "test_cli.sh:paper" ;;
     robot_spheres) echo "test_robot_spheres" ;;
-    python) echo "test_python_pair test_python_batch test_python_world test_python_motion test_python_robot test_python_prepared test_python_solid test_python_robot_paths test_python_show test_python_names" ;;
+    python) echo "test_python_pair test_python_batch test_python_world test_python_motion test_python_robot test_python_prepared test_python_solid test_python_robot_paths test_python_show test_python_plan test_python_names" ;;
     python_solid) echo "test_python_solid_moving test_python_solid_parts test_python_solid test_python_trimesh_compat" ;;
     *) return 1 ;;
     esac

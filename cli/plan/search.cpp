@@ -56,12 +56,18 @@ void set_ends(og::SimpleSetup &setup, const ovoid::robot_space &space, const sea
     setup.setGoal(goals);
 }
 
+/// True as soon as the watch ends the search.
+ob::PlannerTerminationCondition make_end(const ovoid_watch &watch) {
+    if (!watch.is_stopped) return ob::plannerNonTerminatingCondition();
+    return ob::PlannerTerminationCondition([&watch] { return watch.is_stopped(watch.context) != 0; });
+}
+
 /// Ends with the first path, whatever else the planner would go on for.
-bool solve(og::SimpleSetup &setup, double seconds) {
+bool solve(og::SimpleSetup &setup, double seconds, const ob::PlannerTerminationCondition &end) {
     const auto &definition = setup.getProblemDefinition();
     const auto until = ob::plannerOrTerminationCondition(ob::timedPlannerTerminationCondition(seconds),
                                                          ob::exactSolnPlannerTerminationCondition(definition));
-    (void)setup.solve(until);
+    (void)setup.solve(ob::plannerOrTerminationCondition(until, end));
     return definition->hasExactSolution();
 }
 
@@ -84,12 +90,13 @@ void search(const search_problem &p, search_result &found) {
     set_ends(setup, *space, p);
     setup.setPlanner(make_planner(p.planner, setup.getSpaceInformation()));
     const double begun = get_seconds();
-    const bool is_found = solve(setup, p.seconds);
+    const auto end = make_end(p.watch);
+    const bool is_found = solve(setup, p.seconds, end) && !end;
     found.planned = get_seconds() - begun;
     if (is_found) {
         og::PathGeometric &path = setup.getSolutionPath();
         found.raw_length = path.length();
-        if (!p.is_raw) og::PathSimplifier(setup.getSpaceInformation(), setup.getGoal()).simplifyMax(path);
+        if (!p.is_raw) og::PathSimplifier(setup.getSpaceInformation(), setup.getGoal()).simplify(path, end);
         found.shortened = get_seconds() - begun - found.planned;
         found.length = path.length();
         take_states(space->make_states(path, {p.start, n}), path.getStateCount(), found);

@@ -1,4 +1,5 @@
-// The search for a path with a planner of OMPL; the only room of the tool in C++.
+// The search for a path with a planner of OMPL; the only room of the tool in C++. The Python package has it too, in an
+// extension of its own.
 #ifndef OVOID_CLI_PLAN_SEARCH_H
 #define OVOID_CLI_PLAN_SEARCH_H
 
@@ -23,7 +24,8 @@ typedef struct search_problem {
     search_planner planner;
     unsigned seed; ///< not 0
     double seconds;
-    int is_raw; ///< 1: not shortened
+    int is_raw;        ///< 1: not shortened
+    ovoid_watch watch; ///< ends the search: then there is no path
 } search_problem;
 
 /// Room for a sentence about what is wrong.
@@ -39,8 +41,14 @@ typedef struct search_result {
     char why[SEARCH_WHY_ROOM]; ///< not "": the planner or the space refused
 } search_result;
 
-/// Searches on one thread: the same problem gives the same path. One search a process, since OMPL seeds once.
+/// Searches on one thread: the same problem gives the same path. One search at a time in a process, which has one seed.
 search_result search_path(const search_problem *problem);
+
+/// Where another library finds the search, of the same version alone.
+typedef struct search_entry {
+    const char *version; ///< ovoid_get_version()
+    search_result (*search)(const search_problem *problem);
+} search_entry;
 
 #ifdef __cplusplus
 }

@@ -21,6 +21,7 @@ from ._ovoid import __version__, has_io, has_robot
 from . import _faces, _pickle
 from ._draw import Picture, draw
 from ._page import show
+from ._planning import Plan
 from ._values import (Cast, Clearance, Comparison, Contacts, Element, Hit, Joint, MatrixPair, MotionRequest, Obstacle,
                       PartsAudit, Side, SphereAudit, StateAnswer, Trajectory, Variable)
 

@@ -9,6 +9,7 @@ from . import _ovoid
 from ._draw import _repr_html_, _repr_svg_
 from ._enums import Code, Error
 from ._page import show_one
+from ._planning import plan
 
 
 def _count(number: int, noun: str) -> str:
@@ -100,3 +101,5 @@ for _name in ("Answer", "Approach", "Bodies", "Cell", "Compound", "Impact", "Pre
 if hasattr(_ovoid, "Robot"):
     for _method in (q, default_state, named_state, q_dict):
         setattr(_ovoid.Robot, _method.__name__, _method)
+if hasattr(_ovoid, "Cell"):
+    setattr(_ovoid.Cell, "plan", plan)

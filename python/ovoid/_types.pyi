@@ -1,6 +1,6 @@
 # The names that the signatures use, for type checkers alone: there is no such module when a program runs.
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any, Literal, Protocol, SupportsIndex, TypeAlias
 
 import numpy as np
@@ -39,6 +39,8 @@ PosesLike: TypeAlias = Sequence[PoseLike] | Numbers
 MotionLike: TypeAlias = Motion | PoseLike
 Order: TypeAlias = Literal["wxyz", "xyzw"] | None
 Allowance: TypeAlias = tuple[float, float] | tuple[float, float, Vec3]
+StateLike: TypeAlias = str | Mapping[str, float] | Numbers  # the name of a state, a dict by variables' names, or numbers
+StatesLike: TypeAlias = Sequence[StateLike] | StateLike
 LinkLike: TypeAlias = str | SupportsIndex  # a name or an index
 PathLike: TypeAlias = str | bytes | os.PathLike[str]
 Progress: TypeAlias = Callable[[int, int], object]

@@ -389,9 +389,10 @@ static PyType_Spec spec = {"ovoid.Cell", sizeof(cell_object), 0, Py_TPFLAGS_DEFA
 
 int cell_add(PyObject *module) {
     static PyMethodDef queries[24], all[24];
-    static PyMethodDef about[8];
+    static PyMethodDef about[8], found[8];
     slots_set_methods(slots, about, cell_clearances, cell_sides);
-    slots_set_methods(slots, queries, cell_queries, about);
+    slots_set_methods(slots, found, about, cell_plans);
+    slots_set_methods(slots, queries, cell_queries, found);
     slots_set_methods(slots, all, own_methods, queries);
 #ifdef OVOID_PYTHON_ROBOT_READ
     static PyMethodDef files[8], with_files[32];

@@ -46,7 +46,7 @@ static PyObject *clearance(PyObject *object, PyObject *arguments, PyObject *keyw
 
 PyMethodDef cell_clearances[] = {
     {"clearance", METHOD_KEYWORDS(clearance), METH_VARARGS | METH_KEYWORDS,
-     "clearance(states: Numbers, *, " ROBOT_QUERY_SIGNATURE
+     "clearance(states: StatesLike, *, " ROBOT_QUERY_SIGNATURE
      ", tolerance: float = 0, most_states: int = 0) -> Clearance\n--\n\nThe least signed distance of any pair at any "
      "time of the path through states (n, variables), linear in between: a\nClearance, whose bracket is proven. "
      "margin: of its status. tolerance: of the bracket, a length, 0: 1/1024 of the\nradius of the largest element; "

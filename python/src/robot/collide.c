@@ -203,11 +203,7 @@ static int read_input(cell_object *self, states_input *in, job *j) {
     j->variables = robot_variable_count(self->robot);
     if (query_options_validate(state, &j->options)) return -1;
     if (threads_validate(state, in->threads) || progress_validate(in->progress)) return -1;
-    PyObject *given = states_resolve(self->robot, in->q);
-    int failed =
-        !given || items_read(state, given, "q", 2, (Py_ssize_t[]){-1, (Py_ssize_t)j->variables}, 'd', &in->states);
-    Py_XDECREF(given);
-    if (failed) return -1;
+    if (state_rows_read(self->robot, in->q, "q", &in->states)) return -1;
     j->q = in->states.data;
     j->count = (size_t)in->states.shape[0];
     j->checker_count = (size_t)in->threads;
@@ -288,33 +284,34 @@ PyObject *find_hit(PyObject *object, PyObject *arguments, PyObject *keywords);
     "link's frame), has_gradient; and the gradients\nd distance / d q, "
 PyMethodDef cell_queries[] = {
     {"collide", METHOD_KEYWORDS(collide), METH_VARARGS | METH_KEYWORDS,
-     "collide(q: Numbers, *, " ROBOT_QUERY_SIGNATURE
+     "collide(q: StateLike, *, " ROBOT_QUERY_SIGNATURE
      ") -> StateAnswer\n--\n\nIs a state, an array (variables,), free? A StateAnswer: its status is FREE (all pairs "
      "proven farther apart than\nmargin), HIT (a pair proven within it), UNDECIDED (treat it as a hit) or REFUSED "
      "(outside its limits by more than\nlimit_slack). Begins with the pair that ended the state before."},
     {"collide_batch", METHOD_KEYWORDS(collide_batch), METH_VARARGS | METH_KEYWORDS,
-     "collide_batch(q: Numbers, *, " ROBOT_QUERY_SIGNATURE
+     "collide_batch(q: StatesLike, *, " ROBOT_QUERY_SIGNATURE
      ", threads: int = 1, out: Records | None = None, progress: Progress | None = None) -> Records\n--\n\nMany states, "
      "(n, variables): an array of n records status (RobotStatus by number), code, variable, link_a, "
      "element_a,\nbody_a, part_a, link_b, ..., lower, upper; 2**32 - 1 is no link, no element. The same bits on any "
      "number of threads.\nout: an array of zeros('states', n). progress(done, total) is called now and then; Ctrl-C "
      "ends it."},
     {"near", METHOD_KEYWORDS(near), METH_VARARGS | METH_KEYWORDS,
-     "near(q: Numbers, margin: float, *, limit_slack: float = 0, without_self: bool = False, without_obstacles: bool = "
+     "near(q: StateLike, margin: float, *, limit_slack: float = 0, without_self: bool = False, without_obstacles: bool "
+     "= "
      "False, without_depths: bool = False) -> tuple[Records, Floats]\n--\n\nAll pairs that are not proven farther "
      "apart than margin, nearest first: " NEAR_DOC "(m, variables). without_depths: of most pairs that overlap only "
      "that is\nsaid, by a bracket that ends below zero."},
     {"nearest", METHOD_KEYWORDS(nearest), METH_VARARGS | METH_KEYWORDS,
-     "nearest(q: Numbers, *, " NEAREST_SIGNATURE
+     "nearest(q: StateLike, *, " NEAREST_SIGNATURE
      ") -> tuple[Records, Floats]\n--\n\nThe nearest pair, where one is not proven farther apart than margin: one "
      "record or none, as of near, and its gradient."},
     {"nearest_batch", METHOD_KEYWORDS(nearest_batch), METH_VARARGS | METH_KEYWORDS,
-     "nearest_batch(q: Numbers, *, " NEAREST_SIGNATURE
+     "nearest_batch(q: StatesLike, *, " NEAREST_SIGNATURE
      ", progress: Progress | None = None) -> tuple[Records, Floats]\n--\n\nThe nearest pair of many states, (n, "
      "variables): n " NEAR_DOC "(n, variables). Where none is within margin, lower is margin\nand upper inf. A state "
      "that is refused raises Error, place its number."},
     {"find_hit", METHOD_KEYWORDS(find_hit), METH_VARARGS | METH_KEYWORDS,
-     "find_hit(states: Numbers, *, " ROBOT_QUERY_SIGNATURE
+     "find_hit(states: StatesLike, *, " ROBOT_QUERY_SIGNATURE
      ", tolerance: float = 0, most_states: int = 0, any_hit: bool = False) -> RobotPath\n--\n\nIs the path through "
      "states (n, variables), linear in between, free at all times? A RobotPath with its proof,\nwhich verify() checks. "
      "tolerance: of hit_at - free_until, 0: 2**-20; most_states: looked at, 0: 100 000. any_hit: the search ends with "

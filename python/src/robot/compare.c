@@ -93,7 +93,7 @@ static PyObject *compare_states(PyObject *module, PyObject *arguments, PyObject 
     if (variables != of_model)
         return raise_code(state, OVOID_ERROR_ARGUMENT, -1, "the robot has %zu variables and its model %zu", variables,
                           of_model);
-    if (items_read(state, given, "q", 2, (Py_ssize_t[]){-1, (Py_ssize_t)variables}, 'd', &states)) return NULL;
+    if (state_rows_read(cells[0]->robot, given, "q", &states)) return NULL;
     PyObject *made = compare_read(state, cells, &states, &o, progress);
     free(states.data);
     return made;
@@ -101,7 +101,7 @@ static PyObject *compare_states(PyObject *module, PyObject *arguments, PyObject 
 
 PyMethodDef robot_functions[] = {
     {"compare_states", METHOD_KEYWORDS(compare_states), METH_VARARGS | METH_KEYWORDS,
-     "compare_states(robot: Cell, model: Cell, q: Numbers, *, " ROBOT_QUERY_SIGNATURE
+     "compare_states(robot: Cell, model: Cell, q: StatesLike, *, " ROBOT_QUERY_SIGNATURE
      ", progress: Progress | None = None) -> Comparison\n--\n\nIn which states (n, variables) do two Cells disagree, "
      "of a robot and of a model of it such as robot.with_spheres(...)?\nA Comparison: counts, an Agreement of each "
      "state, and the missed state where the robot overlaps most. What is said to\nbe missed or invented is proven. "

@@ -78,11 +78,7 @@ int path_arguments_read(cell_object *cell, PyObject *arguments, PyObject *keywor
         return -1;
     }
     in->most_states = (uint32_t)most;
-    Py_ssize_t variables = (Py_ssize_t)robot_variable_count(cell->robot);
-    given = states_resolve(cell->robot, given);
-    int failed = !given || items_read(state, given, "states", 2, (Py_ssize_t[]){-1, variables}, 'd', &in->states);
-    Py_XDECREF(given);
-    return failed ? -1 : 0;
+    return state_rows_read(cell->robot, given, "states", &in->states);
 }
 
 PyObject *find_hit(PyObject *object, PyObject *arguments, PyObject *keywords);

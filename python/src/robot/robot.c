@@ -76,7 +76,7 @@ static PyObject *resolve_one(const robot_object *self, PyObject *from) {
     return is_named_state(from) ? PyObject_CallMethod((PyObject *)self, "q", "O", from) : Py_NewRef(from);
 }
 
-PyObject *states_resolve(const robot_object *self, PyObject *from) {
+static PyObject *resolve_states(const robot_object *self, PyObject *from) {
     int is_list = PyList_Check(from) || PyTuple_Check(from), has_named = 0;
     Py_ssize_t count = is_list ? PySequence_Size(from) : 0;
     PyObject *list = is_list ? PySequence_Tuple(from) : NULL;
@@ -92,24 +92,32 @@ PyObject *states_resolve(const robot_object *self, PyObject *from) {
     return made;
 }
 
-int states_read(const robot_object *self, PyObject *from, const char *what, int *axes, items *states) {
+// States of so many axes; 0: as many as are given.
+static int read_axes(const robot_object *self, PyObject *from, const char *what, int *axes, items *states) {
     Py_ssize_t count = (Py_ssize_t)robot_variable_count(self);
-    PyObject *given = states_resolve(self, from);
+    PyObject *given = resolve_states(self, from);
     if (!given) return -1;
-    *axes = array_axes(given);
+    if (!*axes) *axes = array_axes(given);
     int failed = items_read(state_of((PyObject *)self), given, what, *axes,
                             *axes == 1 ? (Py_ssize_t[]){count} : (Py_ssize_t[]){-1, count}, 'd', states);
     Py_DECREF(given);
     return failed;
 }
 
+int states_read(const robot_object *self, PyObject *from, const char *what, int *axes, items *states) {
+    *axes = 0;
+    return read_axes(self, from, what, axes, states);
+}
+
+int state_rows_read(const robot_object *self, PyObject *from, const char *what, items *states) {
+    int axes = 2;
+    return read_axes(self, from, what, &axes, states);
+}
+
 double *state_read(const robot_object *self, PyObject *from) {
     items state;
-    Py_ssize_t count = (Py_ssize_t)robot_variable_count(self);
-    PyObject *given = resolve_one(self, from);
-    int failed = !given || items_read(state_of((PyObject *)self), given, "q", 1, &count, 'd', &state);
-    Py_XDECREF(given);
-    return failed ? NULL : state.data;
+    int axes = 1;
+    return read_axes(self, from, "q", &axes, &state) ? NULL : state.data;
 }
 
 // ---- where its links are
@@ -268,14 +276,15 @@ static PyObject *repr(PyObject *self) {
 
 static PyMethodDef own_methods[] = {
     {"poses", METHOD_KEYWORDS(poses), METH_VARARGS | METH_KEYWORDS,
-     "poses(q: Numbers, *, order: Order = None) -> Floats\n--\n\nWhere the links are, in the root link's frame: of one "
+     "poses(q: StatesLike, *, order: Order = None) -> Floats\n--\n\nWhere the links are, in the root link's frame: of "
+     "one "
      "state (variables,) an array (links, 4, 4), of many (n, variables)\n(n, links, 4, 4). order 'wxyz' or 'xyzw': x y "
      "z and a quaternion instead, (..., 7). Limits are not looked at."},
     {"pose_errors", pose_errors, METH_O,
-     "pose_errors(q: Numbers, /) -> Floats\n--\n\nHow far the poses of one state are from the exact kinematics at "
+     "pose_errors(q: StateLike, /) -> Floats\n--\n\nHow far the poses of one state are from the exact kinematics at "
      "most: an array (links, 2), of the origin (a length) and\nof the rotation (operator norm)."},
     {"validate_limits", METHOD_KEYWORDS(validate_limits), METH_VARARGS | METH_KEYWORDS,
-     "validate_limits(q: Numbers, slack: float = 0) -> None\n--\n\nRaises Error, place the variable, where one is "
+     "validate_limits(q: StateLike, slack: float = 0) -> None\n--\n\nRaises Error, place the variable, where one is "
      "outside its limits by more than slack."},
     {"is_rigid_pair", is_rigid_pair, METH_VARARGS,
      "is_rigid_pair(a: LinkLike, b: LinkLike, /) -> bool\n--\n\nTrue where nothing but fixed joints is between two "

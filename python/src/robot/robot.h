@@ -45,11 +45,11 @@ PyObject *robot_wrap(PyTypeObject *type, ovoid_robot *robot, PyObject *shapes, P
 int robot_read(module_state *state, PyObject *from, const char *what, robot_object **to);
 /// A link by its name or index.
 int link_read(const robot_object *self, PyObject *from, uint32_t *to);
-/// What a state may be given as beside numbers, the name of one or a dict by variables' names, alone or in a list, as
-/// lists of numbers; a new reference.
-PyObject *states_resolve(const robot_object *self, PyObject *from);
-/// States (n, variables), or one (variables,): then axes is 1. The caller frees states->data.
+/// States (n, variables), or one (variables,): then axes is 1. The caller frees states->data. A state is numbers, its
+/// name in the SRDF, or a dict by the variables' names.
 int states_read(const robot_object *self, PyObject *from, const char *what, int *axes, items *states);
+/// States (n, variables) alone.
+int state_rows_read(const robot_object *self, PyObject *from, const char *what, items *states);
 /// One state into memory of its own, which the caller frees; NULL: an exception.
 double *state_read(const robot_object *self, PyObject *from);
 size_t robot_variable_count(const robot_object *self);
@@ -109,7 +109,8 @@ int query_options_validate(module_state *state, const ovoid_robot_query_options 
 // ---- tables of methods, and what each file adds
 
 extern PyMethodDef robot_constructors[], robot_spheres_methods[], robot_matrix_methods[], robot_file_functions[];
-extern PyMethodDef cell_queries[], cell_clearances[], cell_sides[], cell_scenes[], cell_proofs[], robot_functions[];
+extern PyMethodDef cell_queries[], cell_clearances[], cell_sides[], cell_plans[], cell_scenes[], cell_proofs[],
+    robot_functions[];
 extern PyMethodDef robot_facts_methods[];
 extern PyGetSetDef robot_fields[];
 extern PyMethodDef robot_proof_functions[];
