@@ -80,14 +80,14 @@ run_problems() {
 }
 
 : >"$work/table"
-options="--srdf $data/panda_mbm/panda.srdf --fixed-base -p meshes=$data/panda_mbm/meshes"
+options="--srdf $data/panda_mbm/panda.srdf -p meshes=$data/panda_mbm/meshes"
 run_problems panda "$data/panda/mbm_problems.tar.bz2" "$wanted" "$data/panda_mbm/panda.urdf"
-options="--srdf $data/fetch_mbm/fetch.srdf --fixed-base -p meshes=$data/fetch_mbm/meshes"
+options="--srdf $data/fetch_mbm/fetch.srdf -p meshes=$data/fetch_mbm/meshes"
 run_problems fetch "$data/fetch_mbm/problems.tar.bz2" "$wanted" "$data/fetch_mbm/fetch.urdf"
 scenes=1
 for robot in kinova_jaco/robots/kinova.urdf:kinova_jaco/srdf/kinova.srdf solo12/robots/solo12.urdf:solo12/srdf/solo.srdf \
     anymal_b/robots/anymal.urdf:anymal_b/srdf/anymal.srdf; do
-    options="--srdf $data/${robot#*:} --fixed-base"
+    options="--srdf $data/${robot#*:}"
     name=${robot%%/*}
     run_scene "$name" "$wanted" "$data/${robot%:*}"
 done

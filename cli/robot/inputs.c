@@ -107,7 +107,7 @@ static int read_file(const robot_texts *texts, const robot_settings *s, const pa
                                         .scales = scales->items,
                                         .scale_count = scales->count,
                                         .visual = s->visual,
-                                        .fixed_base = s->fixed_base,
+                                        .fixed_base = !s->free_base,
                                         .tolerance = s->tolerance,
                                         .note = robot_warn,
                                         .context = robot};
@@ -175,8 +175,11 @@ int robot_open_beside(const cli_command *command, const char *urdf, const robot_
 }
 
 int robot_settle(const cli_command *command, const robot_settings *settings) {
-    if (!settings->hull || !settings->parts) return -1;
-    return args_complain(command, "%s: --hull does not go with --parts", command->name);
+    if (settings->hull && settings->parts)
+        return args_complain(command, "%s: --hull does not go with --parts", command->name);
+    if (settings->free_base && settings->fixed_base)
+        return args_complain(command, "%s: --free-base does not go with --fixed-base", command->name);
+    return -1;
 }
 
 int robot_open(const cli_command *command, const char *urdf, const robot_settings *settings, cli_robot *robot) {

@@ -12,7 +12,7 @@ typedef struct robot_settings {
     args_list packages; ///< NAME=DIR
     args_list scales;   ///< LINK=F or F
     args_list xacro;    ///< NAME:=VALUE
-    int parts, visual, fixed_base;
+    int parts, visual, free_base, fixed_base;
     int hull;         ///< meshes are their hulls, of links and obstacles
     double tolerance; ///< of cylinders; 0: radius/200
 } robot_settings;
@@ -25,7 +25,7 @@ typedef struct robot_settings {
      offsetof(settings, robot.srdf),                                                                                   \
      "FILE",                                                                                                           \
      NULL,                                                                                                             \
-     "the SRDF: disabled pairs, groups, named states, a base that moves"},                                             \
+     "the SRDF: disabled pairs, groups, named states, a base that can move"},                                          \
         {"package",                                                                                                    \
          'p',                                                                                                          \
          OPTION_LIST,                                                                                                  \
@@ -71,13 +71,21 @@ typedef struct robot_settings {
          NULL,                                                                                                         \
          NULL,                                                                                                         \
          "links without collision geometry take their visual one"},                                                    \
+        {"free-base",                                                                                                  \
+         0,                                                                                                            \
+         OPTION_FLAG,                                                                                                  \
+         offsetof(settings, robot.free_base),                                                                          \
+         NULL,                                                                                                         \
+         NULL,                                                                                                         \
+         "the virtual joint of the SRDF moves the robot, with variables of its own (default: the root link does not "  \
+         "move)"},                                                                                                     \
         {"fixed-base",                                                                                                 \
          0,                                                                                                            \
          OPTION_FLAG,                                                                                                  \
          offsetof(settings, robot.fixed_base),                                                                         \
          NULL,                                                                                                         \
          NULL,                                                                                                         \
-         "the virtual joint of the SRDF adds nothing: the root link does not move"},                                   \
+         "the root link does not move, as it does not without this option"},                                           \
     {                                                                                                                  \
         "cylinder-tolerance", 0, OPTION_POSITIVE, offsetof(settings, robot.tolerance), "T", NULL,                      \
             "the most by which the prism that holds a cylinder may be inside it, in metres (default: 1/200 of its "    \

@@ -81,9 +81,8 @@ static int plan(char **names) {
     const std::size_t steps = prove(cell, states, count, how);
     write_csv(names[5], robot, states);
     std::printf("%zu states; free at all times, %zu steps of the proof hold\n", count, steps);
-    std::printf(
-        "its page: ovoid robot path %s --srdf %s --scene %s --fixed-base --margin %g --states %s --html path.html\n",
-        names[1], names[2], names[3], how.margin, names[5]);
+    std::printf("its page: ovoid robot path %s --srdf %s --scene %s --margin %g --states %s --html path.html\n",
+                names[1], names[2], names[3], how.margin, names[5]);
     return 0;
 }
 

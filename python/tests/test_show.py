@@ -94,7 +94,7 @@ class Pictures(unittest.TestCase):
 
     @unittest.skipUnless(ovoid.has_robot, "built without libovoid_robot")
     def test_robot(self):
-        robot = read_robot(fixed_base=True)
+        robot = read_robot()
         cell = ovoid.Cell(robot)
         cell.read(os.path.join(ARM, "cell.yaml"))
         self.assertLessEqual({"base", "upper", "hand"}, set(find_texts(ovoid.draw(robot).svg)))  # the fingers' names have no room
@@ -239,7 +239,7 @@ class Robots(Paged):
 
     @unittest.skipUnless(os.path.exists(TOOL), "the tool is not built")
     def test_as_the_tool(self):
-        for words, how in ((), {}), (("--fixed-base",), {"fixed_base": True}), (("--fixed-base", "--parts"), {"fixed_base": True, "parts": True}):
+        for words, how in ((), {}), (("--free-base",), {"fixed_base": False}), (("--parts",), {"parts": True}):
             cell = self.make(**how)
             files = [os.path.join(ARM, "arm.urdf"), "--srdf", os.path.join(ARM, "arm.srdf"), "--scene", os.path.join(ARM, "cell.yaml"), *words]
             files += ["--padding", "0.01"]
@@ -256,7 +256,7 @@ class Robots(Paged):
                 self.assertEqual(data, self.ask_tool("robot", "path", *files, "--state", "up", "--state", f"shoulder={end}", "--limit-slack", "0", "--margin", "0.005"))
 
     def test_held(self):
-        cell = self.make(fixed_base=True)
+        cell = self.make()
         cell.attach("hand", ovoid.Compound([BOX, PILL]), (9, 0, 0), name="tool")
         cell.add(BOX, (0, 0, 9), name="table")
         data = self.show((cell, [0.5, 0, 0]))["robot"]

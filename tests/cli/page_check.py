@@ -253,7 +253,7 @@ def check_motion():
 
 def check_robot():
     arm = os.path.join(sys.argv[2], "arm")
-    robot = [f"{arm}/arm.urdf", "--srdf", f"{arm}/arm.srdf", "--fixed-base", "--parts", "--scene", f"{arm}/cell.yaml"]
+    robot = [f"{arm}/arm.urdf", "--srdf", f"{arm}/arm.srdf", "--parts", "--scene", f"{arm}/cell.yaml"]
     info = lines("robot", "info", *robot[:5], "--json")[0]
     answers = lines("robot", "check", *robot, "--states", f"{arm}/states.csv", "--near", "9", "--json", "--html", "states.html")
     data = read("states.html")
@@ -332,7 +332,7 @@ def check_many_states():
     arm = os.path.join(sys.argv[2], "arm")
     with open("states.csv", "w") as file:
         file.write("time,shoulder\n" + "".join(f"{i},{i / 1e6!r}\n" for i in range(10004)))
-    robot = [f"{arm}/arm.urdf", "--fixed-base", "--hull", "--states", "states.csv", "--csv", "-o", "states.out"]
+    robot = [f"{arm}/arm.urdf", "--hull", "--states", "states.csv", "--csv", "-o", "states.out"]
     said = run("robot", "check", *robot, "--html", "many_states.html")[1]
     data = read("many_states.html")
     check("many states", [len(data["robot"][key]) for key in ("states", "answers")] == [10000] * 2 and data["left_out"] == {"states": 4}

@@ -85,7 +85,7 @@ spoil() {
     fi
 }
 
-cell="arm/arm.urdf --srdf arm/arm.srdf --fixed-base --parts --scene arm/cell.yaml"
+cell="arm/arm.urdf --srdf arm/arm.srdf --parts --scene arm/cell.yaml"
 # shellcheck disable=SC2086 # a list of options
 "$OVOID_TOOL" robot path $cell --states arm/path.csv --margin 0.01 --proofs -o free.jsonl 2>/dev/null
 printf 'shoulder,time\n0,0\n1.4,2\n' >times.csv

@@ -39,7 +39,7 @@ awk 'BEGIN { srand(3); n = 60
     for (i = 0; i < 1900; i++) printf "%.6f,%.6f\n", 4.2 * rand() - 1.6, rand() >"states.csv" }'
 printf '%s/cube.off\n%s/tetra.obj\n' "$data" "$data" >shapes.txt
 
-robot="robot check $data/arm/arm.urdf --srdf $data/arm/arm.srdf --fixed-base --parts --scene $data/arm/cell.yaml --states states.csv"
+robot="robot check $data/arm/arm.urdf --srdf $data/arm/arm.srdf --parts --scene $data/arm/cell.yaml --states states.csv"
 has_robot=1
 "$OVOID_TOOL" robot --help >/dev/null 2>&1 || has_robot=0
 

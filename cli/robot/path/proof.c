@@ -144,7 +144,7 @@ void proof_write_source(FILE *file, const proof_source *source) {
     write_flag(file, "parts", s->robot->parts);
     write_flag(file, "hull", s->robot->hull);
     write_flag(file, "visual", s->robot->visual);
-    write_flag(file, "fixed_base", s->robot->fixed_base);
+    write_flag(file, "fixed_base", !s->robot->free_base);
     member_write_number(file, ",", "cylinder_tolerance", s->robot->tolerance);
     member_write_number(file, ",", "margin", s->margin);
     member_write_number(file, ",", "limit_slack", s->slack);

@@ -260,7 +260,7 @@ static PyObject *read_robot(PyObject *type, PyObject *arguments, PyObject *keywo
                             "solids", "scales", "fixed_base", "tolerance", NULL};
     int solids = 1;
     PyObject *srdf = Py_None;
-    read_input in = {.urdf = NULL};
+    read_input in = {.o.fixed_base = 1};
     ovoid_error error;
     if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O&|O$OpppOpd:read", names, PyUnicode_FSConverter, &in.urdf,
                                      &srdf, &in.packages, &in.o.parts, &in.o.visual, &solids, &in.scales,
@@ -290,11 +290,11 @@ PyMethodDef robot_constructors[] = {
     {"read", METHOD_KEYWORDS(read_robot), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
      "read(urdf: PathLike, srdf: PathLike | None = None, *, packages: dict[str, PathLike] | None = None, parts: bool = "
      "False, visual: bool = False, solids: bool = True, scales: dict[str | None, float] | None = None, fixed_base: "
-     "bool = False, tolerance: float = 0) -> Robot\n--\n\nFrom a URDF with its meshes, perhaps with an SRDF; metres. "
+     "bool = True, tolerance: float = 0) -> Robot\n--\n\nFrom a URDF with its meshes, perhaps with an SRDF; metres. "
      "packages: {name: folder} of package:// addresses. solids: a\nmesh counts as what it is, its hull, the solid that "
      "its triangles enclose, or, where they are not closed, their surface;\nFalse: as its hull. parts: as the hulls of "
      "its objects. visual: links without collision geometry take their visual one.\nscales: {link: factor} of the "
-     "sizes of links, None: of all others. fixed_base: the SRDF's virtual joint adds nothing.\ntolerance: of "
+     "sizes of links, None: of all others. fixed_base=False: the SRDF's virtual joint moves the robot.\ntolerance: of "
      "cylinders. What should be known is a UserWarning."},
     {NULL, NULL, 0, NULL}};
 

@@ -51,7 +51,8 @@ static ovoid_code set_joint(const placer *p, const scene_joint *from, double *q)
         if (!from->is_multiple || transform_is_identity(from->values)) return OVOID_OK;
         return fail(
             p, NULL, from->line, OVOID_ERROR_FORMAT,
-            "robot_state: joint \"%.60s\" is not of the robot, and puts it elsewhere: give the SRDF that has it",
+            "robot_state: joint \"%.60s\" is not of the robot, and puts it elsewhere: give the SRDF that has it, and a "
+            "base that is free (--free-base) where it is the virtual joint",
             from->name);
     }
     const ovoid_robot_joint *j = &robot->joints[joint];
