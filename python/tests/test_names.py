@@ -1,5 +1,6 @@
 """The words around the code. Truth: what inspect finds is what the stubs and the page say; the examples run."""
 
+import ast
 import doctest
 import glob
 import importlib.util
@@ -187,6 +188,33 @@ class Words(unittest.TestCase):
                     self.assertEqual(said.getvalue(), printed, page)
         finally:
             os.chdir(before)
+
+    @unittest.skipUnless(common.numpy and ovoid.has_io and ovoid.has_robot, "needs python3-numpy and a build with files and robots")
+    def test_beside_prints_and_counts(self):
+        """Ten tasks beside other packages: what ours prints, and the statements of all blocks, of which ours has never the most."""
+        import contextlib
+        import io
+
+        page, names = read("docs/python-beside.md"), {}
+        rows = re.findall(r"^\| (\d+\. .*?) \| (.*) \|$", page, re.M)
+        self.assertEqual(len(rows), 10)
+        packages = ("ovoid", "python-fcl", "coal", "trimesh", "PyBullet")
+        before = os.getcwd()
+        os.chdir(os.path.join(os.path.abspath(SOURCE), "examples/start"))
+        self.addCleanup(os.chdir, before)
+        for (title, cells), section in zip(rows, re.split(r"\n## (?=\d+\. )", page)[1:]):
+            self.assertTrue(section.startswith(title + "\n"), title)
+            counts = {}
+            for package, block in re.findall(r"\n(?:(python-fcl|coal|trimesh|PyBullet)[^\n]*\n\n)?```(?:python|py)\n(.*?)```", section, re.S):
+                nodes = ast.walk(ast.parse(block))
+                counts[package or "ovoid"] = sum(isinstance(node, ast.stmt) and not isinstance(node, (ast.Import, ast.ImportFrom)) for node in nodes)
+            self.assertEqual(cells, " | ".join(str(counts.get(package, "-")) for package in packages), title)
+            self.assertEqual(counts["ovoid"], min(counts.values()), title)
+            ((block, printed),) = re.findall(r"```python\n(.*?)```\n+It prints\n+```text\n(.*?)```", section, re.S)
+            said = io.StringIO()
+            with contextlib.redirect_stdout(said):
+                exec(compile(block, "docs/python-beside.md", "exec"), names)
+            self.assertEqual(said.getvalue(), printed, title)
 
     def test_docstring(self):
         self.assertEqual(doctest.testmod(ovoid).failed, 0)
