@@ -34,3 +34,10 @@ if not has_io:
 
 
 __all__ = [name for name in dir() if not name.startswith("_")]
+
+_ELSEWHERE = {"load": "read", "save": "Shape.write", "check": "verify", "load_parts": "read_parts", "plot": "draw", "view": "show"}
+
+
+def __getattr__(name):
+    meant = _ELSEWHERE.get(name)
+    raise AttributeError(f"module 'ovoid' has no attribute {name!r}" + (f": it is named ovoid.{meant}" if meant else ""))

@@ -307,13 +307,12 @@ static PyObject *batch(PyObject *module, PyObject *arguments, PyObject *keywords
     batch_input in = {.threads = 1};
     query_keywords k = {0};
     job j = {.name = name, .margin = 0};
-    int is_read = name == QUERY_WITHIN
-                      ? PyArg_ParseTupleAndKeywords(arguments, keywords, "OOd|$" QUERY_FORMAT "iOOOO", within_names,
-                                                    &in.bodies, &in.couples, &j.margin, QUERY_TARGETS(k), &in.threads,
-                                                    &in.out, &in.witnesses, &in.proofs, &in.progress)
-                      : PyArg_ParseTupleAndKeywords(arguments, keywords, "OO|$" QUERY_FORMAT "iOOOO", names, &in.bodies,
-                                                    &in.couples, QUERY_TARGETS(k), &in.threads, &in.out, &in.witnesses,
-                                                    &in.proofs, &in.progress);
+    int is_read =
+        name == QUERY_WITHIN
+            ? arguments_read(arguments, keywords, "OOd|$" QUERY_FORMAT "iOOOO", within_names, &in.bodies, &in.couples,
+                             &j.margin, QUERY_TARGETS(k), &in.threads, &in.out, &in.witnesses, &in.proofs, &in.progress)
+            : arguments_read(arguments, keywords, "OO|$" QUERY_FORMAT "iOOOO", names, &in.bodies, &in.couples,
+                             QUERY_TARGETS(k), &in.threads, &in.out, &in.witnesses, &in.proofs, &in.progress);
     if (!is_read || query_keywords_validate(state, &k)) return NULL;
     j.options = k.options;
     if (validate_input(state, &in, &j) || read_couples(state, in.couples, &j.couples)) return NULL;

@@ -77,7 +77,7 @@ static PyObject *bodies_new(PyTypeObject *type, PyObject *arguments, PyObject *k
     module_state *state = state_of_type((PyObject *)type);
     ovoid_pose *poses;
     Py_ssize_t count;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OO|$z:Bodies", names, &given, &poses_given, &order) ||
+    if (!arguments_read(arguments, keywords, "OO|$z:Bodies", names, &given, &poses_given, &order) ||
         poses_read(state, poses_given, order, &poses, &count))
         return NULL;
     PyObject *shapes = read_shapes(state, given, count);
@@ -98,7 +98,7 @@ static PyObject *move(PyObject *object, PyObject *arguments, PyObject *keywords)
     module_state *state = state_of(object);
     ovoid_pose *poses;
     Py_ssize_t count;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|$z:move", names, &given, &order) ||
+    if (!arguments_read(arguments, keywords, "O|$z:move", names, &given, &order) ||
         poses_read(state, given, order, &poses, &count))
         return NULL;
     int is_fit = count == self->count && !self->users;

@@ -19,8 +19,7 @@ static PyObject *bounds(PyObject *module, PyObject *arguments, PyObject *keyword
     module_state *state = state_of_module(module);
     PyObject *given[4] = {NULL, NULL, NULL, NULL};
     ovoid_pair pair;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OO|OO:bounds", names, &given[0], &given[1], &given[2],
-                                     &given[3]) ||
+    if (!arguments_read(arguments, keywords, "OO|OO:bounds", names, &given[0], &given[1], &given[2], &given[3]) ||
         read_pair(state, given, &pair))
         return NULL;
     answer_object *to = answer_make(state, given[0], given[1], &pair.pose_a, &pair.pose_b);
@@ -38,8 +37,8 @@ static PyObject *gap(PyObject *module, PyObject *arguments, PyObject *keywords) 
     PyObject *given[4] = {NULL, NULL, NULL, NULL}, *direction_given = NULL;
     ovoid_pair pair;
     ovoid_vec3 direction;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OO|OO$O:gap", names, &given[0], &given[1], &given[2],
-                                     &given[3], &direction_given) ||
+    if (!arguments_read(arguments, keywords, "OO|OO$O:gap", names, &given[0], &given[1], &given[2], &given[3],
+                        &direction_given) ||
         read_pair(state, given, &pair))
         return NULL;
     if (!direction_given) return PyErr_Format(PyExc_TypeError, "gap() needs direction=");

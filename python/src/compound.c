@@ -56,7 +56,7 @@ static PyObject *compound_new(PyTypeObject *type, PyObject *arguments, PyObject 
     PyObject *given, *poses = NULL;
     const char *order = NULL;
     module_state *state = state_of_type((PyObject *)type);
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|O$z:Compound", names, &given, &poses, &order)) return NULL;
+    if (!arguments_read(arguments, keywords, "O|O$z:Compound", names, &given, &poses, &order)) return NULL;
     PyObject *shapes = PySequence_Tuple(given);
     if (!shapes) return NULL;
     ovoid_posed_shape *parts = make_parts(state, shapes, poses, order);

@@ -84,8 +84,7 @@ static PyObject *decompose(PyObject *self, PyObject *arguments, PyObject *keywor
     job j = {.options = {0}};
     Py_ssize_t count = 0;
     PyObject *progress = Py_None;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "|$dnO:decompose", names, &j.options.error, &count,
-                                     &progress) ||
+    if (!arguments_read(arguments, keywords, "|$dnO:decompose", names, &j.options.error, &count, &progress) ||
         progress_validate(progress))
         return NULL;
     if (count < 0) return raise_code(state, OVOID_ERROR_ARGUMENT, -1, "parts: a number of at least 0 is wanted");
@@ -104,7 +103,7 @@ static PyObject *enlarge_parts(PyObject *module, PyObject *arguments, PyObject *
     PyObject *given, *kept;
     double radius;
     ovoid_decomposition d = {.solid = NULL};
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "Od:enlarge_parts", names, &given, &radius)) return NULL;
+    if (!arguments_read(arguments, keywords, "Od:enlarge_parts", names, &given, &radius)) return NULL;
     const ovoid_shape **parts = read_parts(state, given, &kept, &d.part_count);
     if (!parts) return NULL;
     d.parts = parts;
@@ -152,8 +151,8 @@ static PyObject *audit_parts(PyObject *self, PyObject *arguments, PyObject *keyw
     Py_ssize_t cells = 0, work = 0;
     PyObject *given, *kept, *progress = Py_None;
     ovoid_decomposition d = {.solid = get(self)};
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|$dnnO:audit_parts", names, &given, &j.options.tolerance,
-                                     &cells, &work, &progress) ||
+    if (!arguments_read(arguments, keywords, "O|$dnnO:audit_parts", names, &given, &j.options.tolerance, &cells, &work,
+                        &progress) ||
         progress_validate(progress))
         return NULL;
     if (cells < 0 || work < 0) return raise_code(state, OVOID_ERROR_ARGUMENT, -1, "numbers of cells are >= 0");

@@ -126,9 +126,8 @@ static PyObject *find_impact(PyObject *module, PyObject *arguments, PyObject *ke
     static char *names[] = {"a",     "b",   "motion_a",  "motion_b",   "margin",
                             "begin", "end", "tolerance", "iterations", NULL};
     moving_input in = {.margin = 0};
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OO|OO$ddddK:find_impact", names, &in.a, &in.b, &in.motion_a,
-                                     &in.motion_b, &in.margin, &in.options.begin, &in.options.end,
-                                     &in.options.tolerance, &in.iterations))
+    if (!arguments_read(arguments, keywords, "OO|OO$ddddK:find_impact", names, &in.a, &in.b, &in.motion_a, &in.motion_b,
+                        &in.margin, &in.options.begin, &in.options.end, &in.options.tolerance, &in.iterations))
         return NULL;
     return find(state_of_module(module), &in, IMPACT);
 }
@@ -136,9 +135,8 @@ static PyObject *find_impact(PyObject *module, PyObject *arguments, PyObject *ke
 static PyObject *find_approach(PyObject *module, PyObject *arguments, PyObject *keywords) {
     static char *names[] = {"a", "b", "motion_a", "motion_b", "begin", "end", "tolerance", "iterations", NULL};
     moving_input in = {.margin = 0};
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OO|OO$dddK:find_approach", names, &in.a, &in.b, &in.motion_a,
-                                     &in.motion_b, &in.options.begin, &in.options.end, &in.options.tolerance,
-                                     &in.iterations))
+    if (!arguments_read(arguments, keywords, "OO|OO$dddK:find_approach", names, &in.a, &in.b, &in.motion_a,
+                        &in.motion_b, &in.options.begin, &in.options.end, &in.options.tolerance, &in.iterations))
         return NULL;
     return find(state_of_module(module), &in, APPROACH);
 }
@@ -295,8 +293,8 @@ static PyObject *cast_ray(PyObject *module, PyObject *arguments, PyObject *keywo
     ovoid_ray ray = {.length = INFINITY};
     ovoid_body body;
     ovoid_posed_shape posed;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OOOO|d$d:cast_ray", names, &given, &place, &origin,
-                                     &direction, &ray.length, &ray.radius) ||
+    if (!arguments_read(arguments, keywords, "OOOO|d$d:cast_ray", names, &given, &place, &origin, &direction,
+                        &ray.length, &ray.radius) ||
         body_read(state, given, "shape", &body) || pose_read(state, place, "pose", &posed.pose) ||
         vec3_read(state, origin, "origin", &ray.origin) || vec3_read(state, direction, "direction", &ray.direction))
         return NULL;

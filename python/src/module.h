@@ -80,6 +80,14 @@ void *raise_code(module_state *state, ovoid_code code, Py_ssize_t place, const c
 /// Member `value` of an enumeration, a new reference.
 PyObject *enum_get(module_state *state, enum_kind kind, uint32_t value);
 
+// ---- arguments.c
+
+/// Reads arguments as PyArg_ParseTupleAndKeywords does; the format ends with a colon and the function's name. 1, or 0
+/// with an exception, which for an unknown name says which one was probably meant.
+int arguments_read(PyObject *arguments, PyObject *keywords, const char *format, char **names, ...);
+/// Raises TypeError for an argument that is none of the names, of which the last is NULL; returns NULL.
+void *argument_refuse(const char *function, PyObject *name, const char *const *names);
+
 // ---- interrupt.c
 
 /// A call of the library that runs without the interpreter's lock, and that a signal's handler may end.
@@ -285,7 +293,7 @@ PyObject *pose_wrap(module_state *state, ovoid_pose pose);
 /// The caller frees *poses.
 int poses_read(module_state *state, PyObject *from, const char *order, ovoid_pose **poses, Py_ssize_t *count);
 
-/// The options that every query takes, as arguments of PyArg_ParseTupleAndKeywords.
+/// The options that every query takes, as arguments of arguments_read.
 typedef struct query_keywords {
     ovoid_options options;
     unsigned long long iterations;

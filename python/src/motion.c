@@ -47,8 +47,7 @@ static PyObject *velocity(PyObject *type, PyObject *arguments, PyObject *keyword
     double duration;
     ovoid_pose pose;
     ovoid_vec3 along, around, still_point = {0, 0, 0};
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OOOd|$O:velocity", names, &start, &linear, &angular,
-                                     &duration, &pivot) ||
+    if (!arguments_read(arguments, keywords, "OOOd|$O:velocity", names, &start, &linear, &angular, &duration, &pivot) ||
         pose_read(state, start, "start", &pose) || vec3_read(state, linear, "linear", &along) ||
         vec3_read(state, angular, "angular", &around) || (pivot && vec3_read(state, pivot, "pivot", &still_point)))
         return NULL;
@@ -63,7 +62,7 @@ static PyObject *poses(PyObject *type, PyObject *arguments, PyObject *keywords) 
     PyObject *first, *last;
     double duration = 1;
     ovoid_pose start, end;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OO|d:poses", names, &first, &last, &duration) ||
+    if (!arguments_read(arguments, keywords, "OO|d:poses", names, &first, &last, &duration) ||
         pose_read(state, first, "start", &start) || pose_read(state, last, "end", &end))
         return NULL;
     return motion_wrap(state, ovoid_motion_make_poses(start, end, duration));
@@ -77,7 +76,7 @@ static PyObject *path(PyObject *type, PyObject *arguments, PyObject *keywords) {
     ovoid_pose *places;
     Py_ssize_t count;
     items times;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OO|$z:path", names, &given_times, &given_poses, &order) ||
+    if (!arguments_read(arguments, keywords, "OO|$z:path", names, &given_times, &given_poses, &order) ||
         poses_read(state, given_poses, order, &places, &count))
         return NULL;
     if (items_read(state, given_times, "times", 1, &count, 'd', &times)) {

@@ -188,8 +188,7 @@ static PyObject *pose_new(PyTypeObject *type, PyObject *arguments, PyObject *key
     PyObject *from = NULL;
     module_state *state = state_of_type((PyObject *)type);
     ovoid_pose pose;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "|O:Pose", names, &from) ||
-        pose_read(state, from, "pose", &pose))
+    if (!arguments_read(arguments, keywords, "|O:Pose", names, &from) || pose_read(state, from, "pose", &pose))
         return NULL;
     return pose_wrap(state, pose);
 }
@@ -199,7 +198,7 @@ static PyObject *from_translation(PyObject *type, PyObject *arguments, PyObject 
     PyObject *xyz;
     module_state *state = state_of_type(type);
     ovoid_pose pose;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O:from_translation", names, &xyz) ||
+    if (!arguments_read(arguments, keywords, "O:from_translation", names, &xyz) ||
         read_position(state, xyz, "xyz", &pose))
         return NULL;
     return pose_wrap(state, pose);
@@ -209,8 +208,7 @@ static PyObject *from_quaternion(PyObject *type, PyObject *arguments, PyObject *
     static char *names[] = {"xyz", "wxyz", "xyzw", NULL};
     PyObject *xyz = NULL, *wxyz = NULL, *xyzw = NULL;
     module_state *state = state_of_type(type);
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|$OO:from_quaternion", names, &xyz, &wxyz, &xyzw))
-        return NULL;
+    if (!arguments_read(arguments, keywords, "O|$OO:from_quaternion", names, &xyz, &wxyz, &xyzw)) return NULL;
     if (!wxyz == !xyzw)
         return raise_code(state, OVOID_ERROR_ARGUMENT, -1,
                           "from_quaternion: exactly one of wxyz= and xyzw= is wanted: it names the order");
@@ -227,7 +225,7 @@ static PyObject *from_rotation(PyObject *type, PyObject *arguments, PyObject *ke
     static char *names[] = {"xyz", "rotation", NULL};
     PyObject *xyz, *rotation;
     module_state *state = state_of_type(type);
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OO:from_rotation", names, &xyz, &rotation)) return NULL;
+    if (!arguments_read(arguments, keywords, "OO:from_rotation", names, &xyz, &rotation)) return NULL;
     ovoid_pose pose;
     return read_turned(state, xyz, rotation, &pose) ? NULL : pose_wrap(state, pose);
 }
@@ -252,7 +250,7 @@ static PyObject *from_rpy(PyObject *type, PyObject *arguments, PyObject *keyword
     PyObject *first, *second;
     ovoid_vec3 xyz, rpy;
     module_state *state = state_of_type(type);
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OO:from_rpy", names, &first, &second) ||
+    if (!arguments_read(arguments, keywords, "OO:from_rpy", names, &first, &second) ||
         vec3_read(state, first, "xyz", &xyz) || vec3_read(state, second, "rpy", &rpy))
         return NULL;
     ovoid_pose pose = ovoid_pose_make_rpy(xyz, rpy);
@@ -265,7 +263,7 @@ static PyObject *from_axis_angle(PyObject *type, PyObject *arguments, PyObject *
     double angle;
     ovoid_vec3 xyz, axis;
     module_state *state = state_of_type(type);
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OOd:from_axis_angle", names, &first, &second, &angle) ||
+    if (!arguments_read(arguments, keywords, "OOd:from_axis_angle", names, &first, &second, &angle) ||
         vec3_read(state, first, "xyz", &xyz) || vec3_read(state, second, "axis", &axis))
         return NULL;
     ovoid_pose pose;

@@ -6,7 +6,7 @@ static PyObject *prepared_new(PyTypeObject *type, PyObject *arguments, PyObject 
     module_state *state = state_of_type((PyObject *)type);
     PyObject *shape, *given = NULL;
     ovoid_posed_shape body;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|O:Prepared", names, &shape, &given) ||
+    if (!arguments_read(arguments, keywords, "O|O:Prepared", names, &shape, &given) ||
         pose_read(state, given, "pose", &body.pose))
         return NULL;
     if (Py_TYPE(shape) != state->shape)

@@ -11,16 +11,16 @@
 static const char *const query_names[] = {"collide", "within", "distance", "depth"};
 
 enum { BODY_A, BODY_B, PLACE_A, PLACE_B, MARGIN, ABSOLUTE, RELATIVE, CAP, ITERATIONS, EARLIER, ARGUMENT_COUNT };
-static const char *const argument_names[ARGUMENT_COUNT] = {
-    "a", "b", "pose_a", "pose_b", "margin", "absolute_tolerance", "relative_tolerance", "cap", "iterations", "earlier"};
+static const char *const argument_names[ARGUMENT_COUNT + 1] = {
+    "a",   "b",          "pose_a",  "pose_b", "margin", "absolute_tolerance", "relative_tolerance",
+    "cap", "iterations", "earlier", NULL};
 
 // ---- arguments
 
 static int find_argument(const char *function, PyObject *name) {
     for (int i = 0; i < ARGUMENT_COUNT; i++)
         if (PyUnicode_CompareWithASCIIString(name, argument_names[i]) == 0) return i;
-    PyErr_Format(PyExc_TypeError, "%s() has no argument '%U'", function, name);
-    return -1;
+    return argument_refuse(function, name, argument_names), -1;
 }
 
 static int sort_arguments(query_name which, PyObject *const *given, Py_ssize_t count, PyObject *names,

@@ -152,8 +152,7 @@ static PyObject *divided(PyObject *self, PyObject *arguments, PyObject *keywords
     ovoid_shape_options options = {0};
     ovoid_error error;
     module_state *state = state_of(self);
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "Od|$d:divided", names, &direction, &plane.offset,
-                                     &options.radius) ||
+    if (!arguments_read(arguments, keywords, "Od|$d:divided", names, &direction, &plane.offset, &options.radius) ||
         vec3_read(state, direction, "normal", &plane.normal))
         return NULL;
     ovoid_shape_halves halves = ovoid_shape_create_divided(get(self), &plane, &options, &error);
@@ -174,7 +173,7 @@ static PyObject *deformed(PyObject *self, PyObject *arguments, PyObject *keyword
     ovoid_error error;
     module_state *state = state_of(self);
     Py_ssize_t count = (Py_ssize_t)ovoid_shape_get_polytope(get(self)).vertex_count;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|$d:deformed", names, &points, &options.radius) ||
+    if (!arguments_read(arguments, keywords, "O|$d:deformed", names, &points, &options.radius) ||
         items_read(state, points, "points", 2, (Py_ssize_t[]){count, 3}, 'd', &given))
         return NULL;
     ovoid_shape *shape;

@@ -90,8 +90,7 @@ static PyObject *from_points(PyObject *type, PyObject *arguments, PyObject *keyw
     static char *names[] = {"points", SHAPE_NAMES, NULL};
     PyObject *points;
     shape_keywords k = {0};
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|" SHAPE_FORMAT ":from_points", names, &points,
-                                     SHAPE_TARGETS(k)))
+    if (!arguments_read(arguments, keywords, "O|" SHAPE_FORMAT ":from_points", names, &points, SHAPE_TARGETS(k)))
         return NULL;
     return make_from_points(state_of_type(type), points, &k);
 }
@@ -100,8 +99,7 @@ static PyObject *hull_of(PyObject *type, PyObject *arguments, PyObject *keywords
     static char *names[] = {"mesh", SHAPE_NAMES, NULL};
     PyObject *mesh;
     shape_keywords k = {0};
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|" SHAPE_FORMAT ":hull_of", names, &mesh, SHAPE_TARGETS(k)))
-        return NULL;
+    if (!arguments_read(arguments, keywords, "O|" SHAPE_FORMAT ":hull_of", names, &mesh, SHAPE_TARGETS(k))) return NULL;
     PyObject *points = PyObject_GetAttrString(mesh, "vertices");
     PyObject *made = points ? make_from_points(state_of_type(type), points, &k) : NULL;
     Py_XDECREF(points);
@@ -175,8 +173,8 @@ static PyObject *from_faces(PyObject *type, PyObject *arguments, PyObject *keywo
     face_runs runs = {NULL, NULL, 0, 0};
     ovoid_shape *shape = NULL;
     ovoid_error error;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OO|" SHAPE_FORMAT ":from_faces", names, &points, &list,
-                                     SHAPE_TARGETS(k)) ||
+    if (!arguments_read(arguments, keywords, "OO|" SHAPE_FORMAT ":from_faces", names, &points, &list,
+                        SHAPE_TARGETS(k)) ||
         make_options(state, &k, &options))
         return NULL;
     int is_read = !items_read(state, points, "vertices", 2, (Py_ssize_t[]){-1, 3}, 'd', &given) &&
@@ -203,7 +201,7 @@ static PyObject *box(PyObject *type, PyObject *arguments, PyObject *keywords) {
     ovoid_shape_options options;
     ovoid_error error;
     module_state *state = state_of_type(type);
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|" SHAPE_FORMAT ":box", names, &sizes, SHAPE_TARGETS(k)) ||
+    if (!arguments_read(arguments, keywords, "O|" SHAPE_FORMAT ":box", names, &sizes, SHAPE_TARGETS(k)) ||
         make_options(state, &k, &options) || vec3_read(state, sizes, "half_sizes", &half))
         return NULL;
     return shape_wrap(state, ovoid_shape_create_box(half, &options, &error), &error);
@@ -232,8 +230,7 @@ static int validate_sides(module_state *state, long sides) {
         shape_keywords k = {0};                                                                                        \
         ovoid_shape_options options;                                                                                   \
         ovoid_error error;                                                                                             \
-        if (!PyArg_ParseTupleAndKeywords(arguments, keywords, kinds SHAPE_FORMAT ":" #name, names, targets,            \
-                                         SHAPE_TARGETS(k)) ||                                                          \
+        if (!arguments_read(arguments, keywords, kinds SHAPE_FORMAT ":" #name, names, targets, SHAPE_TARGETS(k)) ||    \
             make_options(state, &k, &options) || validate_sides(state, s.sides))                                       \
             return NULL;                                                                                               \
         ovoid_shape *shape;                                                                                            \
@@ -295,8 +292,8 @@ static int read_file_keywords(module_state *state, PyObject *arguments, PyObject
     static char *parts_names[] = {"path", "scale", "unit", SHAPE_NAMES, NULL};
     shape_keywords k = {0};
     int has_hull = !f->read.parts;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, format, has_hull ? names : parts_names, PyUnicode_FSConverter,
-                                     &f->path, &f->read.scale, &f->read.unit, SHAPE_TARGETS(k), &f->read.hull))
+    if (!arguments_read(arguments, keywords, format, has_hull ? names : parts_names, PyUnicode_FSConverter, &f->path,
+                        &f->read.scale, &f->read.unit, SHAPE_TARGETS(k), &f->read.hull))
         return -1;
     if (!make_options(state, &k, &f->options)) return 0;
     Py_DECREF(f->path);

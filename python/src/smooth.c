@@ -22,8 +22,7 @@ static PyObject *smooth(PyObject *module, PyObject *arguments, PyObject *keyword
     int order = 1;
     ovoid_body a, b;
     ovoid_pair pair;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OO|OO$i:smooth", names, &first, &second, &place_a, &place_b,
-                                     &order) ||
+    if (!arguments_read(arguments, keywords, "OO|OO$i:smooth", names, &first, &second, &place_a, &place_b, &order) ||
         body_read(state, first, "a", &a) || body_read(state, second, "b", &b) ||
         pose_read(state, place_a, "pose_a", &pair.pose_a) || pose_read(state, place_b, "pose_b", &pair.pose_b))
         return NULL;

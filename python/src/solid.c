@@ -73,7 +73,7 @@ static PyObject *make_from_arrays(PyObject *type, PyObject *vertices, PyObject *
 static PyObject *from_triangles(PyObject *type, PyObject *arguments, PyObject *keywords) {
     static char *names[] = {"vertices", "faces", NULL};
     PyObject *vertices, *faces;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OO:from_triangles", names, &vertices, &faces)) return NULL;
+    if (!arguments_read(arguments, keywords, "OO:from_triangles", names, &vertices, &faces)) return NULL;
     return make_from_arrays(type, vertices, faces);
 }
 
@@ -92,8 +92,8 @@ static PyObject *read_solid(PyObject *type, PyObject *arguments, PyObject *keywo
     PyObject *path = NULL;
     ovoid_read_options read = {.scale = 0};
     ovoid_error error;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O&|dz:read", names, PyUnicode_FSConverter, &path,
-                                     &read.scale, &read.unit)) {
+    if (!arguments_read(arguments, keywords, "O&|dz:read", names, PyUnicode_FSConverter, &path, &read.scale,
+                        &read.unit)) {
         Py_XDECREF(path);
         return NULL;
     }
@@ -164,7 +164,7 @@ static PyObject *winding(PyObject *self, PyObject *given) {
 static PyObject *crossings(PyObject *self, PyObject *arguments, PyObject *keywords) {
     static char *names[] = {"most", NULL};
     unsigned long long most = UINT64_MAX;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "|K:crossings", names, &most)) return NULL;
+    if (!arguments_read(arguments, keywords, "|K:crossings", names, &most)) return NULL;
     ovoid_solid_crossings found;
     Py_BEGIN_ALLOW_THREADS;
     found = ovoid_solid_compute_crossings(get(self), most);

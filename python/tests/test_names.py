@@ -131,6 +131,14 @@ class Stubs(unittest.TestCase):
 
 
 class Words(unittest.TestCase):
+    def test_other_names(self):
+        """What other packages, and earlier versions, call by another name is told its own; all else is as in any module."""
+        with self.assertRaisesRegex(AttributeError, "has no attribute 'load': it is named ovoid.read"):
+            _ = ovoid.load
+        with self.assertRaisesRegex(AttributeError, "has no attribute 'nothing'$"):
+            _ = ovoid.nothing
+        self.assertFalse(hasattr(ovoid, "check"))
+
     def test_page(self):
         names = {}
         for block in re.findall(r"```python\n(.*?)```", read("docs/python.md"), re.S):

@@ -104,6 +104,21 @@ class Shapes(unittest.TestCase):
             self.assertEqual(caught.exception.code, ovoid.Code.FILE)
 
 
+class Arguments(unittest.TestCase):
+    def test_unknown(self):
+        """An argument that there is not is refused with the one that is meant."""
+        world = ovoid.World()
+        for call, said in ((lambda: ovoid.distance(BOX, BOX, pose_q=None), r"distance\(\) has no argument 'pose_q': did you mean 'pose_[ab]'"),
+                           (lambda: ovoid.collide(BOX, BOX, tolerance=1), r"collide\(\) has no argument 'tolerance'$"),
+                           (lambda: ovoid.Shape.box((1, 1, 1), roundng=1), r"box\(\) has no argument 'roundng': did you mean 'rounding'\?"),
+                           (lambda: ovoid.Pose.from_rpy((0, 0, 0), rpi=(0, 0, 0)), "did you mean 'rpy'"),
+                           (lambda: world.cast_ray((0, 0, 0), (1, 0, 0), lenght=3), "did you mean 'length'"),
+                           (lambda: world.add(BOX, mask_=3), "did you mean 'mask'"),
+                           (lambda: world.add(BOX, **{"x" * 100: 3}), "has no argument 'x*'$"), (lambda: world.add(BOX, **{"": 3}), "has no argument ''$")):
+            with self.assertRaisesRegex(TypeError, said):
+                call()
+
+
 class Poses(unittest.TestCase):
     def test_three_numbers_are_a_position(self):
         there = ovoid.Pose.from_quaternion((1, 2, 3), wxyz=(1, 0, 0, 0))

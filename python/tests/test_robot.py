@@ -442,7 +442,7 @@ class Files(unittest.TestCase):
             element = again.elements[2]
             self.assertEqual(element.solid.faces.tolist(), hand.solid.faces.tolist())
             self.assertAlmostEqual(element.shape.volume, hand.shape.volume, delta=1e-12)
-        for bad in (("hand", 3), ("hand", hand.shape, None, None, 3), ("hand", None, None, None, hand.shape)):
+        for bad in (("hand", 3), ("hand", hand.shape, None, None, 3), ("hand", hand.solid, None, None, hand.shape), ("hand", None, None, None, hand.shape)):
             with self.assertRaisesRegex(TypeError, "a Shape or a Solid is wanted"):
                 ovoid.Robot(robot.links, robot.joints, [bad])
 

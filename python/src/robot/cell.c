@@ -15,8 +15,7 @@ static PyObject *cell_new(PyTypeObject *type, PyObject *arguments, PyObject *key
     robot_object *robot;
     ovoid_error error;
     module_state *state = state_of_type((PyObject *)type);
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O:Cell", names, &given) ||
-        robot_read(state, given, "robot", &robot))
+    if (!arguments_read(arguments, keywords, "O:Cell", names, &given) || robot_read(state, given, "robot", &robot))
         return NULL;
     cell_object *self = object_make(type);
     if (!self) return NULL;
@@ -138,7 +137,7 @@ static PyObject *add(PyObject *object, PyObject *arguments, PyObject *keywords) 
     added_body added = {.link = OVOID_ROBOT_NONE};
     ovoid_body body;
     ovoid_error error;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|O$O:add", names, &added.body, &pose, &added.name) ||
+    if (!arguments_read(arguments, keywords, "O|O$O:add", names, &added.body, &pose, &added.name) ||
         body_read(state, added.body, "body", &body) || pose_read(state, pose, "pose", &body.pose) || begin_change(self))
         return NULL;
     added.pose = body.pose;
@@ -171,8 +170,8 @@ static PyObject *attach(PyObject *object, PyObject *arguments, PyObject *keyword
     size_t count = 0;
     ovoid_body body;
     ovoid_error error;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OO|OO$O:attach", names, &link_given, &added.body, &pose,
-                                     &touching, &added.name) ||
+    if (!arguments_read(arguments, keywords, "OO|OO$O:attach", names, &link_given, &added.body, &pose, &touching,
+                        &added.name) ||
         link_read(self->robot, link_given, &added.link) || body_read(state, added.body, "body", &body) ||
         pose_read(state, pose, "pose", &body.pose) || (touching && !(links = read_links(self, touching, &count))))
         return NULL;
@@ -231,7 +230,7 @@ static PyObject *allow(PyObject *object, PyObject *arguments, PyObject *keywords
     uint32_t a, b;
     int allowed = 1;
     ovoid_error error;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OO|p:allow", names, &first, &second, &allowed) ||
+    if (!arguments_read(arguments, keywords, "OO|p:allow", names, &first, &second, &allowed) ||
         link_read(self->robot, first, &a) || link_read(self->robot, second, &b) || begin_change(self))
         return NULL;
     ovoid_code code = allowed ? ovoid_robot_cell_add_allowed(self->cell, a, b, &error)
@@ -247,7 +246,7 @@ static PyObject *allow_body(PyObject *object, PyObject *arguments, PyObject *key
     uint32_t link;
     int allowed = 1;
     ovoid_error error;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O&O|p:allow_body", names, id_read, &id, &given, &allowed) ||
+    if (!arguments_read(arguments, keywords, "O&O|p:allow_body", names, id_read, &id, &given, &allowed) ||
         link_read(self->robot, given, &link) || begin_change(self))
         return NULL;
     ovoid_code code = allowed ? ovoid_robot_cell_add_body_allowed(self->cell, id, link, &error)
@@ -262,7 +261,7 @@ static PyObject *set_padding(PyObject *object, PyObject *arguments, PyObject *ke
     uint32_t link;
     double padding;
     ovoid_error error;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "Od:set_padding", names, &given, &padding) ||
+    if (!arguments_read(arguments, keywords, "Od:set_padding", names, &given, &padding) ||
         link_read(self->robot, given, &link) || begin_change(self))
         return NULL;
     return end_change(self, ovoid_robot_cell_set_padding(self->cell, link, padding, &error), &error);
@@ -275,7 +274,7 @@ static PyObject *is_allowed(PyObject *object, PyObject *arguments, PyObject *key
     cell_object *self = (cell_object *)object;
     PyObject *first, *second;
     uint32_t a, b;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OO:is_allowed", names, &first, &second) ||
+    if (!arguments_read(arguments, keywords, "OO:is_allowed", names, &first, &second) ||
         link_read(self->robot, first, &a) || link_read(self->robot, second, &b))
         return NULL;
     return PyBool_FromLong(ovoid_robot_cell_is_allowed(self->cell, a, b));
@@ -287,7 +286,7 @@ static PyObject *is_body_allowed(PyObject *object, PyObject *arguments, PyObject
     PyObject *given;
     ovoid_id id;
     uint32_t link;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O&O:is_body_allowed", names, id_read, &id, &given) ||
+    if (!arguments_read(arguments, keywords, "O&O:is_body_allowed", names, id_read, &id, &given) ||
         link_read(self->robot, given, &link))
         return NULL;
     return PyBool_FromLong(ovoid_robot_cell_is_body_allowed(self->cell, id, link));

@@ -48,8 +48,8 @@ static PyObject *collide(PyObject *object, PyObject *arguments, PyObject *keywor
     PyObject *given;
     ovoid_robot_query_options o = {0};
     ovoid_robot_checker *checker;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|$" ROBOT_QUERY_FORMAT ":collide", names, &given,
-                                     ROBOT_QUERY_TARGETS(o)) ||
+    if (!arguments_read(arguments, keywords, "O|$" ROBOT_QUERY_FORMAT ":collide", names, &given,
+                        ROBOT_QUERY_TARGETS(o)) ||
         query_options_validate(state, &o))
         return NULL;
     double *q = state_read(self->robot, given);
@@ -105,10 +105,10 @@ static PyObject *near_or_nearest(PyObject *object, PyObject *arguments, PyObject
     int without_depths = 0;
     near_query query = {.options.margin = is_nearest ? INFINITY : 0, .is_nearest = is_nearest};
     ovoid_robot_checker *checker;
-    int is_read = is_nearest ? PyArg_ParseTupleAndKeywords(arguments, keywords, "O|$" ROBOT_QUERY_FORMAT ":nearest",
-                                                           names, &given, ROBOT_QUERY_TARGETS(query.options))
-                             : PyArg_ParseTupleAndKeywords(arguments, keywords, "Od|$dppp:near", near_names, &given,
-                                                           ROBOT_QUERY_TARGETS(query.options), &without_depths);
+    int is_read = is_nearest ? arguments_read(arguments, keywords, "O|$" ROBOT_QUERY_FORMAT ":nearest", names, &given,
+                                              ROBOT_QUERY_TARGETS(query.options))
+                             : arguments_read(arguments, keywords, "Od|$dppp:near", near_names, &given,
+                                              ROBOT_QUERY_TARGETS(query.options), &without_depths);
     if (!is_read || query_options_validate(state, &query.options)) return NULL;
     double *q = state_read(self->robot, given);
     if (!q || checkers_borrow(self, &checker, 1)) {
@@ -225,8 +225,8 @@ static PyObject *collide_batch(PyObject *object, PyObject *arguments, PyObject *
     module_state *state = state_of(object);
     states_input in = {.threads = 1};
     job j = {.count = 0};
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|$" ROBOT_QUERY_FORMAT "iOO:collide_batch", names, &in.q,
-                                     ROBOT_QUERY_TARGETS(j.options), &in.threads, &in.out, &in.progress) ||
+    if (!arguments_read(arguments, keywords, "O|$" ROBOT_QUERY_FORMAT "iOO:collide_batch", names, &in.q,
+                        ROBOT_QUERY_TARGETS(j.options), &in.threads, &in.out, &in.progress) ||
         read_input(self, &in, &j))
         return NULL;
     Py_buffer view = {.obj = NULL};
@@ -251,8 +251,8 @@ static PyObject *nearest_batch(PyObject *object, PyObject *arguments, PyObject *
     module_state *state = state_of(object);
     states_input in = {.threads = 1};
     job j = {.options.margin = INFINITY};
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|$" ROBOT_QUERY_FORMAT "O:nearest_batch", names, &in.q,
-                                     ROBOT_QUERY_TARGETS(j.options), &in.progress) ||
+    if (!arguments_read(arguments, keywords, "O|$" ROBOT_QUERY_FORMAT "O:nearest_batch", names, &in.q,
+                        ROBOT_QUERY_TARGETS(j.options), &in.progress) ||
         read_input(self, &in, &j))
         return NULL;
     Py_ssize_t shape[] = {(Py_ssize_t)j.count, (Py_ssize_t)j.variables};

@@ -84,8 +84,8 @@ static PyObject *compare_states(PyObject *module, PyObject *arguments, PyObject 
     cell_object *cells[2];
     ovoid_robot_query_options o = {0};
     items states;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OOO|$" ROBOT_QUERY_FORMAT "O:compare_states", names, &first,
-                                     &second, &given, ROBOT_QUERY_TARGETS(o), &progress) ||
+    if (!arguments_read(arguments, keywords, "OOO|$" ROBOT_QUERY_FORMAT "O:compare_states", names, &first, &second,
+                        &given, ROBOT_QUERY_TARGETS(o), &progress) ||
         query_options_validate(state, &o) || progress_validate(progress) ||
         read_cell(state, first, "robot", &cells[0]) || read_cell(state, second, "model", &cells[1]))
         return NULL;

@@ -133,7 +133,7 @@ typedef struct element_bodies {
 
 // A solid's hull is made anew, whatever shape was given beside it: the library takes it for the hull.
 static int read_bodies(module_state *state, PyObject *body, PyObject *solid, element_bodies *to) {
-    if (Py_TYPE(body) == state->solid) solid = body;
+    if (Py_TYPE(body) == state->solid && solid == Py_None) solid = body;
     if (solid == Py_None && Py_TYPE(body) == state->shape) {
         to->shape = Py_NewRef(body);
         return 0;
@@ -249,8 +249,7 @@ PyObject *robot_new(PyTypeObject *type, PyObject *arguments, PyObject *keywords)
     parts p = {.kept = PyList_New(0)};
     ovoid_error error;
     if (nothing && p.kept &&
-        PyArg_ParseTupleAndKeywords(arguments, keywords, "OO|OO$z:Robot", names, &links, &joints, &elements, &disabled,
-                                    &p.d.name) &&
+        arguments_read(arguments, keywords, "OO|OO$z:Robot", names, &links, &joints, &elements, &disabled, &p.d.name) &&
         !read_links(&p, links) && !read_joints(state, &p, joints) && (shapes = read_elements(state, &p, elements))) {
         if (!read_disabled(&p, disabled))
             made = robot_wrap(type, ovoid_robot_create(&p.d, NULL, &error), Py_NewRef(shapes), PyDict_New(), &error);

@@ -262,9 +262,9 @@ static PyObject *read_robot(PyObject *type, PyObject *arguments, PyObject *keywo
     PyObject *srdf = Py_None;
     read_input in = {.o.fixed_base = 1};
     ovoid_error error;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O&|O$OpppOpd:read", names, PyUnicode_FSConverter, &in.urdf,
-                                     &srdf, &in.packages, &in.o.parts, &in.o.visual, &solids, &in.scales,
-                                     &in.o.fixed_base, &in.o.tolerance) ||
+    if (!arguments_read(arguments, keywords, "O&|O$OpppOpd:read", names, PyUnicode_FSConverter, &in.urdf, &srdf,
+                        &in.packages, &in.o.parts, &in.o.visual, &solids, &in.scales, &in.o.fixed_base,
+                        &in.o.tolerance) ||
         (srdf != Py_None && !PyUnicode_FSConverter(srdf, &in.srdf)) || read_packages(&in) || read_scales(&in)) {
         free_input(&in);
         return NULL;
@@ -342,8 +342,8 @@ static PyObject *read_obstacles(PyObject *module, PyObject *arguments, PyObject 
     PyObject *path = NULL, *list = NULL;
     double tolerance = 0;
     int solids = 1;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O&|d$p:read_obstacles", names, PyUnicode_FSConverter, &path,
-                                     &tolerance, &solids)) {
+    if (!arguments_read(arguments, keywords, "O&|d$p:read_obstacles", names, PyUnicode_FSConverter, &path, &tolerance,
+                        &solids)) {
         Py_XDECREF(path);
         return NULL;
     }
@@ -525,8 +525,8 @@ static PyObject *read_into(PyObject *object, PyObject *arguments, PyObject *keyw
     PyObject *path = NULL, *paddings = NULL, *made = NULL;
     double tolerance = 0;
     int solids = 1;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O&|d$pO:read", names, PyUnicode_FSConverter, &path,
-                                     &tolerance, &solids, &paddings)) {
+    if (!arguments_read(arguments, keywords, "O&|d$pO:read", names, PyUnicode_FSConverter, &path, &tolerance, &solids,
+                        &paddings)) {
         Py_XDECREF(path);
         return NULL;
     }

@@ -34,8 +34,7 @@ static PyObject *compute_matrix(PyObject *object, PyObject *arguments, PyObject 
     Py_ssize_t samples = 0, budget = 0;
     unsigned long long seed = 0;
     ovoid_error error;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "|$nnK:compute_matrix", names, &samples, &budget, &seed))
-        return NULL;
+    if (!arguments_read(arguments, keywords, "|$nnK:compute_matrix", names, &samples, &budget, &seed)) return NULL;
     if (samples < 0 || budget < 0)
         return raise_code(state_of(object), OVOID_ERROR_ARGUMENT, -1, "samples and budget are numbers >= 0");
     interrupt signals;

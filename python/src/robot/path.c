@@ -69,8 +69,8 @@ int path_arguments_read(cell_object *cell, PyObject *arguments, PyObject *keywor
     unsigned long long most = 0;
     *in = (path_arguments){.tolerance = 0};
     // The last one is read where the format has it.
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, format, names, &given, ROBOT_QUERY_TARGETS(in->query),
-                                     &in->tolerance, &most, &in->any_hit) ||
+    if (!arguments_read(arguments, keywords, format, names, &given, ROBOT_QUERY_TARGETS(in->query), &in->tolerance,
+                        &most, &in->any_hit) ||
         query_options_validate(state, &in->query))
         return -1;
     if (most > UINT32_MAX) {

@@ -159,7 +159,7 @@ static PyObject *poses(PyObject *object, PyObject *arguments, PyObject *keywords
     const char *order = NULL;
     items q;
     int axes;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|$z:poses", names, &given, &order)) return NULL;
+    if (!arguments_read(arguments, keywords, "O|$z:poses", names, &given, &order)) return NULL;
     if (order && strcmp(order, "wxyz") != 0 && strcmp(order, "xyzw") != 0)
         return raise_code(state, OVOID_ERROR_ARGUMENT, -1, "poses: order is None (4x4), 'wxyz' or 'xyzw'");
     if (states_read(self, given, "q", &axes, &q)) return NULL;
@@ -205,7 +205,7 @@ static PyObject *validate_limits(PyObject *object, PyObject *arguments, PyObject
     static char *names[] = {"q", "slack", NULL};
     PyObject *given;
     double slack = 0;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|d:validate_limits", names, &given, &slack)) return NULL;
+    if (!arguments_read(arguments, keywords, "O|d:validate_limits", names, &given, &slack)) return NULL;
     module_state *state = state_of(object);
     if (!(slack >= 0)) return raise_code(state, OVOID_ERROR_ARGUMENT, -1, "slack: a number >= 0 is wanted");
     double *q = state_read((robot_object *)object, given);

@@ -79,7 +79,7 @@ PyObject *side_make(const cell_object *cell, const ovoid_robot_side *side);
 
 // ---- collide.c
 
-/// The options that every query of a cell takes, as arguments of PyArg_ParseTupleAndKeywords.
+/// The options that every query of a cell takes, as arguments of arguments_read.
 #define ROBOT_QUERY_FORMAT "ddpp"
 #define ROBOT_QUERY_SIGNATURE                                                                                          \
     "margin: float = 0, limit_slack: float = 0, without_self: bool = False, without_obstacles: bool = False"
@@ -95,7 +95,7 @@ typedef struct path_arguments {
     int any_hit; ///< of find_hit
 } path_arguments;
 #define PATH_NAMES "states", ROBOT_QUERY_NAMES, "tolerance", "most_states"
-/// Reads them; format, names: as PyArg_ParseTupleAndKeywords has them, with the question's name and PATH_NAMES. -1:
+/// Reads them; format, names: as arguments_read has them, with the question's name and PATH_NAMES. -1:
 /// raised, nothing to free.
 int path_arguments_read(cell_object *cell, PyObject *arguments, PyObject *keywords, const char *format, char **names,
                         path_arguments *in);

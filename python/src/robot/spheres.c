@@ -18,8 +18,8 @@ static PyObject *audit_spheres(PyObject *object, PyObject *arguments, PyObject *
     Py_ssize_t depth_cells = 0, volume_cells = 0;
     uint32_t link;
     items spheres;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OO|$dnnp:audit_spheres", names, &link_given, &given,
-                                     &o.tolerance, &depth_cells, &volume_cells, &o.without_volumes) ||
+    if (!arguments_read(arguments, keywords, "OO|$dnnp:audit_spheres", names, &link_given, &given, &o.tolerance,
+                        &depth_cells, &volume_cells, &o.without_volumes) ||
         link_read(self, link_given, &link))
         return NULL;
     if (depth_cells < 0 || volume_cells < 0)
@@ -51,8 +51,8 @@ static PyObject *cover_spheres(PyObject *object, PyObject *arguments, PyObject *
     unsigned long long seed = 0;
     ovoid_robot_cover_options o = {0};
     uint32_t link;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "On|$dnK:cover_spheres", names, &link_given, &count,
-                                     &o.excess, &rounds, &seed) ||
+    if (!arguments_read(arguments, keywords, "On|$dnK:cover_spheres", names, &link_given, &count, &o.excess, &rounds,
+                        &seed) ||
         link_read(self, link_given, &link))
         return NULL;
     if (count < 1 || count > 4096 || rounds < 0)

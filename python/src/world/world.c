@@ -48,8 +48,7 @@ static PyObject *world_new(PyTypeObject *type, PyObject *arguments, PyObject *ke
     ovoid_world_options options = {0};
     ovoid_error error;
     module_state *state = state_of_type((PyObject *)type);
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "|$id:World", names, &threads, &options.enlargement))
-        return NULL;
+    if (!arguments_read(arguments, keywords, "|$id:World", names, &threads, &options.enlargement)) return NULL;
     if (threads < 1 || threads > (int)OVOID_WORLD_THREADS_MAX)
         return raise_code(state, OVOID_ERROR_ARGUMENT, -1, "threads: 1 to %d are wanted, not %d",
                           (int)OVOID_WORLD_THREADS_MAX, threads);
@@ -95,8 +94,8 @@ static PyObject *add(PyObject *object, PyObject *arguments, PyObject *keywords) 
     PyObject *body, *pose = NULL, *user = NULL;
     ovoid_world_body made = {0};
     ovoid_error error;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|O$IIO!:add", names, &body, &pose, &made.groups.group,
-                                     &made.groups.mask, &PyLong_Type, &user) ||
+    if (!arguments_read(arguments, keywords, "O|O$IIO!:add", names, &body, &pose, &made.groups.group, &made.groups.mask,
+                        &PyLong_Type, &user) ||
         probe_read(state, body, pose, &made))
         return NULL;
     made.user = user ? PyLong_AsUnsignedLongLong(user) : 0;
@@ -155,8 +154,7 @@ static PyObject *add_many(PyObject *object, PyObject *arguments, PyObject *keywo
     unsigned group = 0, mask = 0;
     ovoid_pose *poses;
     Py_ssize_t count;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OO|$zII:add_many", names, &given, &given_poses, &order,
-                                     &group, &mask) ||
+    if (!arguments_read(arguments, keywords, "OO|$zII:add_many", names, &given, &given_poses, &order, &group, &mask) ||
         poses_read(state, given_poses, order, &poses, &count))
         return NULL;
     PyObject *bodies = PySequence_Tuple(given);
@@ -232,7 +230,7 @@ static PyObject *move_many(PyObject *object, PyObject *arguments, PyObject *keyw
     ovoid_pose *poses;
     Py_ssize_t count;
     ovoid_error error = {.code = OVOID_OK};
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OO|$z:move_many", names, &given, &given_poses, &order) ||
+    if (!arguments_read(arguments, keywords, "OO|$z:move_many", names, &given, &given_poses, &order) ||
         poses_read(state, given_poses, order, &poses, &count))
         return NULL;
     int failed = items_read(state, given, "ids", 1, &count, 'q', &ids) || world_enter(self, 1);
@@ -408,8 +406,8 @@ static PyObject *contacts(PyObject *object, PyObject *arguments, PyObject *keywo
     ovoid_contacts found;
     ovoid_error error;
     ovoid_code code;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "|sd$" QUERY_FORMAT ":contacts", names, &kind, &query.margin,
-                                     QUERY_TARGETS(k)) ||
+    if (!arguments_read(arguments, keywords, "|sd$" QUERY_FORMAT ":contacts", names, &kind, &query.margin,
+                        QUERY_TARGETS(k)) ||
         read_kind(state, kind, &query.kind) || query_keywords_validate(state, &k) || world_enter(self, 1))
         return NULL;
     Py_BEGIN_ALLOW_THREADS;

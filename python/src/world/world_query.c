@@ -55,8 +55,7 @@ static PyObject *nearest(PyObject *object, PyObject *arguments, PyObject *keywor
     ovoid_world_hit hit;
     ovoid_error error;
     ovoid_code code;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O&|$" QUERY_FORMAT ":nearest", names, id_read, &id,
-                                     QUERY_TARGETS(k)) ||
+    if (!arguments_read(arguments, keywords, "O&|$" QUERY_FORMAT ":nearest", names, id_read, &id, QUERY_TARGETS(k)) ||
         query_keywords_validate(state, &k) || world_enter(self, 0))
         return NULL;
     Py_BEGIN_ALLOW_THREADS;
@@ -78,8 +77,8 @@ static PyObject *nearest_to(PyObject *object, PyObject *arguments, PyObject *key
     ovoid_world_hit hit;
     ovoid_error error;
     ovoid_code code;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|O$II" QUERY_FORMAT ":nearest_to", names, &body, &pose,
-                                     &probe.groups.group, &probe.groups.mask, QUERY_TARGETS(k)) ||
+    if (!arguments_read(arguments, keywords, "O|O$II" QUERY_FORMAT ":nearest_to", names, &body, &pose,
+                        &probe.groups.group, &probe.groups.mask, QUERY_TARGETS(k)) ||
         probe_read(state, body, pose, &probe) || query_keywords_validate(state, &k) || world_enter(self, 0))
         return NULL;
     Py_BEGIN_ALLOW_THREADS;
@@ -104,7 +103,7 @@ static PyObject *nearest_pair(PyObject *object, PyObject *arguments, PyObject *k
     ovoid_world_hit hit;
     ovoid_error error;
     ovoid_code code;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "|$" QUERY_FORMAT ":nearest_pair", names, QUERY_TARGETS(k)) ||
+    if (!arguments_read(arguments, keywords, "|$" QUERY_FORMAT ":nearest_pair", names, QUERY_TARGETS(k)) ||
         query_keywords_validate(state, &k) || world_enter(self, 0))
         return NULL;
     Py_BEGIN_ALLOW_THREADS;
@@ -213,8 +212,7 @@ static PyObject *find_any_to(PyObject *object, PyObject *arguments, PyObject *ke
     static char *names[] = {"bodies", "poses", "order", NULL};
     PyObject *given, *poses;
     const char *order = NULL;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OO|$z:find_any_to", names, &given, &poses, &order))
-        return NULL;
+    if (!arguments_read(arguments, keywords, "OO|$z:find_any_to", names, &given, &poses, &order)) return NULL;
     return find_any_with(object, given, poses, order, NULL);
 }
 
@@ -222,8 +220,7 @@ static PyObject *find_any_of(PyObject *object, PyObject *arguments, PyObject *ke
     static char *names[] = {"bodies", "poses", "couples", "order", NULL};
     PyObject *given, *poses, *couples;
     const char *order = NULL;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OOO|$z:find_any_of", names, &given, &poses, &couples,
-                                     &order))
+    if (!arguments_read(arguments, keywords, "OOO|$z:find_any_of", names, &given, &poses, &couples, &order))
         return NULL;
     return find_any_with(object, given, poses, order, couples);
 }
@@ -282,8 +279,8 @@ static PyObject *overlaps(PyObject *object, PyObject *arguments, PyObject *keywo
     PyObject *body, *pose = NULL;
     double margin = 0;
     ovoid_world_body probe = {0};
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "O|O$dII" QUERY_FORMAT ":overlaps", names, &body, &pose,
-                                     &margin, &probe.groups.group, &probe.groups.mask, QUERY_TARGETS(k)) ||
+    if (!arguments_read(arguments, keywords, "O|O$dII" QUERY_FORMAT ":overlaps", names, &body, &pose, &margin,
+                        &probe.groups.group, &probe.groups.mask, QUERY_TARGETS(k)) ||
         probe_read(state, body, pose, &probe) || query_keywords_validate(state, &k) || world_enter(self, 0))
         return NULL;
     PyObject *made =
@@ -312,8 +309,8 @@ static PyObject *cast_ray(PyObject *object, PyObject *arguments, PyObject *keywo
     ovoid_world_ray ray = {.ray = {.length = INFINITY}};
     ovoid_world_cast cast;
     ovoid_error error;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OO|d$dII:cast_ray", names, &origin, &direction,
-                                     &ray.ray.length, &ray.ray.radius, &ray.groups.group, &ray.groups.mask) ||
+    if (!arguments_read(arguments, keywords, "OO|d$dII:cast_ray", names, &origin, &direction, &ray.ray.length,
+                        &ray.ray.radius, &ray.groups.group, &ray.groups.mask) ||
         vec3_read(state, origin, "origin", &ray.ray.origin) ||
         vec3_read(state, direction, "direction", &ray.ray.direction) || world_enter(self, 0))
         return NULL;
@@ -332,8 +329,8 @@ static PyObject *cast_body(PyObject *object, PyObject *arguments, PyObject *keyw
     ovoid_world_cast cast;
     ovoid_error error;
     ovoid_code code;
-    if (!PyArg_ParseTupleAndKeywords(arguments, keywords, "OOO|$II:cast_body", names, &body, &pose, &way,
-                                     &probe.groups.group, &probe.groups.mask) ||
+    if (!arguments_read(arguments, keywords, "OOO|$II:cast_body", names, &body, &pose, &way, &probe.groups.group,
+                        &probe.groups.mask) ||
         probe_read(state, body, pose, &probe) || vec3_read(state, way, "displacement", &displacement) ||
         world_enter(self, 0))
         return NULL;

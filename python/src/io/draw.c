@@ -40,34 +40,33 @@ typedef struct picture_input {
     ovoid_picture_body *bodies;
     ovoid_picture_link *links;
     ovoid_faces *faces; ///< of each body, where it is a solid
+    uint32_t **memory;  ///< of these faces
 } picture_input;
 
 static void clear_input(picture_input *in) {
-    for (size_t i = 0; in->faces && i < in->picture.body_count; i++) {
-        free((void *)(uintptr_t)in->faces[i].indices);
-        free((void *)(uintptr_t)in->faces[i].sizes);
-    }
+    for (size_t i = 0; in->memory && i < in->picture.body_count; i++) free(in->memory[i]);
+    free(in->memory);
     free(in->faces);
     free(in->bodies);
     free(in->links);
 }
 
-// The triangles of a solid; 0 where memory is out.
-static int make_faces(const ovoid_solid *solid, ovoid_faces *to) {
+// The triangles of a solid, in memory to be freed; NULL where it is out.
+static uint32_t *make_faces(const ovoid_solid *solid, ovoid_faces *to) {
     ovoid_solid_report report = ovoid_solid_get_report(solid);
     size_t count = (size_t)report.triangles;
-    uint32_t *indices = malloc((3 * count + 1) * sizeof *indices), *sizes = malloc((count + 1) * sizeof *sizes);
-    *to = (ovoid_faces){ovoid_solid_get_points(solid), (size_t)report.points, indices, sizes, count};
-    if (!indices || !sizes) return 0;
-    for (size_t t = 0; t < count; t++) {
+    uint32_t *indices = malloc((4 * count + 1) * sizeof *indices), *sizes = indices ? indices + 3 * count : NULL;
+    for (size_t t = 0; indices && t < count; t++) {
         ovoid_solid_get_triangle(solid, t, indices + 3 * t);
         sizes[t] = 3;
     }
-    return 1;
+    *to = (ovoid_faces){ovoid_solid_get_points(solid), (size_t)report.points, indices, sizes, count};
+    return indices;
 }
 
 // A body: (shape, solid or None, pose, name or None, group). A solid is drawn, and the shape is its hull.
-static int read_body(module_state *state, PyObject *from, ovoid_picture_body *to, ovoid_faces *faces) {
+static int read_body(module_state *state, PyObject *from, picture_input *in, size_t i) {
+    ovoid_picture_body *to = &in->bodies[i];
     PyObject *shape, *solid, *pose;
     int group;
     if (!PyArg_ParseTuple(from, "O!OO!zi", state->shape, &shape, &solid, state->pose, &pose, &to->name, &group))
@@ -77,8 +76,8 @@ static int read_body(module_state *state, PyObject *from, ovoid_picture_body *to
     to->group = (uint32_t)group;
     if (Py_TYPE(solid) != state->solid) return 0;
     const ovoid_solid *of = ((solid_object *)solid)->solid;
-    if (!make_faces(of, faces)) return PyErr_NoMemory(), -1;
-    to->mesh = faces;
+    if (!(in->memory[i] = make_faces(of, &in->faces[i]))) return PyErr_NoMemory(), -1;
+    to->mesh = &in->faces[i];
     to->is_mesh = ovoid_solid_get_report(of).is_closed ? OVOID_PICTURE_CLOSED : 1;
     return 0;
 }
@@ -96,14 +95,15 @@ static int read_lists(module_state *state, PyObject *bodies, PyObject *links, pi
     size_t count = (size_t)PyTuple_Size(bodies), link_count = (size_t)PyTuple_Size(links);
     in->bodies = calloc(count + 1, sizeof *in->bodies);
     in->faces = calloc(count + 1, sizeof *in->faces);
+    in->memory = calloc(count + 1, sizeof *in->memory);
     in->links = calloc(link_count + 1, sizeof *in->links);
-    if (!in->bodies || !in->faces || !in->links) return PyErr_NoMemory(), -1;
+    if (!in->bodies || !in->faces || !in->memory || !in->links) return PyErr_NoMemory(), -1;
     in->picture.bodies = in->bodies;
     in->picture.links = in->links;
     in->picture.body_count = count;
     in->picture.link_count = link_count;
     for (size_t i = 0; i < count; i++)
-        if (read_body(state, PyTuple_GetItem(bodies, (Py_ssize_t)i), &in->bodies[i], &in->faces[i])) return -1;
+        if (read_body(state, PyTuple_GetItem(bodies, (Py_ssize_t)i), in, i)) return -1;
     for (size_t i = 0; i < link_count; i++)
         if (read_link(state, PyTuple_GetItem(links, (Py_ssize_t)i), &in->links[i])) return -1;
     return 0;
@@ -138,8 +138,9 @@ static ovoid_mesh_kind get_kind(const module_state *state, PyObject *body) {
 static ovoid_code write_record(FILE *file, void *context, ovoid_error *error) {
     ovoid_code code = ovoid_record_write_json(file, context);
     *error = (ovoid_error){.code = code, .place = -1};
-    strcpy(error->message, code == OVOID_ERROR_LIMIT ? "the answer's proof is too long for a line of results"
-                                                     : "the line of results could not be written");
+    PyOS_snprintf(error->message, sizeof error->message, "%s",
+                  code == OVOID_ERROR_LIMIT ? "the answer's proof is too long for a line of results"
+                                            : "the line of results could not be written");
     return code;
 }
 
