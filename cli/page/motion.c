@@ -160,6 +160,7 @@ void page_motion_write(cli_page *page, const page_motion *m, const page_choice *
     write_poses(file, m, choice);
     page->left_out.events += m->event_lost + write_events(file, m, choice);
     page->left_out.frames += m->seen - m->count;
+    fprintf(file, ",\"between\":%s", m->is_continuous && m->seen == m->count ? "true" : "false");
     member_write_number(file, ",", "margin", margin >= 0 ? margin : NAN);
     fputc('}', file);
 }

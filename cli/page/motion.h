@@ -22,7 +22,8 @@ typedef struct page_motion {
     double last_time;
     page_event *events;
     size_t event_count, event_capacity, event_lost;
-    int failed; ///< no memory
+    int is_continuous; ///< between two frames objects go as --continuous takes them, from pose to pose
+    int failed;        ///< no memory
 } page_motion;
 
 /// Begins with no frame. 0, or EXIT_INPUT after a message.

@@ -213,6 +213,7 @@ static int write_page(run_state *r, const char *title) {
                              .tolerance = s->tolerance,
                              .threads = s->threads};
     const page_run run = {&r->motion, &r->track, s->continuous ? get_margin(s) : s->margin};
+    r->motion.is_continuous = s->continuous && !r->frames.speed;
     return page_write_run(&r->page, title, &job, &run);
 }
 

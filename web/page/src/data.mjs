@@ -48,7 +48,7 @@ export function readData(text) {
   data.title = shorten(data.title ?? 'scene');
   data.command = shorten(data.command ?? '', 2000);
   // Names of any length come from files: the keys stay, what is shown is cut.
-  for (const body of data.bodies) body.name = shorten(body.name);
+  for (const body of data.bodies) Object.assign(body, { name: shorten(body.name), wholeName: body.name });
   for (const shape of data.shapes) {
     shape.bytes = decodeBytes(shape.bytes);
     if (shape.mesh) shape.mesh = { points: decode(Float32Array, shape.mesh.points), triangles: decode(Uint32Array, shape.mesh.triangles) };

@@ -11,13 +11,19 @@ export function findNearest(pairs, answerOf) {
   }, null);
 }
 
+// How many pairs are proven to touch, or to be within the margin, at the beginning; '' for none, or where it is not asked about.
+function describeBegin(pairs, margin, unit) {
+  const isNear = ({ status, upper }) => (margin > 0 ? upper <= margin : status === 'overlapping' || status === 'touching'), count = pairs.filter(({ begin }) => begin && isNear(begin)).length;
+  return count ? `${count === 1 ? '1 pair is' : `${count} pairs are`} ${margin > 0 ? `within ${formatLength(margin, unit, 3)}` : 'touching'} from the beginning` : '';
+}
+
 // The first time that bodies touch, or come within the margin, of a motion.
-function describeFirst({ data: { motion }, bodies, unit }) {
-  const first = (motion.events ?? []).filter(({ kind }) => kind === 'impact' || kind === 'contact').reduce((best, e) => (best && best.time <= e.time ? best : e), null);
-  if (!first) return '';
-  const what = first.kind === 'impact' && motion.margin > 0 ? `first come within ${formatLength(motion.margin, unit, 3)}` : 'first touch', names = nameBoth({ a: bodies[first.a], b: bodies[first.b] });
+function describeFirst({ data: { motion }, pairs, bodies, unit }) {
+  const begun = describeBegin(pairs, motion.margin, unit), first = (motion.events ?? []).filter(({ kind }) => kind === 'impact' || kind === 'contact').reduce((best, e) => (best && best.time <= e.time ? best : e), null);
+  if (!first) return begun && `${begun}. `;
+  const what = first.kind === 'impact' && motion.margin > 0 ? `come within ${formatLength(motion.margin, unit, 3)}` : 'touch', names = nameBoth({ a: bodies[first.a], b: bodies[first.b] });
   const at = first.kind === 'impact' ? `at t = ${first.from > 0 ? formatGlance(first.from, first.time, '') : formatMiddle(first.from, first.time, '')}` : `at t = ${formatLength(first.time, '', 4)}, the first of the frames`;
-  return `${names} ${what} ${at}${first.kind === 'impact' ? ', proven' : ''}. `;
+  return `${begun}${begun ? '; then ' : ''}${names} ${begun ? '' : 'first '}${what} ${at}${first.kind === 'impact' ? ', proven' : ''}. `;
 }
 
 /** The headline; null of a robot, whose verdict has its own. */

@@ -2,10 +2,17 @@
 import { sideKey } from './data.mjs';
 import { compose } from './model.mjs';
 import { element } from './panel.mjs';
-import { formatBracket, formatLength, shorten } from './text.mjs';
+import { stepByKeys } from './keys.mjs';
+import { describeAnswer, describeBracket, formatLength, shorten } from './text.mjs';
 
 const COUNTS = { revolute: 1, continuous: 1, prismatic: 1, planar: 3, floating: 7 };
 const format = (x) => String(Number(x.toPrecision(6)));
+/** The same in a narrow field. */
+const formatShort = (x) => String(Number(Math.abs(x) < 0.01 ? x.toPrecision(2) : x.toFixed(4)));
+/** By how much an arrow key moves a joint: radians, metres. */
+const STEP = 0.01;
+/** Of more joints each has one row. */
+const FEW = 4;
 
 export class Joints {
   constructor(root, model, onMove) {
@@ -17,11 +24,22 @@ export class Joints {
     this.byKey = new Map(model.bodies.map((body) => [body.key, body]));
     this.q = [...(given.states?.[0] ?? new Array(this.robot.variableCount).fill(0))];
     this.margin = model.data.margin ?? 0;
-    this.shown = Math.max(this.margin, model.ball.radius / 5);
+    this.shown = Math.max(this.margin, Number((model.ball.radius / 5).toPrecision(1)));
+    // What is farther apart than is listed.
+    model.farther = `farther apart than ${formatLength(this.shown, model.unit, 15)}`;
     this.verdict = element('p', { id: 'verdict', role: 'status' });
+    const states = given.states ?? [];
+    model.keepRoom(states.length, (i) => this.#follow(states[i]));
     root.hidden = false;
     root.replaceChildren(this.verdict, ...this.#sliders(given));
+    root.classList.toggle('narrow', this.inputs.length > FEW);
     this.move();
+  }
+
+  // Puts the bodies of links where a state has them.
+  #follow(q) {
+    const poses = this.robot.poses(q);
+    for (const body of this.model.bodies) if (body.link !== undefined) body.pose = compose(poses[this.links.get(body.link)], body.at);
   }
 
   // The robot as the tool asked about it.
@@ -74,16 +92,24 @@ export class Joints {
       this.onChange?.();
       this.move();
     };
-    const input = element('input', { type: 'range', min, max, step: 'any', 'aria-label': joint.name.length > 60 ? name : joint.name, oninput: () => take(Number(input.value)) });
-    const number = element('input', { type: 'number', step: 'any', className: 'value', 'aria-label': `${name}, ${unit || 'length'}`, onchange: () => Number.isFinite(number.valueAsNumber) && take(number.valueAsNumber) });
+    const range = `${Number(limits[0].toFixed(4))} to ${Number(limits[1].toFixed(4))} ${unit}${isFree ? ', without limits' : ''}`;
+    let isTyping = false;
+    const input = element('input', { type: 'range', min, max, step: 'any', 'aria-label': joint.name.length > 60 ? name : joint.name, title: range, oninput: () => take(Number(input.value)) });
+    const number = element('input', { type: 'text', inputMode: 'decimal', className: 'value', 'aria-label': `${name}, ${unit || 'length'}`, title: range, oninput: () => (isTyping = true), onblur: () => (isTyping = false), onchange: () => {
+      isTyping = false;
+      const value = Number(number.value.replace(',', '.'));
+      if (number.value.trim() && Number.isFinite(value)) take(value);
+      else this.inputs.forEach((show) => show());
+    } });
+    for (const node of [input, number]) stepByKeys(node, (steps) => take(Math.max(min, Math.min(max, this.q[at] + steps * STEP))));
     const end = (x) => element('span', { className: 'soft', textContent: Number(x.toFixed(2)) });
     row.append(
-      element('span', { className: 'name', textContent: name, title: name }), number, element('span', { textContent: unit }), angle,
+      element('span', { className: 'name', textContent: shorten(name, 15), title: `${name}: ${range}` }), number, element('span', { textContent: unit }), angle,
       element('div', { className: 'row' }, end(min), input, end(max)),
     );
     const show = () => {
       input.value = this.q[at];
-      if (document.activeElement !== number) number.value = format(this.q[at]);
+      if (!isTyping) number.value = formatShort(this.q[at]);
       angle.textContent = unit === 'rad' ? `${((180 * this.q[at]) / Math.PI).toFixed(1)}°` : '';
       row.classList.toggle('outside', !isFree && (this.q[at] < joint.lower || this.q[at] > joint.upper));
     };
@@ -112,25 +138,26 @@ export class Joints {
   }
 
   move() {
-    const poses = this.robot.poses(this.q);
-    for (const body of this.model.bodies) if (body.link !== undefined) body.pose = compose(poses[this.links.get(body.link)], body.at);
+    this.#follow(this.q);
     this.inputs.forEach((show) => show());
     const near = this.robot.near(this.q, this.shown);
     this.model.pairs = near.map(({ a, b, ...answer }) => ({ a: this.find(a), b: this.find(b), answer: { ...answer, stage: 'robot' }, isLive: true }));
     this.model.byBody = new Map(this.model.bodies.map((body) => [body, this.model.pairs.filter((p) => p.a === body || p.b === body)]));
     this.answer = this.robot.collide(this.q, this.margin, this.given.limit_slack ?? 0);
-    this.verdict.textContent = `This state: ${this.describe(this.answer, this.model.pairs[0])}`;
+    this.verdict.textContent = `This state: ${this.describe(this.answer)}`;
     this.verdict.className = this.answer.status;
     this.onMove();
   }
 
-  /** An answer to a state in words. */
-  describe({ status, a, b, code, variable, ...bracket }, nearest) {
-    const { unit } = this.model, hulls = this.hulls ? ` (${this.hulls} bodies count as their hulls here: their triangles are too many for the page)` : '';
-    if (status === 'free') return `free; nearest ${nearest ? `${nearest.a.name} – ${nearest.b.name}, ${formatBracket(nearest.answer, unit)}` : `beyond ${formatLength(this.shown, unit, 3)}`}${hulls}`;
+  /** The answer to the state that is shown, in words; of the pair that it names the listed bracket, which is narrower. */
+  describe({ status, a, b, code, variable, ...bracket }) {
+    const { unit, pairs } = this.model, hulls = this.hulls ? ` (${this.hulls} bodies count as their hulls here: their triangles are too many for the page)` : '';
+    const nearest = pairs.reduce((best, pair) => (best && best.answer.lower <= pair.answer.lower ? best : pair), null), say = (p, q, found) => `${p.name} and ${q.name} ${found.stage ? describeAnswer(found, unit) : describeBracket(found, unit)}`;
+    if (status === 'free') return `free; ${nearest ? `nearest: ${say(nearest.a, nearest.b, nearest.answer)}` : `all are ${this.model.farther}`}${hulls}`;
     if (status === 'refused') return `refused: ${this.describeVariable(variable)}${code === 'out of range' ? '' : `: ${code}`}`;
     if (!a) return `${status}: nothing is compared`;
-    return `${status}: ${this.find(a).name} – ${this.find(b).name}, ${formatBracket(bracket, unit)}${hulls}`;
+    const [p, q] = [this.find(a), this.find(b)], listed = pairs.find((pair) => (pair.a === p && pair.b === q) || (pair.a === q && pair.b === p));
+    return `${status}: ${say(p, q, listed?.answer ?? bracket)}${hulls}`;
   }
 
   /** A variable with its value and its limits. */

@@ -39,14 +39,18 @@ class Page {
     if (model.data.robot) {
       this.joints = new Joints($('joints'), model, () => this.atJoints());
       this.track = new Track({ whole: $('whole'), track: $('timeline') }, model, this.joints);
-      this.panel.fill();
     }
+    for (const pair of model.pairs) pair.begin = pair.now;
+    if (this.timeline || this.joints) this.panel.fill();
+    this.panel.show(null);
     this.labels = new Labels($('labels'), model);
     this.view.onPicture = (sizes) => this.labels.update(this.view, this.#shownAnswer(), sizes);
     this.view.onDrawn = (drawn, all) => this.#sayDrawn(drawn, all);
+    this.view.fitAnew();
     this.#layers();
     this.#buttons();
     document.addEventListener('keydown', (event) => this.#key(event));
+    for (const [event, isPaper] of [['beforeprint', true], ['afterprint', false]]) window.addEventListener(event, () => this.#fitPaper(isPaper));
     this.#hover();
     this.#showAnswer();
   }
@@ -88,7 +92,7 @@ class Page {
       this.timeline.set(pair.frame);
     }
     this.panel.show(pair);
-    this.view.choose(this.#chosen(), this.isIsolated);
+    this.view.choose(pair ? this.#chosen() : [], this.isIsolated);
     this.#showAnswer();
     (this.timeline ?? this.track)?.show(pair);
     if (!pair) return;
@@ -102,7 +106,7 @@ class Page {
     this.view.hold(null);
     this.panel.show(null);
     this.chosenBody = body;
-    this.view.choose(this.#chosen(), this.isIsolated && body !== null);
+    this.view.choose(body ? [body] : [], this.isIsolated && body !== null);
     this.#showAnswer();
     if (body) this.panel.showBody(body);
   }
@@ -170,7 +174,7 @@ class Page {
   #layers() {
     const labels = { meshes: 'Meshes', hulls: 'Hulls', outer: 'Outer ellipsoids', inner: 'Inner ellipsoids', areas: 'Areas', witness: 'Witness points' };
     const keys = { meshes: 'm', hulls: 'h', outer: 'o', inner: 'i', areas: 'a', witness: 'w' };
-    const has = (name) => name === 'witness' || Layer.has(this.model, name);
+    const { data, pairs } = this.model, has = (name) => (name === 'witness' ? pairs.length > 0 || data.robot !== undefined : Layer.has(this.model, name));
     this.boxes = {};
     for (const [name, text] of Object.entries(labels)) {
       if (!has(name)) continue;
@@ -218,7 +222,7 @@ class Page {
   }
 
   #buttons() {
-    $('proofs').hidden = this.model.data.robot !== undefined || !this.model.pairs.length;
+    $('proofs').hidden = this.model.data.robot !== undefined || !this.model.pairs.length || this.panel.isSingle;
     $('check-all').onclick = () => this.verifyAll();
     const name = this.model.data.title.replace(/\.[^.]*$/, '').replace(/[^\w.-]+/g, '_');
     $('fit').onclick = () => this.view.fit();
@@ -250,11 +254,22 @@ class Page {
       p: () => document.getElementById('check')?.click(), escape: () => this.choosePair(null), '?': () => $('keys').showModal(),
       arrowdown: () => this.#next(1), arrowup: () => this.#next(-1), ' ': () => (this.timeline ?? this.track)?.toggle(),
     };
-    if (box) box.click();
+    if (event.target.id === 'canvas' && this.view.takeKey(key)) event.preventDefault();
+    else if (box) box.click();
     else if (actions[key] && !(key.startsWith('arrow') && event.target.matches('input'))) {
       actions[key]();
       event.preventDefault();
     }
+  }
+
+  // The picture as large as on paper, its names in their places, on a canvas of its own, as browsers print an older picture of WebGL; and back.
+  #fitPaper(isPaper) {
+    document.body.classList.toggle('paper', isPaper);
+    this.view.resize();
+    this.view.drawNow();
+    const { canvas } = this.view, { width, height } = isPaper ? canvas : { width: 1, height: 1 };
+    Object.assign($('paper'), { width, height });
+    $('paper').getContext('2d').drawImage(canvas, 0, 0);
   }
 
   #next(step) {

@@ -7,6 +7,7 @@ class Body {
   constructor(model, given, index) {
     this.index = index;
     this.name = given.name;
+    this.wholeName = given.wholeName;
     this.link = given.link;
     // Of a robot: what it is in answers, and where it is in its link's frame.
     this.key = given.key;
@@ -102,6 +103,8 @@ class PageShape {
 
 /** Of more points a picture of all goes by the balls of bodies. */
 const MOST_POINTS = 50000;
+/** Of how many times or states a picture of all has room for the bodies. */
+const PLACES = 16;
 
 /** In the place of an answer, of bodies that moved and are not on the page. */
 const UNKNOWN = { status: 'undecided', lower: -Infinity, upper: Infinity, stage: 'none' };
@@ -116,12 +119,32 @@ export class Model {
     this.pairs = data.pairs.map(({ a, b, answer, frame }) => ({ a: this.bodies[a], b: this.bodies[b], answer, given: answer, frame, isLive: false }));
     this.byBody = new Map(this.bodies.map((body) => [body, []]));
     for (const pair of this.pairs) for (const body of [pair.a, pair.b]) this.byBody.get(body).push(pair);
+    // Balls where bodies are at other times or in other states: a picture of all has room for them.
+    this.room = [];
+  }
+
+  /** Adds to the room where bodies are at some of `count` times or states; go(i) puts them where they are at the i-th. */
+  keepRoom(count, go) {
+    const most = Math.min(count, PLACES);
+    for (let i = 0; i < most; i++) {
+      go(most > 1 ? Math.round((i * (count - 1)) / (most - 1)) : 0);
+      const balls = this.listBalls();
+      this.room.push(...(PLACES * balls.length > MOST_POINTS ? this.bodies : balls).map(({ center, radius }) => ({ center, radius })));
+    }
   }
 
   /** The ball around all bodies. */
   get ball() {
-    if (!this.bodies.length) return { center: [0, 0, 0], radius: 1 };
-    const { middle, radius } = makeBall(this.bodies.map((body) => ({ middle: body.center, radius: body.radius })));
+    return this.#ballAround(this.bodies);
+  }
+  /** The same with the room for other times and states. */
+  get roomBall() {
+    return this.#ballAround([...this.bodies, ...this.room]);
+  }
+
+  #ballAround(balls) {
+    if (!balls.length) return { center: [0, 0, 0], radius: 1 };
+    const { middle, radius } = makeBall(balls.map((ball) => ({ middle: ball.center, radius: ball.radius })));
     return { center: middle, radius: Math.max(1e-12, radius) };
   }
 

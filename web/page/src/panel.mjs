@@ -4,6 +4,8 @@ import { countPairs, describeScene } from './headline.mjs';
 import { describeAnswer, formatBracket, formatLength, formatMiddle } from './text.mjs';
 
 const MOST_ROWS = 400;
+/** Of fewer pairs nothing needs to be sought by name. */
+const FEW = 4;
 
 export function element(tag, properties = {}, ...children) {
   const node = document.createElement(tag);
@@ -37,7 +39,9 @@ export class Panel {
     this.list = root.querySelector('#pairs');
     this.more = root.querySelector('#more');
     this.details = root.querySelector('#details');
-    if (model.data.motion) this.list.before(element('thead', {}, element('tr', {}, ...['pair', 'now', 'least over the motion (at t)'].map((textContent) => element('th', { textContent })))));
+    const unit = model.unit ? `, ${model.unit}` : '';
+    if (model.data.motion) this.list.before(element('thead', {}, element('tr', {}, ...['pair', `now${unit}`, `least${unit}`, 'at t'].map((textContent) => element('th', { textContent, scope: 'col' })))));
+    this.isSingle = model.pairs.length === 1 && !model.data.motion && !model.data.robot;
     root.querySelector('#filter').addEventListener('input', (event) => {
       this.filter = event.target.value.toLowerCase();
       this.fill();
@@ -74,20 +78,22 @@ export class Panel {
       }),
     );
     const all = this.model.pairs.length, { summary, bodies } = this.model, count = (n, one, many) => `${n} ${n === 1 ? one : many}`;
-    this.summary.textContent = summary ?? `${count(bodies.length, 'body', 'bodies')}, ${count(all, 'pair', 'pairs')}${all ? `: ${countPairs(this.model.pairs)}` : ''}`;
-    this.list.parentNode.parentNode.hidden = this.filterRow.hidden = all === 0 && !this.model.data.robot;
+    this.summary.textContent = summary ?? `${count(bodies.length, 'body', 'bodies')}${all ? `, ${count(all, 'pair', 'pairs')}: ${countPairs(this.model.pairs)}` : ''}`;
+    this.list.parentNode.parentNode.hidden = this.isSingle || (all === 0 && !this.model.data.robot);
+    this.filterRow.hidden = this.model.data.robot ? bodies.length <= FEW + 1 : all < FEW;
     this.headline.textContent = describeScene(this.model) ?? '';
     this.headline.hidden = !this.headline.textContent;
-    this.more.textContent = pairs.length > MOST_ROWS ? `${pairs.length - MOST_ROWS} more: narrow the filter` : pairs.length < all ? `${pairs.length} of ${all}` : '';
+    const rest = pairs.length > MOST_ROWS ? `${pairs.length - MOST_ROWS} more: narrow the filter` : pairs.length < all ? `${pairs.length} of ${all}` : '';
+    this.more.textContent = all === 0 && this.model.farther ? `All are ${this.model.farther}.` : rest;
   }
 
   #write(pair, row) {
-    const { a, b, answer } = pair, number = (said, more = '') => element('td', {
-      className: `number ${said?.status ?? ''}`, textContent: said ? formatBracket(said, this.model.unit) + more : '', title: said ? `${said.lower} to ${said.upper}` : '',
+    const { a, b, answer } = pair, { motion } = this.model.data, number = (said) => element('td', {
+      className: `number ${said?.status ?? ''}`, textContent: said ? formatBracket(said, motion ? '' : this.model.unit) : '', title: said ? `${said.lower} to ${said.upper}` : '',
     });
     row.className = `${pair === this.chosen ? 'chosen' : ''}${pair.isLive ? ' live' : ''}${pair.isBroken ? ' broken' : ''}${pair === this.marked ? ` marked ${(pair.isLive ? answer : pair.now ?? answer).status}` : ''}`;
-    const { motion } = this.model.data, least = motion && number(pair.given, ` (t ${formatLength(motion.times[pair.frame], '', 4)})`);
-    row.replaceChildren(element('td', { textContent: `${a.name} – ${b.name}` }), ...(motion ? [number(pair.isLive ? answer : pair.now), least] : [number(answer)]));
+    const numbers = motion ? [number(pair.isLive ? answer : pair.now), number(pair.given), element('td', { className: 'time', textContent: formatLength(motion.times[pair.frame], '', 4) })] : [number(answer)];
+    row.replaceChildren(element('td', { textContent: `${a.name} – ${b.name}` }), ...numbers);
   }
 
   /** Marks a pair in the list as the nearest. */
@@ -103,8 +109,9 @@ export class Panel {
     if (this.chosen && pairs.includes(this.chosen)) this.show(this.chosen);
   }
 
-  /** What is known of a pair; null: nothing is chosen. */
-  show(pair) {
+  /** What is known of a pair; null: nothing is chosen, or of one pair alone that pair. */
+  show(chosen) {
+    const pair = chosen ?? (this.isSingle ? this.model.pairs[0] : null);
     const before = this.chosen;
     this.chosen = pair;
     for (const p of [before, pair]) if (p && this.rows.has(p)) this.#write(p, this.rows.get(p));
@@ -145,18 +152,26 @@ export class Panel {
     const pose = element('output', { id: 'pose', textContent: text(body.pose) });
     this.poseText = { body, node: pose, text };
     this.details.replaceChildren(
-      element('h2', { textContent: body.name }),
+      element('h2', { textContent: body.name }), ...this.#wholeName(body),
       element('p', {},
         element('button', { id: 'move', textContent: 'Move', title: 'drag its arrows (G)', onclick: () => this.actions.hold('translate') }), ' ',
         element('button', { id: 'turn', textContent: 'Turn', title: 'drag its rings (R)', onclick: () => this.actions.hold('rotate') }), ' ',
         element('button', { textContent: 'Only this', title: 'show nothing else (X)', onclick: () => this.actions.isolate() })),
       element('dl', {},
         element('dt', { textContent: 'pose (x y z, w x y z)' }), element('dd', {}, pose),
-        element('dt', { textContent: 'parts' }), element('dd', { textContent: body.isSolid ? this.#describeSolid(body) : String(body.parts.length) }),
+        element('dt', { textContent: 'parts' }), element('dd', { textContent: body.isSolid ? this.#describeSolid(body) : `${body.parts.length} convex` }),
       ),
       element('h3', { textContent: 'Its pairs' }),
       element('ul', { id: 'own' }, ...this.#ownPairs(body)),
     );
+  }
+
+  // A name that is cut is whole in a field of its own, made when it is opened.
+  #wholeName({ name, wholeName }) {
+    if (name === wholeName) return [];
+    const details = element('details', { id: 'whole-name' }, element('summary', { textContent: `The whole name, ${wholeName.length} characters` }));
+    details.addEventListener('toggle', () => details.querySelector('textarea') ?? details.append(element('textarea', { value: wholeName, readOnly: true, 'aria-label': 'the whole name' })));
+    return [details];
   }
 
   #describeSolid({ parts: [{ shape }] }) {

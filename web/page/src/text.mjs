@@ -41,7 +41,7 @@ export function formatBracket({ status, lower, upper }, unit) {
   if (status === 'touching') return formatLength(0, unit);
   const most = Math.max(Math.abs(lower), Math.abs(upper)), width = upper - lower;
   if (width <= 1e-5 * most) return formatLength(lower, unit);
-  return width <= 0.05 * most ? formatMiddle(lower, upper, unit) : formatEnds(lower, upper, unit, 5);
+  return width <= 0.05 * most ? formatMiddle(lower, upper, unit) : formatEnds(lower, upper, unit, 3);
 }
 
 /** A number > 0 in a bracket, to be read at a glance: three digits where both ends round to them. */

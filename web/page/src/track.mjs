@@ -1,10 +1,11 @@
 // The states of a robot, or a path through them: a slider with a mark for each state, what the tool has proven of them,
 // the distance of the nearest pair over a path, and which steps prove which stretch of it.
 import { element, svg } from './panel.mjs';
-import { describeBracket, formatLength } from './text.mjs';
+import { stepByKeys } from './keys.mjs';
+import { describeBracket, formatLength, formatMiddle } from './text.mjs';
 import { Player } from './player.mjs';
 
-const WIDTH = 600, BAND = 10, CURVE = [16, 68], ROWS = 74;
+const WIDTH = 600, BAND = 10, CURVE = [16, 68], ROWS = 74, LOW = 14;
 const KINDS = { outer: 'spheres or boxes in the middle', middle: 'gap along a normal in the middle', ends: 'gaps along a normal at both ends', solid: 'distance of the triangles in the middle' };
 const MOST_LISTED = 40;
 const sum = (answers) => ['free', 'hit', 'undecided', 'refused'].map((status) => [status, answers.filter((a) => a.status === status).length]).filter(([, n]) => n);
@@ -41,10 +42,10 @@ export class Track {
   }
 
   #describe(answer) {
-    const { joints, model } = this, pair = answer.a ? `${joints.findTold(answer.a).name} – ${joints.findTold(answer.b).name} ${describeBracket(answer, model.unit)}` : '';
+    const { joints, model } = this, pair = answer.a ? `${joints.findTold(answer.a).name} and ${joints.findTold(answer.b).name} ${describeBracket(answer, model.unit)}` : '';
     switch (answer.status) {
       case 'free': return `free at all times, proven by ${answer.steps} steps`;
-      case 'hit': return answer.hit_at > answer.free_until ? `hit between s ${format(answer.free_until)} and ${format(answer.hit_at)}: ${pair}` : `hit at s ${format(answer.hit_at)}: ${pair}`;
+      case 'hit': return `hit first at s = ${formatMiddle(answer.free_until, answer.hit_at, '')}: ${pair}`;
       case 'refused': return `refused: state ${answer.refused}: ${this.#describeRefused(answer)}`;
       default: return pair ? `undecided from s ${format(answer.free_until)} on: ${pair}` : 'undecided: nothing is compared';
     }
@@ -67,18 +68,22 @@ export class Track {
       type: 'range', id: 'state', className: 'wide', min: 0, max: this.last, step: this.#step, value: 0, 'aria-label': this.path ? 's, the place on the path' : 'state',
       oninput: () => this.set(Number(this.slider.value)),
     });
+    stepByKeys(this.slider, (steps) => this.set(Math.max(0, Math.min(this.last, this.path ? this.at + (steps * this.last) / 100 : this.at + steps))));
     this.label = element('output', { id: 'now' });
-    this.plot = svg('svg', { viewBox: `0 0 ${WIDTH} ${this.path ? ROWS + 22 : 14}`, preserveAspectRatio: 'none', class: this.path ? 'plot' : 'plot low', role: 'img', 'aria-label': this.path ? 'what is proven over the path' : 'what each state is' });
+    // Without distances there is the band alone.
+    const isHigh = this.path?.clearance?.length > 0, height = isHigh ? ROWS + 22 : LOW;
+    this.plot = svg('svg', { viewBox: `0 0 ${WIDTH} ${height}`, preserveAspectRatio: 'none', class: isHigh ? 'plot' : 'plot low', role: 'img', 'aria-label': this.path ? 'what is proven over the path' : 'what each state is' });
     this.plot.addEventListener('pointerdown', (event) => {
       const box = this.plot.getBoundingClientRect(), at = ((event.clientX - box.left) / box.width) * this.last;
       this.set(this.path ? Math.max(0, Math.min(this.last, at)) : Math.round(at));
     });
+    this.scale = element('div', { className: 'scale high' });
     this.legend = element('p', { id: 'legend' });
     this.steps = this.path?.steps && element('details', { id: 'steps', ontoggle: () => this.#listSteps() });
     const player = (this.player = new Player(this.last, Math.min(20, Math.max(4, this.last * (this.path ? 2 : 0.4))), () => this.at, (at) => this.set(this.path ? at : Math.round(at))));
     root.hidden = false;
-    root.replaceChildren(element('div', { className: 'row' }, player.button, this.label), this.slider, this.plot, this.legend, ...(this.steps ? [this.steps] : []));
-    this.cursor = svg('line', { x1: 0, x2: 0, y1: 0, y2: ROWS + 22, class: 'cursor' });
+    root.replaceChildren(element('div', { className: 'row' }, player.button, this.label), this.slider, element('div', { className: 'graph' }, this.plot, this.scale), this.legend, ...(this.steps ? [this.steps] : []));
+    this.cursor = svg('line', { x1: 0, x2: 0, y1: 0, y2: height, class: 'cursor' });
     this.draw();
   }
 
@@ -106,7 +111,7 @@ export class Track {
     const { path, answers, times } = this, edge = Math.min(Math.floor(at), this.last - 1), whole = Math.floor(at), part = at - whole;
     const time = times && !this.isEdges ? `, ${formatLength(times[whole] + (part ? part * (times[whole + 1] - times[whole]) : 0), 's')}` : '';
     const status = this.isEdges ? path.edges[edge].status : path ? this.#statusAt(at) : answers[at]?.status;
-    this.label.textContent = `${this.isEdges ? `edge ${edge}, s ${format(at - edge)}` : path ? `s ${format(at)}` : `state ${at} of ${this.states.length}`}${time}: ${status}`;
+    this.label.textContent = `${this.isEdges ? `edge ${edge}, s ${format(at - edge)}` : path ? `s ${format(at)}` : `state ${at} (of 0 to ${this.states.length - 1})`}${time}: ${status}`;
     this.label.className = { 'proven free': 'free', 'not looked at': '' }[status] ?? status;
     this.#listSteps();
   }
@@ -143,11 +148,24 @@ export class Track {
     });
   }
 
+  // What the colours of the band mean.
+  #listVerdicts() {
+    const { path, answers } = this, seen = new Set((path ? path.edges : answers).map(({ status }) => status)), words = { free: path ? 'proven free' : 'free', hit: 'hit', undecided: 'undecided', refused: 'refused' };
+    if (path?.edges.some(({ status, free_until: free }) => status === 'hit' && free > 0)) seen.add('free');
+    return Object.entries(words).filter(([status]) => seen.has(status));
+  }
+
+  // The ends of the curve, as text beside it.
+  #showScale(low, high) {
+    this.scale.replaceChildren(...[high, low].map((x) => element('span', { textContent: formatLength(x, this.model.unit, 3) })));
+  }
+
   // The distance of the nearest pair at samples.
   #curve() {
     const { clearance = [] } = this.path ?? {}, { margin } = this.model.data, values = clearance.filter(([, low, high]) => low !== null && high !== null).map(([s, low, high]) => [s, (low + high) / 2]);
     if (!values.length) return [];
     const low = Math.min(0, ...values.map((v) => v[1])), high = Math.max(margin ?? 0, 1e-12, ...values.map((v) => v[1]));
+    this.#showScale(low, high);
     const y = (value) => CURVE[1] - ((CURVE[1] - CURVE[0]) * (value - low)) / (high - low), line = (value, kind) => svg('line', { x1: 0, x2: WIDTH, y1: y(value), y2: y(value), class: kind });
     return [line(0, 'zero'), ...(margin ? [line(margin, 'margin')] : []), svg('polyline', { points: values.map(([s, value]) => `${this.#x(s)},${y(value)}`).join(' '), class: 'curve' })];
   }
@@ -168,7 +186,9 @@ export class Track {
     this.plot.replaceChildren(...this.#band(), ...marks, ...this.#curve(), ...this.#rows(), this.cursor);
     const { pair } = this, kinds = new Set((this.path?.steps ?? []).map((s) => s[2]));
     this.legend.replaceChildren(
-      ...(this.path?.clearance ? ['Above: what is proven. Curve: the distance of the nearest pair, at samples. Rows: the steps of the proof', pair ? ` for ${pair.a.name} – ${pair.b.name}` : '', ': '] : []),
+      ...this.#listVerdicts().flatMap(([kind, text]) => [element('span', { className: `key ${kind}`, textContent: text }), ' ']),
+      ...(this.path ? [this.isEdges ? '– the edges stand one after another. ' : '– s = 0.5 is halfway from state 0 to state 1. '] : []),
+      ...(this.path?.clearance ? ['Curve: the distance of the nearest pair, at samples. Rows: the steps of the proof', pair ? ` for ${pair.a.name} – ${pair.b.name}` : '', ': '] : []),
       ...[...kinds].flatMap((kind) => [element('span', { className: `key ${kind}`, textContent: KINDS[kind] }), ' ']),
     );
     this.#listSteps();

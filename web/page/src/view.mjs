@@ -1,7 +1,7 @@
 // The picture: bodies in layers, the chosen pair, the camera; as many triangles as the machine draws in time.
 import {
   AmbientLight, Color, CylinderGeometry, DirectionalLight, Group, HemisphereLight, IcosahedronGeometry, Mesh, MeshBasicMaterial,
-  PerspectiveCamera, Quaternion, Raycaster, Scene, Vector2, Vector3,
+  PerspectiveCamera, Quaternion, Raycaster, Scene, Spherical, Vector2, Vector3,
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { TransformControls } from 'three/examples/jsm/controls/TransformControls.js';
@@ -17,6 +17,10 @@ const ANSWERS = { separated: '#1b8a3f', undecided: '#b07a00' }, UP = new Vector3
 const MOVING = 60, RESTING = 700;
 /** How much wider than the bodies a picture of all is. */
 const ROOM = 1.12;
+/** Half of how wide a witness point is, in pixels. */
+const DOT = 4.5;
+/** How far an arrow key turns the view. */
+const TURN = Math.PI / 36;
 
 export class View {
   constructor(model, renderer, onPick, onDrag) {
@@ -129,15 +133,15 @@ export class View {
     this.pairGroup.clear();
     this.line = null;
     if (!answer || !answer.point_a) return this.draw();
-    const [a, b] = [answer.point_a, answer.point_b].map((p) => new Vector3(...p)), size = this.model.ball.radius * 0.008;
+    const [a, b] = [answer.point_a, answer.point_b].map((p) => new Vector3(...p));
     const color = ANSWERS[answer.status] ?? '#d62728', paint = new MeshBasicMaterial({ color, depthTest: false, transparent: true });
     this.line = { points: [a, b], color };
     for (const at of [a, b]) {
-      const dot = new Mesh(new IcosahedronGeometry(size, 3), paint);
+      const dot = new Mesh(new IcosahedronGeometry(DOT, 3), paint);
       dot.position.copy(at);
       this.pairGroup.add(dot);
     }
-    const way = b.clone().sub(a), tube = new Mesh(new CylinderGeometry(size * 0.4, size * 0.4, Math.max(way.length(), 1e-12), 12), paint);
+    const way = b.clone().sub(a), tube = new Mesh(new CylinderGeometry(DOT * 0.35, DOT * 0.35, Math.max(way.length(), 1e-12), 12), paint);
     tube.position.copy(a).addScaledVector(way, 0.5);
     tube.quaternion.setFromUnitVectors(UP, way.normalize());
     this.pairGroup.add(tube);
@@ -202,11 +206,17 @@ export class View {
 
   /** The camera on a ball, from where it looks now. */
   fit(ball, direction) {
-    const isAll = !ball, { center, radius } = ball ?? this.model.ball;
+    const isAll = !ball, { center, radius } = ball ?? this.model.roomBall;
     const from = direction ?? (this.isFit ? this.camera.position.clone().sub(this.controls.target) : new Vector3(1, -1.6, 0.9));
     const target = new Vector3(...center), distance = isAll ? this.#measureDistance(target, from.normalize()) : this.#halfAngles.reduce((most, half) => Math.max(most, (radius * 1.15) / Math.sin(half)), 0);
     this.flyTo(target.clone().addScaledVector(from.normalize(), distance), target, !this.isFit);
     this.isFit = true;
+  }
+
+  /** All of it in the picture at once, as at the beginning. */
+  fitAnew() {
+    this.isFit = false;
+    this.fit();
   }
 
   // Half of the angles that the picture is wide and high.
@@ -219,10 +229,27 @@ export class View {
   #measureDistance(target, from) {
     const right = new Vector3().crossVectors(this.camera.up, from).normalize(), up = new Vector3().crossVectors(from, right), at = new Vector3();
     const angles = this.#halfAngles, axes = [right, up];
-    return this.model.listBalls().reduce((most, { center, radius }) => {
+    return [...this.model.listBalls(), ...this.model.room].reduce((most, { center, radius }) => {
       at.set(...center).sub(target);
       return axes.reduce((far, axis, k) => Math.max(far, at.dot(from) + (Math.abs(at.dot(axis)) * ROOM + radius / Math.cos(angles[k])) / Math.tan(angles[k])), most);
-    }, 1.1 * this.model.ball.radius);
+    }, 1.1 * this.model.roomBall.radius);
+  }
+
+  /** Arrow keys turn the view, + and - go nearer and farther. Returns whether the key is one of these. */
+  takeKey(key) {
+    const turns = { arrowleft: [-1, 0], arrowright: [1, 0], arrowup: [0, -1], arrowdown: [0, 1] }, nearer = { '+': 1 / 1.15, '=': 1 / 1.15, '-': 1.15 };
+    if (!turns[key] && !nearer[key]) return false;
+    const { target } = this.controls, from = new Spherical().setFromVector3(this.#upright(this.camera.position.clone().sub(target), 1)), [across, up] = turns[key] ?? [0, 0];
+    from.theta += across * TURN;
+    from.phi += up * TURN;
+    from.radius *= nearer[key] ?? 1;
+    this.flyTo(target.clone().add(this.#upright(new Vector3().setFromSpherical(from.makeSafe()), -1)), target.clone(), true);
+    return true;
+  }
+
+  // The axis that is up as y (way 1), or back (way -1).
+  #upright(v, way) {
+    return v.applyAxisAngle(new Vector3(1, 0, 0), (-way * Math.PI) / 2);
   }
 
   flyTo(position, target, atOnce) {
@@ -269,8 +296,18 @@ export class View {
     });
   }
 
+  // Witness points are as large in the picture from near and from far.
+  #sizeWitness() {
+    const { camera, pairGroup } = this, pixel = (2 * Math.tan((camera.fov * Math.PI) / 360)) / (this.canvas.clientHeight || 1);
+    for (const { geometry, position, scale } of pairGroup.children) {
+      const size = pixel * position.distanceTo(camera.position);
+      scale.set(size, geometry.type === 'CylinderGeometry' ? 1 : size, size);
+    }
+  }
+
   /** Draws at once. */
   drawNow() {
+    this.#sizeWitness();
     this.sun.position.copy(this.camera.position);
     if (this.renderer.getPixelRatio() !== this.#pixelRatio) this.renderer.setPixelRatio(this.#pixelRatio);
     const sizes = this.#measureSizes();

@@ -110,6 +110,10 @@ test('names of any length are cut, and are no other sign than they look', { skip
   assert.ok(text.length < 20000, `${text.length} signs are shown`);
   assert.match(await page.textContent('#pairs td'), /^long long .*….*end – left right below$/);
   assert.ok(await at(page, () => document.documentElement.scrollWidth <= innerWidth));
+  await at(page, () => window.ovoidPage.chooseBody(window.ovoidPage.model.bodies[0]));
+  await page.click('#whole-name summary');
+  assert.equal(await page.inputValue('#whole-name textarea'), name);
+  await at(page, () => window.ovoidPage.chooseBody(window.ovoidPage.model.bodies[1]));
   assert.deepEqual(errors, []);
   await page.close();
 });
@@ -117,9 +121,23 @@ test('names of any length are cut, and are no other sign than they look', { skip
 test('joints take numbers; keys do what the list of keys says', { skip }, async () => {
   run('robot', 'check', ...startArm, '--states', inStart('states.csv'), '--html', 'joints.html');
   const { page, errors } = await open('joints.html', flat);
-  await page.fill('input[type="number"][aria-label="shoulder, rad"]', '0.5');
+  const field = page.locator('input[aria-label="shoulder, rad"]'), shoulder = () => at(page, () => window.ovoidPage.joints.q[0]);
+  await field.fill('word');
   await page.keyboard.press('Enter');
-  assert.equal(await at(page, () => window.ovoidPage.joints.q[0]), 0.5);
+  assert.equal(await field.inputValue(), '0', 'what is no number is not taken');
+  for (const text of ['0,25', '0.5']) {
+    await field.fill(text);
+    await page.keyboard.press('Enter');
+    assert.equal(await shoulder(), Number(text.replace(',', '.')));
+  }
+  for (const [input, key, by] of [['#joints input[type="range"]', 'ArrowRight', 0.01], ['#joints input[type="range"]', 'PageDown', -0.1], ['input.value', 'ArrowUp', 0.01]]) {
+    const before = await shoulder();
+    await page.focus(input);
+    await page.keyboard.press(key);
+    assert.ok(Math.abs((await shoulder()) - before - by) < 1e-12, `${input} ${key}`);
+  }
+  await field.fill('0.5');
+  await page.keyboard.press('Enter');
   assert.match(await page.textContent('.joint'), /shoulder.*rad.*28\.6°.*-3.*3/);
   assert.equal(await page.inputValue('#joints input[type="range"]'), '0.5');
   // A key on a button is the button's: space does not play.
@@ -140,6 +158,17 @@ test('on paper and on a phone all is there', { skip }, async () => {
   write('paper.json', cell);
   run('check', 'paper.json', '--html', 'paper.html');
   const { page } = await open('paper.html', flat);
+  // A dark page is black on white on paper; its picture is as large as there while it is drawn, and as before after that.
+  await page.emulateMedia({ colorScheme: 'dark', media: 'print' });
+  assert.equal(await at(page, () => getComputedStyle(document.getElementById('headline')).color), 'rgb(0, 0, 0)');
+  await page.emulateMedia({ colorScheme: 'light', media: 'screen' });
+  const width = await at(page, () => document.getElementById('stage').clientWidth), readPaper = () => at(page, () => ['stage', 'paper'].map((id) => document.getElementById(id).clientWidth || document.getElementById(id).width));
+  const isDrawn = () => at(page, () => document.getElementById('paper').getContext('2d').getImageData(0, 0, 642, 415).data.some((x) => x > 0));
+  await at(page, () => window.dispatchEvent(new Event('beforeprint')));
+  assert.deepEqual(await readPaper(), [643, 643]);
+  assert.ok(await isDrawn(), 'the picture on paper is empty');
+  await at(page, () => window.dispatchEvent(new Event('afterprint')));
+  assert.deepEqual(await readPaper(), [width, 1]);
   await page.emulateMedia({ media: 'print' });
   assert.deepEqual(await Promise.all(['#tools', '#layers', '#headline', '#pairs', '#canvas'].map((id) => page.isVisible(id))), [false, false, true, true, true]);
   assert.equal(await at(page, () => getComputedStyle(document.body).backgroundColor), 'rgb(255, 255, 255)');
