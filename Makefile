@@ -66,7 +66,7 @@ wasm: ## the package for JavaScript in build/wasm, and its tests under Node.js
 	@$(call build,wasm,ovoid_cli)
 	@JOBS=$(JOBS) scripts/wasm.sh
 
-page: ## the template of the page that --html writes, and its tests in Chromium
+page: ## the template of the page that --html writes, and its tests in Chromium and Firefox
 	@$(call build,page,ovoid_cli)
 	@JOBS=$(JOBS) scripts/page.sh
 

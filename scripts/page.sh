@@ -1,6 +1,6 @@
 #!/bin/sh
 # page.sh: the template of the page of one scene, build/page/page.html and build/release/page.html, where the tool's --html
-# finds it: three.js and the package of scripts/wasm.sh in one file. Then its tests in Chromium, where that is installed; not with --template.
+# finds it: three.js and the package of scripts/wasm.sh in one file. Then its tests in Chromium and Firefox, where these are installed; not with --template.
 # --picture: no tests, but docs/page.png, the page of scripts/demo.sh as Chromium shows it.
 # Exit 1 where something is missing or wrong; without npm's packages it says so and tests nothing.
 set -eu

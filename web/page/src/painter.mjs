@@ -29,6 +29,8 @@ export class Painter {
   }
 
   render(scene, camera, layers, { lines, outlined, color: outlineColor }) {
+    // The handles, which are not painted, are found by where they are in the scene.
+    scene.updateMatrixWorld();
     camera.updateMatrixWorld();
     const { context, domElement: { width, height } } = this, faces = [];
     for (const layer of layers) {
@@ -52,7 +54,7 @@ export class Painter {
     }
     context.globalAlpha = 1;
     if (outlined.length) this.#drawOutline(outlined, camera, outlineColor);
-    for (const { points, color } of lines) this.#drawLine(points.map((p) => this.#project(p.clone().applyMatrix4(camera.matrixWorldInverse), camera)), color);
+    for (const { points, color, isRing } of lines) this.#drawLine(points.map((p) => this.#project(p.clone().applyMatrix4(camera.matrixWorldInverse), camera)), color, isRing);
   }
 
   // Around triangles a line, where they are not themselves: they are drawn wider on a canvas of its own, and taken out of it.
@@ -103,16 +105,17 @@ export class Painter {
     }
   }
 
-  #drawLine([p, q], color) {
-    if (!p || !q) return;
+  // A line with dots at its ends, or a ring without.
+  #drawLine(points, color, isRing) {
+    if (!points.every(Boolean)) return;
     const { context, ratio } = this;
     context.strokeStyle = context.fillStyle = color;
     context.lineWidth = 2 * ratio;
     context.beginPath();
-    context.moveTo(p[0], p[1]);
-    context.lineTo(q[0], q[1]);
+    for (const [x, y] of points) context.lineTo(x, y);
+    if (isRing) context.closePath();
     context.stroke();
-    for (const [x, y] of [p, q]) {
+    for (const [x, y] of isRing ? [] : points) {
       context.beginPath();
       context.arc(x, y, 4 * ratio, 0, 2 * Math.PI);
       context.fill();

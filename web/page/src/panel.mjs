@@ -159,7 +159,7 @@ export class Panel {
         element('button', { textContent: 'Only this', title: 'show nothing else (X)', onclick: () => this.actions.isolate() })),
       element('dl', {},
         element('dt', { textContent: 'pose (x y z, w x y z)' }), element('dd', {}, pose),
-        element('dt', { textContent: 'parts' }), element('dd', { textContent: body.isSolid ? this.#describeSolid(body) : `${body.parts.length} convex` }),
+        element('dt', { textContent: 'made of' }), element('dd', { textContent: body.isSolid ? this.#describeSolid(body) : `${body.parts.length} convex ${body.parts.length === 1 ? 'part' : 'parts'}` }),
       ),
       element('h3', { textContent: 'Its pairs' }),
       element('ul', { id: 'own' }, ...this.#ownPairs(body)),

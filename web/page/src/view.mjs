@@ -316,12 +316,18 @@ export class View {
     this.onPicture?.(sizes);
   }
 
-  // The lines of a picture that is painted: the witness points', and of what is held the axes.
+  // The lines of a picture that is painted: the witness points', and of what is held the handles.
   #listLines() {
-    const lines = this.line && this.shown.witness ? [this.line] : [];
-    if (!this.held) return lines;
-    const { position: from } = this.handle, size = 0.15 * from.distanceTo(this.camera.position);
-    return [...lines, ...['#e33', '#3a3', '#33e'].map((color, k) => ({ color, points: [from, from.clone().setComponent(k, from.getComponent(k) + size)] }))];
+    return [...(this.line && this.shown.witness ? [this.line] : []), ...this.handleLines];
+  }
+
+  /** The handles of what is held as lines: arrows or rings, as long as those of three.js. */
+  get handleLines() {
+    if (!this.held) return [];
+    const { position: from } = this.handle, size = 0.0864 * from.distanceTo(this.camera.position), isRing = this.handles.mode === 'rotate';
+    const move = (steps) => steps.reduce((at, [k, step]) => at.setComponent(k, at.getComponent(k) + size * step), from.clone());
+    const ring = (k) => Array.from({ length: 48 }, (_, i) => move([[(k + 1) % 3, Math.cos((i * Math.PI) / 24)], [(k + 2) % 3, Math.sin((i * Math.PI) / 24)]]));
+    return ['#e33', '#3a3', '#33e'].map((color, k) => ({ color, isRing, points: isRing ? ring(k) : [from, move([[k, 1]])] }));
   }
 
   /** Takes coarser levels of what is small, until the triangles are as many as can be drawn in time. */

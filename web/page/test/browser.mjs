@@ -1,5 +1,5 @@
 // What the tests of the page share: the tool, the browsers, pages opened in them. OVOID names the tool, PLAYWRIGHT the driver, CHROMIUM
-// the browser (/usr/bin/chromium). Without the browser the tests are skipped.
+// the browser (/usr/bin/chromium), FIREFOX the other one (/usr/bin/firefox-esr). Without a browser its tests are skipped.
 import assert from 'node:assert/strict';
 import { spawnSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
@@ -18,6 +18,17 @@ if (!skip) {
     flat = await launch('--disable-gpu', '--disable-3d-apis');
   } catch (error) {
     skip = `${browserPath} does not start here: ${error.message.split('\n')[0]}`;
+  }
+}
+/** Firefox as it is installed, by WebDriver BiDi: a browser, or a sentence that says why there is none. */
+export async function startFirefox() {
+  const path = process.env.FIREFOX ?? '/usr/bin/firefox-esr';
+  if (!existsSync(path)) return `${path} is not here: scripts/setup.sh page installs it`;
+  const { firefox } = await import(process.env.PLAYWRIGHT);
+  try {
+    return await firefox.launch({ executablePath: path, channel: 'moz-firefox' });
+  } catch (error) {
+    return `${path} does not start here: ${error.message.split('\n')[0]}`;
   }
 }
 after(async () => {

@@ -224,7 +224,26 @@ test('without WebGL the picture is painted, and all else is as with it', { skip 
   });
   await page.mouse.click(x, y);
   assert.equal(await page.textContent('#details h2'), 'ball');
-  await page.click('#move');
+  await page.click('#fit');
+  // The handles are taken where they are painted: the first arrow's end, then the first ring's.
+  for (const [button, isMoved] of [['#move', true], ['#turn', false]]) {
+    await page.click(button);
+    await land(page);
+    const [from, to] = await page.evaluate(() => {
+      const { view } = window.ovoidPage, box = view.canvas.getBoundingClientRect(), { points } = view.handleLines[0];
+      const ends = [points[0], points[1]].map((point) => point.clone().project(view.camera));
+      const [p, q] = ends.map((at) => [box.left + ((at.x + 1) / 2) * box.width, box.top + ((1 - at.y) / 2) * box.height]), step = 12 / Math.hypot(q[0] - p[0], q[1] - p[1]);
+      return [q, q.map((v, i) => v + step * (v - p[i]))];
+    });
+    await page.mouse.move(...from);
+    await page.mouse.down();
+    await page.mouse.move(...to, { steps: 4 });
+    await page.mouse.up();
+    const pose = await page.evaluate(() => window.ovoidPage.model.bodies[2].pose);
+    assert.equal(Math.abs(pose.xyz[0] - 1.2) > 1e-3, true, `it did not move: ${pose.xyz}`);
+    assert.deepEqual(pose.xyz.slice(1), [0, 0.75], 'along its first axis alone');
+    assert.equal(pose.quat_wxyz.slice(2).every((v) => v === 0) && Math.abs(pose.quat_wxyz[1]) > 1e-3, !isMoved, `${pose.quat_wxyz}`);
+  }
   assert.deepEqual([...errors, ...drawn.errors], []);
   await page.close();
   await drawn.page.close();
