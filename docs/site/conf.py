@@ -10,6 +10,7 @@ highlight_language = "none"
 html_theme = "furo"
 html_static_path = ["site.css"]
 html_css_files = ["site.css"]
+html_favicon = "favicon.svg"
 html_copy_source = False
 html_show_copyright = False
 html_show_sphinx = False

@@ -51,7 +51,9 @@ def stage_pages(out, reference, examples, demo):
         text = move_links(page.read_text(encoding="utf-8"))
         if page.name == "index.md":
             if demo:
-                text = re.sub(r"\[(!\[[^]]*\]\(demo\.svg\))\]\(page\.md\)", LIVE, text)
+                text, count = re.subn(r"\[(!\[[^]]*\]\(page\.png\))\]\(page\.md\)", LIVE, text)
+                if not count:
+                    sys.exit("stage: docs/index.md has no picture page.png that leads to page.md; the live page has no link")
             text = add_navigation(text, reference, examples)
         write(out / page.name, text)
     for figure in [*(ROOT / "docs").glob("*.svg"), *(ROOT / "docs").glob("*.png"), *(ROOT / "docs" / "paper").glob("*.svg")]:

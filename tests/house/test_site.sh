@@ -47,6 +47,25 @@ for example in examples/*.c examples/*.cpp; do
     check_empty "$example" "$([ -s "$site/$example.html" ] || echo 'is not on the site')"
 done
 
+# What users ask finds the section that answers it. The rule is that of Sphinx's search, which puts a title first that holds the words and is at most
+# twice as long.
+if command -v node >/dev/null; then
+    check 'questions that the search does not answer' "$(node -e '
+        const wanted = { license: "packaging#mit-license", deterministic: "design#deterministic-answers", "thread safe": "design#thread-safety",
+            "contact points": "world#contact-points-for-an-engine", "convex hull of a point cloud": "polytope#convex-hull-of-a-point-cloud" };
+        const Search = { setIndex: ({ docnames, alltitles }) => Object.entries(wanted).forEach(([words, place]) => {
+            const found = Object.entries(alltitles).filter(([title]) => title.toLowerCase().includes(words) && words.length >= title.length / 2);
+            if (!found.some(([, places]) => places.some(([page, anchor]) => `${docnames[page]}#${anchor}` === place))) console.log(words);
+        }) };
+        eval(require("fs").readFileSync(process.argv[1], "utf8"))' "$index" 2>&1)"
+fi
+check 'an icon' "$([ -s "$site/_static/favicon.svg" ] || echo 'none')"
+# Where there is a live page, the picture of the front page leads to it.
+live=$OVOID_BUILD_DIR/test_site.live
+rm -rf "$live"
+check 'the live page' "$(python3 docs/site/stage.py "$live" "$site.work/xml" demo.html 2>&1; grep -q '^<a href="demo.html">!\[' "$live/index.md" || echo 'has no link')"
+rm -rf "$live"
+
 # It can fail: a small site, which builds; then with a dead link, then with a page that is not listed.
 small=$OVOID_BUILD_DIR/test_site.small
 rm -rf "$small" && mkdir -p "$small/docs" "$small/include/ovoid/cpp" "$small/python/ovoid" "$small/examples"
