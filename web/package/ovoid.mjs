@@ -85,7 +85,7 @@ function bindShapes(core) {
     // Half sizes, or { half }, or { size }.
     static box(sizes, options) {
       if (sizes?.length !== undefined) return Shape.#create('box', options, ...toVector(sizes, 'half sizes'));
-      checkFields(sizes, BOX, 'a box');
+      if (typeof sizes === 'object') checkFields(sizes, BOX, 'a box');
       if (!sizes?.half === !sizes?.size) throw new TypeError('a box: half sizes [x, y, z], or one of { half } and { size } are needed');
       return Shape.#create('box', options, ...(sizes.half ? toVector(sizes.half, 'half') : Array.from(toVector(sizes.size, 'size'), (x) => x / 2)));
     }

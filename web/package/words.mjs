@@ -17,8 +17,10 @@ function countEdits(a, b) {
 // Without case and underscores; a long name cannot be meant and is cut.
 const plain = (name) => name.slice(0, 40).toLowerCase().replaceAll('_', '');
 
-/** "; did you mean NAME?", where a name is near, else the list of all. */
+/** "; did you mean NAME?", where a name is near or has it within, else the list of all. */
 export function suggest(name, known) {
+  const within = [...known].filter((other) => plain(name).length > 3 && plain(other).includes(plain(name)));
+  if (within.length) return `; did you mean ${within.join(' or ')}?`;
   const [best] = [...known].map((other) => [other, countEdits(plain(name), plain(other))]).sort((x, y) => x[1] - y[1]);
   return best && best[1] <= Math.max(1, Math.floor(best[0].length / 3)) ? `; did you mean ${best[0]}?` : `; there are ${[...known].join(', ')}`;
 }
