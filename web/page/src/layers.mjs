@@ -16,9 +16,13 @@ const CALL = 20;
 const solid = () => new MeshLambertMaterial({ side: DoubleSide });
 const glass = (color, opacity) => new MeshStandardMaterial({ color, transparent: true, opacity, depthWrite: false, roughness: 0.4, side: DoubleSide });
 
+const makeOwn = (model, part, uses) => (part.shape.mesh ? makeMesh(part.shape.mesh) : makeHull(model.ovoid, part.shape, uses));
+
 /** Of each layer: its material, what it has of a part of a body, and which geometry that is. */
 const KINDS = {
-  meshes: { material: solid, key: ({ index }) => index, make: (model, part, uses) => (part.shape.mesh ? makeMesh(part.shape.mesh) : makeHull(model.ovoid, part.shape, uses)) },
+  meshes: { material: solid, key: ({ index }) => index, make: makeOwn },
+  // Bodies beside a chosen pair, which may stand before it.
+  ghosts: { material: () => Object.assign(solid(), { transparent: true, opacity: 0.16, depthWrite: false }), key: ({ index }) => index, make: makeOwn },
   hulls: { material: solid, key: ({ index }) => index, make: (model, part, uses) => makeHull(model.ovoid, part.shape, uses) },
   areas: { material: () => Object.assign(solid(), { vertexColors: true }), key: ({ index, shape }) => (shape.areas ? index : null), make: (model, part) => makeAreas(part.shape, AREAS) },
   outer: { material: () => glass('#4e79a7', 0.16), ellipsoid: 'outer' },

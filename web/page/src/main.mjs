@@ -116,7 +116,7 @@ class Page {
     const { chosen } = this.panel;
     if (!chosen?.answer.point_a) return this.chosenBody && this.view.fit({ center: this.chosenBody.center, radius: this.chosenBody.radius });
     const { point_a: p, point_b: q, upper } = chosen.answer, least = Math.min(chosen.a.radius, chosen.b.radius);
-    this.view.fit({ center: p.map((x, k) => (x + q[k]) / 2), radius: Math.max(0.6 * least, 1.2 * Math.abs(upper)) });
+    this.view.fit({ center: p.map((x, k) => (x + q[k]) / 2), radius: Math.max(0.9 * least, 1.4 * Math.abs(upper)) });
   }
 
   isolate() {

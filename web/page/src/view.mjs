@@ -19,6 +19,8 @@ const MOVING = 60, RESTING = 700;
 const ROOM = 1.12;
 /** Half of how wide a witness point is, in pixels. */
 const DOT = 4.5;
+/** Of more triangles, bodies beside a chosen pair stay as they are. */
+const MOST_GHOSTS = 400000;
 /** How far an arrow key turns the view. */
 const TURN = Math.PI / 36;
 
@@ -27,7 +29,7 @@ export class View {
     this.model = model;
     this.renderer = renderer;
     this.canvas = renderer.domElement;
-    this.shown = { meshes: true, hulls: false, areas: false, outer: false, inner: false, witness: true };
+    this.shown = { meshes: true, ghosts: false, hulls: false, areas: false, outer: false, inner: false, witness: true };
     this.opacity = 1;
     this.only = null;
     this.layers = {};
@@ -72,10 +74,14 @@ export class View {
   }
 
   #placeIn(layer, body) {
-    layer.place(body, makePoseMatrix(body.pose), !this.only || this.only.has(body));
+    const isGhost = this.shown.ghosts && !this.chosen.has(body), isHere = layer.name === 'meshes' ? !isGhost : layer.name !== 'ghosts' || isGhost;
+    layer.place(body, makePoseMatrix(body.pose), isHere && (!this.only || this.only.has(body)));
+  }
+  #placeAgain() {
+    for (const layer of Object.values(this.layers)) for (const body of this.model.bodies) this.#placeIn(layer, body);
   }
   #paintIn(layer, body) {
-    if (layer.name !== 'meshes' && layer.name !== 'hulls') return;
+    if (!['meshes', 'ghosts', 'hulls'].includes(layer.name)) return;
     layer.paint(body, this.colors.get(body));
   }
 
@@ -91,7 +97,9 @@ export class View {
   /** Which layers are shown; hulls are glass where meshes are shown too. */
   show(changes) {
     Object.assign(this.shown, changes);
-    const { shown } = this;
+    const { shown } = this, wasGhosts = shown.ghosts;
+    // Others than a chosen pair are seen through, where that costs little.
+    shown.ghosts = shown.meshes && this.isPair === true && this.layers.meshes.all <= MOST_GHOSTS;
     for (const name of NAMES) {
       if (shown[name]) this.#need(name);
       for (const mesh of this.layers[name]?.meshes ?? []) mesh.visible = shown[name];
@@ -105,17 +113,19 @@ export class View {
     paint('hulls', shown.meshes ? Math.min(0.3, isVeiled) : isVeiled);
     paint('areas', isVeiled);
     this.pairGroup.visible = shown.witness;
+    if (shown.ghosts !== wasGhosts) this.#placeAgain();
     this.#outlineChosen();
     this.draw();
   }
 
   /** Outlines what is chosen, and leaves out the rest where it is isolated. */
   choose(bodies, only) {
-    const wasOnly = this.only;
+    const had = this.shown.ghosts || this.only !== null;
     this.chosen = new Set(bodies);
     this.only = only && this.chosen.size ? this.chosen : null;
-    if (this.only !== wasOnly) for (const layer of Object.values(this.layers)) for (const body of this.model.bodies) this.#placeIn(layer, body);
-    this.#outlineChosen();
+    this.isPair = this.chosen.size === 2 && !this.only && this.model.bodies.length > 2;
+    this.show({});
+    if (had || this.shown.ghosts || this.only) this.#placeAgain();
     this.draw();
   }
 
@@ -180,9 +190,12 @@ export class View {
   bodyAt(x, y) {
     const box = this.canvas.getBoundingClientRect(), ray = new Raycaster();
     ray.setFromCamera(new Vector2(((x - box.left) / box.width) * 2 - 1, 1 - ((y - box.top) / box.height) * 2), this.camera);
-    const layers = this.shownLayers.filter(({ name }) => name !== 'outer' && name !== 'inner');
-    const [hit] = ray.intersectObjects(layers.flatMap(({ meshes }) => meshes), false);
-    return hit ? layers.find(({ meshes }) => meshes.includes(hit.object)).bodyOf(hit) : null;
+    // What is seen through is found where nothing else is.
+    for (const names of [['meshes', 'hulls', 'areas'], ['ghosts']]) {
+      const layers = this.shownLayers.filter(({ name }) => names.includes(name)), [hit] = ray.intersectObjects(layers.flatMap(({ meshes }) => meshes), false);
+      if (hit) return layers.find(({ meshes }) => meshes.includes(hit.object)).bodyOf(hit);
+    }
+    return null;
   }
 
   #listen(onPick) {

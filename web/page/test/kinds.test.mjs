@@ -182,3 +182,35 @@ test('seven joints have a row each, whole names and numbers; on a phone nothing 
   assert.deepEqual(errors, []);
   await page.close();
 });
+
+test('a chosen pair is seen through what stands before it', { skip }, async () => {
+  const objects = [{ name: 'a', box: [1, 1, 1] }, { name: 'b', box: [1, 1, 1], pose: { xyz: [1.5, 0, 0] } }, { name: 'cover', box: [6, 6, 6] }, { name: 'aside', box: [1, 1, 1], pose: { xyz: [9, 0, 0] } }];
+  write('hidden.json', { objects });
+  run('check', 'hidden.json', '--html', 'hidden.html');
+  for (const where of [browser, flat]) {
+    const { page, errors } = await open('hidden.html', where);
+    await land(page);
+    const look = () => at(page, () => {
+      const { view, model } = window.ovoidPage, p = view.camera.position.clone().set(...model.bodies[0].center).project(view.camera), box = view.canvas.getBoundingClientRect();
+      return view.bodyAt(box.left + ((p.x + 1) / 2) * box.width, box.top + ((1 - p.y) / 2) * box.height)?.name;
+    });
+    const count = () => at(page, () => window.ovoidPage.view.layers.meshes.items.filter(({ isShown }) => isShown).map(({ body }) => body.name));
+    assert.equal(await look(), 'cover');
+    await at(page, () => window.ovoidPage.choosePair(window.ovoidPage.model.pairs.find(({ a, b }) => a.name === 'a' && b.name === 'b')));
+    await land(page);
+    assert.match(await look(), /^[ab]$/);
+    assert.deepEqual(await count(), ['a', 'b']);
+    // What is seen through is drawn, and found where nothing else is.
+    assert.deepEqual(await at(page, () => window.ovoidPage.view.layers.ghosts.items.filter(({ isShown }) => isShown).map(({ body }) => body.name)), ['cover', 'aside']);
+    await page.keyboard.press('x');
+    assert.deepEqual(await at(page, () => window.ovoidPage.view.shownLayers.map(({ name }) => name)), ['meshes']);
+    await page.keyboard.press('x');
+    await page.keyboard.press('Escape');
+    await page.keyboard.press('f');
+    await land(page);
+    assert.equal((await count()).length, 4);
+    assert.equal(await look(), 'cover');
+    assert.deepEqual(errors, []);
+    await page.close();
+  }
+});
