@@ -58,6 +58,7 @@ export class Labels {
   }
 
   #put(node, box, shown) {
+    node.style.width = `${box.right - box.left}px`;
     node.style.translate = `${box.left.toFixed(1)}px ${box.top.toFixed(1)}px`;
     shown.push(node);
   }

@@ -20,10 +20,12 @@ const measureOutside = (page) => at(page, () => {
 
 test('a robot is in the picture in all of its states, and all bodies of a motion at all times', { skip }, async () => {
   run('robot', 'path', ...startArm, '--states', inStart('straight.csv'), '--html', 'all-path.html');
+  write('round.csv', 'shoulder,elbow\n0,0\n-2.9,0\n');
+  run('robot', 'check', ...startArm, '--states', 'round.csv', '--html', 'all-states.html');
   write('go.json', { objects: [{ name: 'wall', box: [0.2, 4, 4] }, { name: 'ball', sphere: 0.5, pose: { xyz: [4, 0, 0] } }] });
   write('far.csv', 'time,body,x,y,z,qw,qx,qy,qz\n0,ball,4,0,0,1,0,0,0\n1,ball,40,0,0,1,0,0,0\n');
   run('run', 'go.json', '--motion', 'far.csv', '--html', 'all-run.html', '-o', 'all-run.csv');
-  for (const [file, track, places] of [['all-path.html', 'track', [0, 0.3, 0.7, 1]], ['all-run.html', 'timeline', [0, 1]]]) {
+  for (const [file, track, places] of [['all-path.html', 'track', [0, 0.3, 0.7, 1]], ['all-states.html', 'track', [0, 1]], ['all-run.html', 'timeline', [0, 1]]]) {
     const { page, errors } = await open(file, flat);
     await land(page);
     for (const place of places) {
@@ -55,10 +57,10 @@ test('of a motion the headline begins with what is near from the beginning; betw
   const half = await at(page, () => {
     const { timeline, model: { bodies } } = window.ovoidPage, { motion } = timeline, wedge = bodies.find(({ name }) => name === 'wedge'), at = 7 * wedge.index;
     motion.poses.set([1, 0, 0, 0], at + 3);
-    motion.poses.set([0, 0, 0, -1].map((x) => 2 * x), at + 7 * bodies.length + 3);
+    motion.poses.set([-1.2, 0, 0, -1.6], at + 7 * bodies.length + 3);
     return timeline.poseAt(wedge, 0.5).quat_wxyz;
   });
-  half.forEach((x, i) => assert.ok(Math.abs(x - [Math.SQRT1_2, 0, 0, -Math.SQRT1_2][i]) < 1e-15, `${half}`));
+  half.forEach((x, i) => assert.ok(Math.abs(x - [2, 0, 0, 1][i] / Math.sqrt(5)) < 1e-15, `${half}`));
   assert.deepEqual(errors, []);
   await page.close();
 });
@@ -125,12 +127,20 @@ test('names stand beside small bodies, and among many only where there is room; 
   await land(lots.page);
   const named = await lots.page.$$eval('#labels .label:not(.distance)', (labels) => labels.length);
   assert.ok(named === 1 || named === 2, `${named} names: those of the nearest pair, where they fit`);
+  // No label is over the edge.
+  run('check', inStart('assembly.json'), '--html', 'edge.html');
+  const edge = await open('edge.html', flat);
+  await edge.page.setViewportSize({ width: 390, height: 844 });
+  await land(edge.page);
+  const [right, ...ends] = await edge.page.$$eval('#stage, #labels .label', (nodes) => nodes.map((node) => node.getBoundingClientRect().right));
+  assert.ok(ends.length > 3 && ends.every((end) => end <= right), `${ends} of ${right}`);
   // Of a wide bracket both ends are on the label.
   alter('small.html', (data) => Object.assign(data.pairs[0].answer, { status: 'overlapping', lower: -0.00416123, upper: -0.000678123 }));
   const wide = await open('altered.html', flat);
   await land(wide.page);
-  assert.deepEqual(await wide.page.$eval('.label.distance', (label) => [label.textContent, label.scrollWidth <= label.clientWidth]), ['overlap 6.78e-4 to 0.00417 m', true]);
-  for (const { page, errors } of [small, lots, wide]) {
+  assert.equal(await wide.page.textContent('.label.distance'), 'overlap 6.78e-4 to 0.00417 m');
+  for (const { page } of [wide, edge]) assert.ok(await page.$$eval('.label', (labels) => labels.every((label) => label.scrollWidth <= label.clientWidth)), 'a text is cut');
+  for (const { page, errors } of [small, lots, edge, wide]) {
     assert.deepEqual(errors, []);
     await page.close();
   }
