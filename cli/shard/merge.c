@@ -150,7 +150,7 @@ static int fill_heap(merge *m) {
         item first = {.reader = i};
         int got = read_item(m, &first);
         if (got < 0) return EXIT_INPUT;
-        if (got) heap_push(m->heap, m->waiting++, sizeof first, &first, is_before);
+        if (got) heap_push((heap){m->heap, m->waiting++, sizeof first, is_before}, &first);
     }
     return 0;
 }
@@ -160,9 +160,9 @@ static int advance(merge *m) {
     item next = m->heap[0], last;
     int got = read_item(m, &next);
     if (got > 0)
-        heap_sink(m->heap, m->waiting, sizeof next, 0, &next, is_before);
+        heap_sink((heap){m->heap, m->waiting, sizeof next, is_before}, 0, &next);
     else if (!got)
-        heap_pop(m->heap, m->waiting--, sizeof last, &last, is_before);
+        heap_pop((heap){m->heap, m->waiting--, sizeof last, is_before}, &last);
     return got < 0 ? EXIT_INPUT : 0;
 }
 

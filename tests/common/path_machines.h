@@ -177,12 +177,10 @@ static inline void destroy_machine(machine *m) {
     for (int i = 0; i < 3; i++) ovoid_shape_destroy(m->shapes[i]);
 }
 
-// The vertices of an item at s of the exact path, in the frame of a link, or the world's (NONE).
-static inline void place_vertices(const machine *m, const cell_item *item, real s, uint32_t in, real3 *vertices) {
+// The vertices of an item in a state, in the frame of a link, or the world's (NONE).
+static inline void place_in_state(const machine *m, const cell_item *item, const real *q, uint32_t in,
+                                  real3 *vertices) {
     frame links[JOINTS + 1], own = make_frame(&item->in_link);
-    real q[3 * JOINTS];
-    size_t n = ovoid_robot_get_variable_count(m->r);
-    for (size_t i = 0; i < n; i++) q[i] = m->q[0][i] + s * ((real)m->q[1][i] - m->q[0][i]);
     place(m->r, q, links);
     frame at = multiply(&links[item->side.link], &own);
     ovoid_polytope p = ovoid_shape_get_polytope(item->shape);
@@ -198,6 +196,14 @@ static inline void place_vertices(const machine *m, const cell_item *item, real 
         }
         vertices[i] = x;
     }
+}
+
+// The vertices of an item at s of the exact path, in such a frame.
+static inline void place_vertices(const machine *m, const cell_item *item, real s, uint32_t in, real3 *vertices) {
+    real q[3 * JOINTS];
+    for (size_t i = 0; i < ovoid_robot_get_variable_count(m->r); i++)
+        q[i] = m->q[0][i] + s * ((real)m->q[1][i] - m->q[0][i]);
+    place_in_state(m, item, q, in, vertices);
 }
 
 // ---- states

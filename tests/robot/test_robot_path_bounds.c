@@ -20,37 +20,6 @@ static long frees, hits;
 
 // ---- the bounds of an interval
 
-<<<<<<< HEAD
-=======
-// The vertices of an item in a state, in the frame of a link, or the world's (NONE).
-static void place_in_state(const machine *m, const cell_item *item, const real *q, uint32_t in, real3 *vertices) {
-    frame links[JOINTS + 1], own = make_frame(&item->in_link);
-    place(m->r, q, links);
-    frame at = multiply(&links[item->side.link], &own);
-    ovoid_polytope p = ovoid_shape_get_polytope(item->shape);
-    for (uint32_t i = 0; i < VERTICES; i++) {
-        const double *v = p.vertices + 3 * (size_t)i;
-        real3 x = apply(&at, (real3){v[0], v[1], v[2]});
-        if (in != OVOID_ROBOT_NONE) {
-            const frame *f = &links[in];
-            real3 d = {x.x - f->p.x, x.y - f->p.y, x.z - f->p.z};
-            x = (real3){f->m[0][0] * d.x + f->m[1][0] * d.y + f->m[2][0] * d.z,
-                        f->m[0][1] * d.x + f->m[1][1] * d.y + f->m[2][1] * d.z,
-                        f->m[0][2] * d.x + f->m[1][2] * d.y + f->m[2][2] * d.z};
-        }
-        vertices[i] = x;
-    }
-}
-
-// The same at s of the exact path.
-static void place_vertices(const machine *m, const cell_item *item, real s, uint32_t in, real3 *vertices) {
-    real q[3 * JOINTS];
-    for (size_t i = 0; i < ovoid_robot_get_variable_count(m->r); i++)
-        q[i] = m->q[0][i] + s * ((real)m->q[1][i] - m->q[0][i]);
-    place_in_state(m, item, q, in, vertices);
-}
-
->>>>>>> 13e0041 (Matrices proven by gaps along a direction, common points and corners)
 static real dot(ovoid_vec3 n, real3 v) { return n.x * v.x + n.y * v.y + n.z * v.z; }
 
 // The gap of two items along a normal of any length, for a unit one.

@@ -136,9 +136,9 @@ static void write_end_effectors(FILE *file, const cli_robot *robot, const ovoid_
     fputs(",\"end_effectors\":[", file);
     for (size_t i = 0; i < ovoid_robot_file_get_end_effector_count(robot->file); i++) {
         ovoid_robot_end_effector e = ovoid_robot_file_get_end_effector(robot->file, i);
-        write_member(file, i ? ",{" : "{", "name", e.name);
-        write_member(file, ",", "link", d->links[e.link].name);
-        write_member(file, ",", "group", ovoid_robot_file_get_group(robot->file, e.group).name);
+        member_write_text(file, i ? ",{" : "{", "name", e.name);
+        member_write_text(file, ",", "link", d->links[e.link].name);
+        member_write_text(file, ",", "group", ovoid_robot_file_get_group(robot->file, e.group).name);
         fputc('}', file);
     }
     fputc(']', file);
