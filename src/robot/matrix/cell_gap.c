@@ -111,20 +111,20 @@ typedef struct vertex_lanes {
 } vertex_lanes;
 
 static void measure_lanes(const gap_term *t, const vertex_lanes *v, double along[LANES]) {
-    for (int k = 0; k < LANES; k++)
+    for (uint32_t k = 0; k < LANES; k++)
         along[k] = ((t->lever.x * v->x[k] + t->lever.y * v->y[k]) + t->lever.z * v->z[k]) + t->offset;
 }
 
 static void add_sizes(const gap_term *t, const vertex_lanes *v, double sum[LANES]) {
     double along[LANES];
     measure_lanes(t, v, along);
-    for (int k = 0; k < LANES; k++) sum[k] += t->weight * fabs(along[k]);
+    for (uint32_t k = 0; k < LANES; k++) sum[k] += t->weight * fabs(along[k]);
 }
 
 static void add_positive(const gap_term *t, const vertex_lanes *v, double sum[LANES]) {
     double along[LANES];
     measure_lanes(t, v, along);
-    for (int k = 0; k < LANES; k++) sum[k] += t->weight * max2(along[k], 0);
+    for (uint32_t k = 0; k < LANES; k++) sum[k] += t->weight * max2(along[k], 0);
 }
 
 // Adds how far the cell moves vertices.
@@ -153,12 +153,12 @@ static void try_lanes(side *s, const vertex_lanes *v) {
     double sum[LANES];
     measure_lanes(&(gap_term){s->along, 0, 0}, v, sum);
     add_moves(s->terms, s->m->count, v, sum);
-    for (int k = 0; k < LANES; k++) s->most = max2(s->most, sum[k]);
+    for (uint32_t k = 0; k < LANES; k++) s->most = max2(s->most, sum[k]);
 }
 
 static void try_vertex(side *s, vec3 x) {
     vertex_lanes v;
-    for (int k = 0; k < LANES; k++) v.x[k] = x.x, v.y[k] = x.y, v.z[k] = x.z;
+    for (uint32_t k = 0; k < LANES; k++) v.x[k] = x.x, v.y[k] = x.y, v.z[k] = x.z;
     try_lanes(s, &v);
 }
 
@@ -170,11 +170,11 @@ static int try_vertices(side *s, double limit) {
     double moved = (s->m->d1 + s->m->d2 / 2) * UP + vec3_dot(s->along, shape->origin);
     for (uint32_t i = 0; i < shape->vertex_count; i += LANES) {
         double most = -INFINITY;
-        for (int k = 0; k < LANES; k++)
+        for (uint32_t k = 0; k < LANES; k++)
             most = max2(most, (s->along.x * x[i + k] + s->along.y * y[i + k]) + s->along.z * z[i + k]);
         if (!(most + moved > s->most)) continue;
         vertex_lanes v;
-        for (int k = 0; k < LANES; k++) {
+        for (uint32_t k = 0; k < LANES; k++) {
             v.x[k] = x[i + k] + shape->origin.x;
             v.y[k] = y[i + k] + shape->origin.y;
             v.z[k] = z[i + k] + shape->origin.z;
@@ -190,17 +190,17 @@ static uint32_t find_support(const ovoid_shape *shape, vec3 n) {
     const double *x = shape_x(shape), *y = shape_y(shape), *z = shape_z(shape);
     double most[LANES];
     uint32_t block[LANES] = {0};
-    for (int k = 0; k < LANES; k++) most[k] = -INFINITY;
+    for (uint32_t k = 0; k < LANES; k++) most[k] = -INFINITY;
     for (uint32_t i = 0; i < shape->vertex_count; i += LANES)
-        for (int k = 0; k < LANES; k++) {
+        for (uint32_t k = 0; k < LANES; k++) {
             double along = (n.x * x[i + k] + n.y * y[i + k]) + n.z * z[i + k];
             block[k] = along > most[k] ? i : block[k];
             most[k] = along > most[k] ? along : most[k];
         }
-    int best = 0;
-    for (int k = 1; k < LANES; k++)
+    uint32_t best = 0;
+    for (uint32_t k = 1; k < LANES; k++)
         if (most[k] > most[best]) best = k;
-    return block[best] + (uint32_t)best;
+    return block[best] + best;
 }
 
 // The farthest vertex of the middle along n.

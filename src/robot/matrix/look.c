@@ -75,14 +75,15 @@ static cell_verdict look_at_solids(prover *p, uint32_t pair, const path_pair *at
 static cell_verdict look_at_pair(prover *p, uint32_t pair) {
     if (is_far(p, pair)) return CELL_PROVEN;
     path_pair at = path_make_pair(p->w, pair, p->at.frames);
-    const ovoid_proof *earlier = get_proof(p, pair);
     cell_gap g;
     int has_gap = cell_gap_make(&g, p->w, &p->at, pair);
-    if (has_gap && earlier && vec3_norm_squared(earlier->normal) > 0.5 && is_parted(&g, &at, earlier->normal))
-        return CELL_PROVEN;
+    if (has_gap && p->has_proof[pair - p->of->first]) {
+        vec3 earlier = p->proofs[pair - p->of->first].normal;
+        if (vec3_norm_squared(earlier) > 0.5 && is_parted(&g, &at, earlier)) return CELL_PROVEN;
+    }
     double margin = add_up(at.motion.moved, at.error, 0);
     ovoid_options coarse = {.absolute_tolerance = 0.125 * margin};
-    ovoid_answer answer = ovoid_distance(&at.pair, &coarse, earlier);
+    ovoid_answer answer = ovoid_distance(&at.pair, &coarse, get_proof(p, pair));
     remember(p, pair, &answer.proof);
     if (answer.lower > margin) return CELL_PROVEN;
     int is_apart = answer.lower > at.error;

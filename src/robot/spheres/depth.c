@@ -9,8 +9,6 @@
 // before, so a bracket of width w costs about log(1 / w); where f is the same along curves, about 1 / w.
 #include "robot/spheres/spheres.h"
 
-#include <string.h>
-
 enum { LEVELS = 110, LOOKS = 16 };
 
 // A search.
@@ -138,10 +136,11 @@ static void add_part(search *s, uint32_t index) {
     }
 }
 
+static int is_same(vec3 a, vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
+
 static unsigned find_new(const spheres_cell *cell, const spheres_cell *half) {
     unsigned found = 0;
-    for (unsigned k = 0; k < 4; k++)
-        found |= (unsigned)(memcmp(&cell->corner[k], &half->corner[k], sizeof(vec3)) != 0) << k;
+    for (unsigned k = 0; k < 4; k++) found |= (unsigned)!is_same(cell->corner[k], half->corner[k]) << k;
     return found;
 }
 
