@@ -88,11 +88,11 @@ typedef struct fields_item {
 void fields_write_json(FILE *file, const char *quote, fields_item item);
 /// Writes the members alone: `before` stands before the first of them, a comma before all others. Returns what stands
 /// before the next one.
-const char *fields_write_members(FILE *file, const char *quote, const char *before, fields_item item);
+const char *fields_write_members(FILE *file, const char *quote, const char *before, fields_item of);
 
 /// Writes the names, or the values, of the columns that are chosen, as above; what is left out is empty.
 const char *fields_write_csv_header(FILE *file, const char *before, const field_table *table, unsigned columns);
-const char *fields_write_csv(FILE *file, const char *before, fields_item item, unsigned columns);
+const char *fields_write_csv(FILE *file, const char *before, fields_item of, unsigned columns);
 
 /// The name of an enum's field; "" where it has none.
 const char *field_get_name(const field_names *names, const void *at);

@@ -117,8 +117,8 @@ typedef struct spheres_heap {
 ovoid_code spheres_heap_open(spheres_heap *heap, const spheres_link *link, size_t cells, ovoid_error *error);
 /// The diagonal of the link's box, our unit.
 double spheres_link_get_size(const spheres_link *link);
-void spheres_heap_push(spheres_heap *heap, const spheres_cell *cell);
-spheres_cell spheres_heap_pop(spheres_heap *heap);
+void spheres_heap_push(spheres_heap *all, const spheres_cell *cell);
+spheres_cell spheres_heap_pop(spheres_heap *all);
 /// Halves a cell at the middle of its longest edge; returns the square of that edge.
 double spheres_cell_halve(const spheres_cell *cell, spheres_cell half[2]);
 /// The six tetrahedra of a box that is enlarged so that their corners, and those of their halves, are not rounded.
