@@ -50,6 +50,7 @@ done
 # What users ask finds the section that answers it. The rule is that of Sphinx's search, which puts a title first that holds the words and is at most
 # twice as long.
 if command -v node >/dev/null; then
+    # shellcheck disable=SC2016 # JavaScript
     check 'questions that the search does not answer' "$(node -e '
         const wanted = { license: "packaging#mit-license", deterministic: "design#deterministic-answers", "thread safe": "design#thread-safety",
             "contact points": "world#contact-points-for-an-engine", "convex hull of a point cloud": "polytope#convex-hull-of-a-point-cloud" };

@@ -8,6 +8,13 @@ import { alter, browser, flat, folder, inStart, land, open, run, skip, startArm 
 const write = (name, text) => writeFileSync(join(folder, name), typeof text === 'string' ? text : JSON.stringify(text));
 const at = (page, call, argument) => page.evaluate(call, argument);
 
+/** The page as a phone has it, and drawn so. */
+async function makePhone(page) {
+  await page.setViewportSize({ width: 390, height: 844 });
+  await page.waitForFunction(() => window.ovoidPage.view.renderer.domElement.width === document.getElementById('stage').clientWidth && innerWidth === 390);
+  await land(page);
+}
+
 /** How far the bodies' hulls are outside the picture: 0 where all are in it, in halves of it. */
 const measureOutside = (page) => at(page, () => {
   const { view, model } = window.ovoidPage, point = view.camera.position.clone();
@@ -112,8 +119,7 @@ test('names stand beside small bodies, and among many only where there is room; 
   run('check', 'small.json', '--html', 'small.html');
   run('check', 'lots.json', '--margin', '0.3', '--html', 'lots.html');
   const small = await open('small.html', flat), lots = await open('lots.html', flat);
-  await small.page.setViewportSize({ width: 390, height: 844 });
-  await land(small.page);
+  await makePhone(small.page);
   const covered = await at(small.page, () => {
     const { view, model } = window.ovoidPage, box = view.canvas.getBoundingClientRect();
     const names = [...document.querySelectorAll('#labels .label:not(.distance)')].map((label) => label.getBoundingClientRect());
@@ -130,8 +136,7 @@ test('names stand beside small bodies, and among many only where there is room; 
   // No label is over the edge.
   run('check', inStart('assembly.json'), '--html', 'edge.html');
   const edge = await open('edge.html', flat);
-  await edge.page.setViewportSize({ width: 390, height: 844 });
-  await land(edge.page);
+  await makePhone(edge.page);
   const [right, ...ends] = await edge.page.$$eval('#stage, #labels .label', (nodes) => nodes.map((node) => node.getBoundingClientRect().right));
   assert.ok(ends.length > 3 && ends.every((end) => end <= right), `${ends} of ${right}`);
   // Of a wide bracket both ends are on the label.
@@ -187,7 +192,7 @@ test('seven joints have a row each, whole names and numbers; on a phone nothing 
   const rows = await page.$$eval('.joint', (all) => all.map((row) => [row.querySelector('.name').textContent, row.offsetHeight, [...row.querySelectorAll('.name, .value')].every((node) => node.scrollWidth <= node.clientWidth + 1), row.querySelector('.value').value]));
   rows.forEach(([name, height, isWhole], i) => assert.ok(name === `panda_joint${i + 1}` && height <= 36 && isWhole, `${name}: ${height} pixels high`));
   assert.deepEqual([rows.length, rows[0][3], await at(page, () => window.ovoidPage.joints.q[0])], [7, '-1.4674', -1.46738521]);
-  await page.setViewportSize({ width: 390, height: 844 });
+  await makePhone(page);
   assert.ok(await page.$$eval('aside > :not(header):not(:empty)', (nodes) => nodes.filter((node) => node.offsetWidth).every((node) => node.getBoundingClientRect().left >= 8)));
   assert.deepEqual(errors, []);
   await page.close();

@@ -443,6 +443,7 @@ test('a path: what the tool proves of it is at the top, over s, and in its steps
   assert.ok(covered >= line.free_until, `${covered}`);
   await page.evaluate(() => window.ovoidPage.track.set(0.2));
   await page.click('#steps summary');
+  await page.waitForSelector('#steps li');
   assert.match(await page.textContent('#steps summary'), /^\d+ of \d+ steps prove this place$/);
   assert.ok(await page.$$eval('#steps li', (items) => items.length && items.every((item) => item.textContent.includes(' – '))));
   assert.ok((await page.$$eval('.bar.step', (bars) => bars.length)) > 0);
