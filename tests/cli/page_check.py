@@ -254,7 +254,7 @@ def check_motion():
 def check_robot():
     arm = os.path.join(sys.argv[2], "arm")
     robot = [f"{arm}/arm.urdf", "--srdf", f"{arm}/arm.srdf", "--parts", "--scene", f"{arm}/cell.yaml"]
-    info = lines("robot", "info", *robot[:5], "--json")[0]
+    info = lines("robot", "info", *robot[:4], "--json")[0]
     answers = lines("robot", "check", *robot, "--states", f"{arm}/states.csv", "--near", "9", "--json", "--html", "states.html")
     data = read("states.html")
     given = data["robot"]
