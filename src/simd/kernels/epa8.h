@@ -27,8 +27,10 @@ LANES_INLINE lane lane_pick(const double *p, uint64_t at, int is_few) {
     __m512d high = _mm512_permutex2var_pd(_mm512_load_pd(p + 16), index, _mm512_load_pd(p + 24));
     return _mm512_mask_blend_pd(_mm512_test_epi64_mask(index, _mm512_set1_epi64(16)), low, high);
 }
-/// Stores four numbers again, at the full width in which lane_pick reads them.
-LANES_INLINE void lane_widen_four(double *p) { _mm512_store_pd(p, _mm512_setr_pd(p[0], p[1], p[2], p[3], 0, 0, 0, 0)); }
+/// Four numbers as the first of LANES.
+LANES_INLINE void lane_store_four(double *to, double a, double b, double c, double d) {
+    _mm512_store_pd(to, _mm512_setr_pd(a, b, c, d, 0, 0, 0, 0));
+}
 #elif LANES == 4
 LANES_INLINE lane lane_top(lane a, lane b) { return _mm256_max_pd(a, b); }
 LANES_INLINE lane lane_find_max(lane m) {
@@ -45,7 +47,9 @@ LANES_INLINE lane lane_pick(const double *p, uint64_t at, int is_few) {
     (void)is_few;
     return _mm256_setr_pd(p[at & 0xff], p[at >> 8 & 0xff], p[at >> 16 & 0xff], p[at >> 24 & 0xff]);
 }
-LANES_INLINE void lane_widen_four(double *p) { _mm256_store_pd(p, _mm256_setr_pd(p[0], p[1], p[2], p[3])); }
+LANES_INLINE void lane_store_four(double *to, double a, double b, double c, double d) {
+    _mm256_store_pd(to, _mm256_setr_pd(a, b, c, d));
+}
 #elif LANES == 2
 LANES_INLINE lane lane_top(lane a, lane b) { return lane_max(a, b); }
 LANES_INLINE lane lane_find_max(lane m) { return lane_max(m, (lane){m[1], m[0]}); }
@@ -58,9 +62,9 @@ LANES_INLINE lane lane_pick(const double *p, uint64_t at, int is_few) {
     (void)is_few;
     return (lane){p[at & 0xff], p[at >> 8 & 0xff]};
 }
-LANES_INLINE void lane_widen_four(double *p) {
-    lane_store(p, (lane){p[0], p[1]});
-    lane_store(p + 2, (lane){p[2], p[3]});
+LANES_INLINE void lane_store_four(double *to, double a, double b, double c, double d) {
+    lane_store(to, (lane){a, b});
+    lane_store(to + 2, (lane){c, d});
 }
 #else
 LANES_INLINE lane lane_top(lane a, lane b) { return a > b ? a : b; }
@@ -72,7 +76,9 @@ LANES_INLINE lane lane_pick(const double *p, uint64_t at, int is_few) {
     (void)is_few;
     return p[at & 0xff];
 }
-LANES_INLINE void lane_widen_four(double *p) { (void)p; }
+LANES_INLINE void lane_store_four(double *to, double a, double b, double c, double d) {
+    to[0] = a, to[1] = b, to[2] = c, to[3] = d;
+}
 #endif
 
 LANES_INLINE lane lane_find_min(lane m) { return -lane_find_max(-m); }
@@ -113,10 +119,10 @@ LANES_INLINE support_result find_one(const simd_points *p, lane3 n) {
 #endif
 
 // is_own: a constant, so that neither loop has the other's way in it.
-LANES_INLINE simd_difference find_difference(const epa8_query *q, int is_own, vec3 n) {
-    if (is_own) return q->find(q->bodies, n);
-    support_result b = find_one(&q->b, (lane3){lane_set(n.x), lane_set(n.y), lane_set(n.z)});
-    support_result a = find_one(&q->a, (lane3){lane_set(-n.x), lane_set(-n.y), lane_set(-n.z)});
+LANES_INLINE simd_difference find_difference(const epa8_query *q, int is_own, double x, double y, double z) {
+    if (is_own) return q->find(q->bodies, (vec3){x, y, z});
+    support_result b = find_one(&q->b, (lane3){lane_set(x), lane_set(y), lane_set(z)});
+    support_result a = find_one(&q->a, (lane3){lane_set(-x), lane_set(-y), lane_set(-z)});
     uint32_t i = a.index, k = b.index;
     return (simd_difference){
         -b.value - a.value, q->b.x[k] - q->a.x[i], q->b.y[k] - q->a.y[i], q->b.z[k] - q->a.z[i], i, k};
@@ -268,19 +274,11 @@ LANES_INLINE lane3 pick_points(const epa8 *s, uint64_t at) {
     return (lane3){lane_pick(s->w[0], at, is_few), lane_pick(s->w[1], at, is_few), lane_pick(s->w[2], at, is_few)};
 }
 
-// LANES faces: apexes c, and edges from u to v.
-typedef struct lane_faces {
-    lane3 c, u, v;
-} lane_faces;
-
-// What planes say of faces, as bits: those that are plain, no slivers; those that may not have the origin behind them.
-typedef struct face_bits {
-    unsigned plain, inward;
-} face_bits;
-
-// The planes of LANES faces, at a place. The operations are those of simd/planes.c.
-LANES_INLINE face_bits set_planes(epa8 *s, const epa8_query *q, uint32_t at, lane_faces f) {
-    lane3 c = f.c, u = lane3_sub(f.u, c), v = lane3_sub(f.v, c);
+// The planes of LANES faces between apexes c and edges from u to v, at a place. Returns the bits of the plain ones, no
+// slivers; *inward: of those that may not have the origin behind them. The operations are those of simd/planes.c.
+LANES_INLINE unsigned set_planes(epa8 *s, const epa8_query *q, uint32_t at, lane3 c, lane3 u, lane3 v,
+                                 unsigned *inward) {
+    u = lane3_sub(u, c), v = lane3_sub(v, c);
     lane3 n = {u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x};
     lane area = lane3_dot(n, n), uu = lane3_dot(u, u), vv = lane3_dot(v, v);
     lane_mask is_wide = lane_greater(area, lane_set(SIMD_AREA_MIN));
@@ -290,31 +288,25 @@ LANES_INLINE face_bits set_planes(epa8 *s, const epa8_query *q, uint32_t at, lan
     lane_store(s->n[1] + at, n.y);
     lane_store(s->n[2] + at, n.z);
     lane_store(s->low + at, low);
-    lane_mask outward = lane_and(lane_greater(low, lane_set(0)), lane_greater(square, lane_set(q->doubt) * (uu + vv)));
-    return (face_bits){lane_bits(lane_and(lane_greater(area, lane_set(1e-4) * (uu * vv)), is_wide)),
-                       lane_bits(lane_not(outward))};
+    *inward = lane_bits(
+        lane_not(lane_and(lane_greater(low, lane_set(0)), lane_greater(square, lane_set(q->doubt) * (uu + vv)))));
+    return lane_bits(lane_and(lane_greater(area, lane_set(1e-4) * (uu * vv)), is_wide));
 }
 
-// At most eight faces between an apex and edges of a rim: their corners a byte each, and the bits of those that there
-// are.
-typedef struct face_group {
-    vec3 apex;
-    uint64_t from, to;
-    unsigned all;
-} face_group;
-
-// The planes of a group; of places without a face nothing is said.
-LANES_INLINE face_bits set_group(epa8 *s, const epa8_query *q, uint32_t g, face_group of) {
-    lane3 c = {lane_set(of.apex.x), lane_set(of.apex.y), lane_set(of.apex.z)};
-    face_bits bits = {0, 0};
+// A group of faces between an apex and edges; *inward: as above. 0 if one is a sliver.
+LANES_INLINE int set_group(epa8 *s, const epa8_query *q, uint32_t g, vec3 apex, uint64_t from, uint64_t to,
+                           unsigned all, unsigned *inward) {
+    lane3 c = {lane_set(apex.x), lane_set(apex.y), lane_set(apex.z)};
+    unsigned plain = 0, doubtful = 0;
     for (uint32_t i = 0; i < EPA8; i += LANES) {
-        if (LANES < EPA8 && !(of.all >> i)) break;
-        lane_faces faces = {c, pick_points(s, of.from >> 8 * i), pick_points(s, of.to >> 8 * i)};
-        face_bits some = set_planes(s, q, EPA8 * g + i, faces);
-        bits.plain |= some.plain << i;
-        bits.inward |= some.inward << i;
+        unsigned some;
+        if (LANES < EPA8 && !(all >> i)) break;
+        lane3 u = pick_points(s, from >> 8 * i), v = pick_points(s, to >> 8 * i);
+        plain |= set_planes(s, q, EPA8 * g + i, c, u, v, &some) << i;
+        doubtful |= some << i;
     }
-    return (face_bits){bits.plain & of.all, bits.inward & of.all};
+    *inward = doubtful & all;
+    return !(~plain & all);
 }
 
 // The lowest group without a face; EPA8_GROUPS if there is none.
@@ -329,35 +321,32 @@ LANES_INLINE uint32_t find_empty(const uint64_t alive[2]) {
     return EPA8_GROUPS;
 }
 
-LANES_INLINE void set_corners(epa8 *s, uint32_t face, const uint32_t v[3]) {
-    uint32_t i = v[0], j = v[1], k = v[2], packed = i | j << 8 | k << 16;
+LANES_INLINE void set_corners(epa8 *s, uint32_t face, uint32_t i, uint32_t j, uint32_t k) {
+    uint32_t packed = i | j << 8 | k << 16;
     __builtin_memcpy(s->v[face], &packed, sizeof packed);
     s->left[i][j] = s->left[j][k] = s->left[k][i] = (uint8_t)face;
 }
 
-// A cone of faces from the next point over a rim, in groups that are empty. 0 if one is a sliver or there is no group
-// left: then nothing is changed.
-LANES_INLINE int add_cone(epa8 *s, const epa8_query *q, vec3 w, const rim *r) {
+// A cone of faces over a rim, in groups that are empty. 0 if one is a sliver or there is no group left: then nothing is
+// changed.
+LANES_INLINE int add_cone(epa8 *s, const epa8_query *q, uint32_t apex, vec3 w, const rim *r) {
     uint64_t alive[2] = {s->alive[0], s->alive[1]}, doubtful[2] = {0, 0};
     uint32_t group[EPA8_POINTS / EPA8], groups = s->groups;
     for (uint32_t i = 0; i < r->count; i += EPA8) {
         uint32_t g = find_empty(alive), rest = r->count - i;
         if (g == EPA8_GROUPS) return 0;
-        unsigned all = rest < EPA8 ? (1u << rest) - 1 : 0xff;
-        face_bits bits = set_group(s, q, g, (face_group){w, r->from[i / EPA8], r->to[i / EPA8], all});
-        if (bits.plain != all) return 0;
+        unsigned all = rest < EPA8 ? (1u << rest) - 1 : 0xff, inward;
+        if (!set_group(s, q, g, w, r->from[i / EPA8], r->to[i / EPA8], all, &inward)) return 0;
         alive[g / 8] |= (uint64_t)all << g % 8 * 8;
-        doubtful[g / 8] |= (uint64_t)bits.inward << g % 8 * 8;
+        doubtful[g / 8] |= (uint64_t)inward << g % 8 * 8;
         group[i / EPA8] = g;
         if (g >= groups) groups = g + 1;
     }
     // A whole group each, the last one first: what is no face is overwritten where it is in the way.
     for (uint32_t i = (r->count + EPA8 - 1) / EPA8; i-- > 0;) {
         uint64_t from = r->from[i], to = r->to[i];
-        for (int k = EPA8 - 1; k >= 0; k--) {
-            uint32_t v[3] = {s->points, from >> 8 * k & 0xff, to >> 8 * k & 0xff};
-            set_corners(s, EPA8 * group[i] + (uint32_t)k, v);
-        }
+        for (int k = EPA8 - 1; k >= 0; k--)
+            set_corners(s, EPA8 * group[i] + (uint32_t)k, apex, from >> 8 * k & 0xff, to >> 8 * k & 0xff);
     }
     s->groups = groups;
     for (int i = 0; i < 2; i++) s->alive[i] = alive[i], s->inward[i] |= doubtful[i];
@@ -396,7 +385,7 @@ LANES_INLINE vec3 find_toward(const epa8 *s) {
 LANES_INLINE int complete(epa8 *s, const epa8_query *q, int is_own) {
     while (s->points < EPA8_START) {
         vec3 n = find_toward(s);
-        simd_difference point = find_difference(q, is_own, n);
+        simd_difference point = find_difference(q, is_own, n.x, n.y, n.z);
         if (has_point(s, &point)) return 0;
         set_point(s, s->points++, &point);
     }
@@ -412,7 +401,8 @@ LANES_INLINE int make_tetrahedron(epa8 *s, const epa8_query *q, int sign) {
     static const uint8_t start_corners[2][3][EPA8_START] = {{{3, 3, 3, 0}, {0, 1, 2, 2}, {1, 2, 0, 1}},
                                                             {{3, 3, 3, 0}, {1, 2, 0, 1}, {0, 1, 2, 2}}};
     const uint8_t(*v)[EPA8_START] = start_corners[sign < 0];
-    for (int k = 0; k < 3; k++) lane_widen_four(s->w[k]);
+    // Stored again at full width, which is how they are read.
+    for (int k = 0; k < 3; k++) lane_store_four(s->w[k], s->w[k][0], s->w[k][1], s->w[k][2], s->w[k][3]);
     s->groups = 1;
     s->alive[0] = 0xf;
     s->alive[1] = s->inward[0] = s->inward[1] = 0;
@@ -420,13 +410,12 @@ LANES_INLINE int make_tetrahedron(epa8 *s, const epa8_query *q, int sign) {
         uint32_t at[3] = {0, 0, 0};
         for (uint32_t j = EPA8_START; j-- > i;)
             for (int k = 0; k < 3; k++) at[k] = at[k] << 8 | v[k][j];
-        unsigned all = ((1u << LANES) - 1) & (0xfu >> i);
-        lane_faces faces = {pick_points(s, at[0]), pick_points(s, at[1]), pick_points(s, at[2])};
-        face_bits bits = set_planes(s, q, i, faces);
-        if (~bits.plain & all) return 0;
-        s->inward[0] |= (bits.inward & all) << i;
+        unsigned inward, all = ((1u << LANES) - 1) & (0xfu >> i);
+        lane3 c = pick_points(s, at[0]), from = pick_points(s, at[1]), to = pick_points(s, at[2]);
+        if (~set_planes(s, q, i, c, from, to, &inward) & all) return 0;
+        s->inward[0] |= (inward & all) << i;
     }
-    for (uint32_t i = 0; i < EPA8_START; i++) set_corners(s, i, (const uint32_t[]){v[0][i], v[1][i], v[2][i]});
+    for (uint32_t i = 0; i < EPA8_START; i++) set_corners(s, i, v[0][i], v[1][i], v[2][i]);
     return 1;
 }
 
@@ -435,7 +424,7 @@ LANES_INLINE int join(epa8 *s, const epa8_query *q, const simd_difference *point
     uint64_t seen[2];
     rim r;
     if (s->points == EPA8_POINTS || !find_seen(s, q, point, seen) || !find_rim(s, seen, &r)) return 0;
-    if (!add_cone(s, q, (vec3){point->x, point->y, point->z}, &r)) return 0;
+    if (!add_cone(s, q, s->points, (vec3){point->x, point->y, point->z}, &r)) return 0;
     // The point is stored only now: the planes' wide loads of the points would wait for a narrow store among them.
     set_point(s, s->points, point);
     for (int i = 0; i < 2; i++) s->alive[i] &= ~seen[i], s->inward[i] &= ~seen[i];
@@ -446,12 +435,12 @@ LANES_INLINE int join(epa8 *s, const epa8_query *q, const simd_difference *point
 // The support of the nearest face, and what it says of the gap.
 LANES_INLINE simd_difference measure_support(epa8 *s, const epa8_query *q, int is_own) {
     uint32_t f = s->nearest = find_nearest_face(s);
-    vec3 n = {s->n[0][f], s->n[1][f], s->n[2][f]};
-    simd_difference point = find_difference(q, is_own, n);
+    double n[3] = {s->n[0][f], s->n[1][f], s->n[2][f]};
+    simd_difference point = find_difference(q, is_own, n[0], n[1], n[2]);
     s->supports++;
     if (point.gap > s->best_gap) {
         s->best_gap = point.gap;
-        s->best_n = n;
+        s->best_n = (vec3){n[0], n[1], n[2]};
     }
     return point;
 }
