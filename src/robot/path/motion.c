@@ -386,13 +386,26 @@ static int is_side(const ovoid_robot_side *a, const ovoid_robot_side *b) {
     return a->link == b->link && a->element == b->element && a->body == b->body && a->part == b->part;
 }
 
+static uint32_t find_item(const ovoid_robot_cell *cell, const ovoid_robot_side *side) {
+    for (uint32_t i = 0; i < cell->items.count; i++)
+        if (is_side(&cell_items(cell)[i].side, side)) return i;
+    return OVOID_ROBOT_NONE;
+}
+
+static uint32_t find_part(const ovoid_robot_cell *cell, const ovoid_robot_side *side) {
+    for (uint32_t i = 0; i < cell->parts.count; i++)
+        if (is_side(&cell_parts(cell)[i].side, side)) return i;
+    return OVOID_ROBOT_NONE;
+}
+
 uint32_t path_find_number(const ovoid_robot_cell *cell, const ovoid_robot_side *a, const ovoid_robot_side *b) {
-    size_t count = ovoid_robot_cell_get_pair_count(cell);
-    ovoid_robot_sides sides;
-    for (size_t i = 0; i < count; i++)
-        if (ovoid_robot_cell_get_pair(cell, i, &sides, NULL) == OVOID_OK && is_side(&sides.a, a) &&
-            is_side(&sides.b, b))
-            return (uint32_t)i;
+    uint32_t item = find_item(cell, a), part = find_part(cell, b), parts = (uint32_t)cell->parts.count;
+    if (item == OVOID_ROBOT_NONE) return OVOID_ROBOT_NONE;
+    if (part != OVOID_ROBOT_NONE) return item * parts + part;
+    uint32_t other = find_item(cell, b);
+    for (uint32_t i = 0; i < cell->pairs.count; i++)
+        if (cell_pairs(cell)[i].a == item && cell_pairs(cell)[i].b == other)
+            return (uint32_t)cell->items.count * parts + i;
     return OVOID_ROBOT_NONE;
 }
 
