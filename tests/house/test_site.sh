@@ -51,7 +51,7 @@ done
 # twice as long.
 if command -v node >/dev/null; then
     # shellcheck disable=SC2016 # JavaScript
-    check 'questions that the search does not answer' "$(node -e '
+    check_empty 'questions that the search does not answer' "$(node -e '
         const wanted = { license: "packaging#mit-license", deterministic: "design#deterministic-answers", "thread safe": "design#thread-safety",
             "contact points": "world#contact-points-for-an-engine", "convex hull of a point cloud": "polytope#convex-hull-of-a-point-cloud" };
         const Search = { setIndex: ({ docnames, alltitles }) => Object.entries(wanted).forEach(([words, place]) => {
@@ -60,11 +60,11 @@ if command -v node >/dev/null; then
         }) };
         eval(require("fs").readFileSync(process.argv[1], "utf8"))' "$index" 2>&1)"
 fi
-check 'an icon' "$([ -s "$site/_static/favicon.svg" ] || echo 'none')"
+check_empty 'an icon' "$([ -s "$site/_static/favicon.svg" ] || echo 'none')"
 # Where there is a live page, the picture of the front page leads to it.
 live=$OVOID_BUILD_DIR/test_site.live
 rm -rf "$live"
-check 'the live page' "$(python3 docs/site/stage.py "$live" "$site.work/xml" demo.html 2>&1; grep -q '^<a href="demo.html">!\[' "$live/index.md" || echo 'has no link')"
+check_empty 'the live page' "$(python3 docs/site/stage.py "$live" "$site.work/xml" demo.html 2>&1; grep -q '^<a href="demo.html">!\[' "$live/index.md" || echo 'has no link')"
 rm -rf "$live"
 
 # It can fail: a small site, which builds; then with a dead link, then with a page that is not listed.

@@ -1,5 +1,6 @@
 // MOTION.csv. Truth: texts written here; the table of bad ones says of each by name which error it must give and in
 // which line.
+#define FILES_FOLDER "test_io_motion"
 #include "files.h"
 
 #define POSES "time,body,x,y,z,qw,qx,qy,qz\n"

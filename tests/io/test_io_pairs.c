@@ -1,5 +1,6 @@
 // PAIRS.csv and output files. Truth: texts written here; what a folder holds after each outcome.
 #define _XOPEN_SOURCE 700 // symlink, lstat
+#define FILES_FOLDER "test_io_pairs"
 #include "files.h"
 
 #include <dirent.h>
