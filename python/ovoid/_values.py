@@ -199,7 +199,8 @@ class MotionRequest(NamedTuple):
 
 class Trajectory(NamedTuple):
     """A trajectory of MoveIt or ROS: joints' numbers by their names at trajectory_start ({} where there is none) and at each
-    point; times: of the points in seconds, None where they have none."""
+    point. A joint that a point does not name is where the point before, or else trajectory_start, has it. times: of the points in
+    seconds, None where they have none."""
 
     start: dict[str, float]
     points: list[dict[str, float]]

@@ -531,7 +531,7 @@ class Files(unittest.TestCase):
             with open(moved, "w", encoding="utf-8") as file:
                 file.write('{"trajectory_start": {"joint_state": {"name": ["wrist"], "position": [0.5]}}, "trajectory": '
                            '{"joint_trajectory": {"joint_names": ["shoulder"], "points": [{"positions": [1]}]}}}')
-            self.assertEqual(ovoid.read_trajectory(moved), ({"wrist": 0.5}, [{"shoulder": 1.0}], None))
+            self.assertEqual(ovoid.read_trajectory(moved), ({"wrist": 0.5}, [{"wrist": 0.5, "shoulder": 1.0}], None))
             with open(moved, "w", encoding="utf-8") as file:
                 file.write('{"joint_names": ["a"], "points": [{"positions": [1], "time_from_start": {"secs": 1, "nsecs": 5e8}}]}')
             self.assertEqual(ovoid.read_trajectory(moved).times, [1.5])

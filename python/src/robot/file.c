@@ -397,36 +397,108 @@ static PyObject *read_motion_request(PyObject *module, PyObject *given) {
     return made;
 }
 
-static PyObject *make_point(const void *trajectory, size_t i) {
-    size_t count;
-    const ovoid_joint_position *point = ovoid_trajectory_get_point(trajectory, i, &count);
-    return make_positions(point, count);
-}
+// ---- trajectories
+
+/// A trajectory that begins farther than this from its trajectory_start is told of, as the tool does.
+#define START_TOLERANCE 0.01
+
+/// A trajectory, and what its file says up to the point at hand: the start and the points before.
+typedef struct trajectory_walk {
+    module_state *state;
+    const char *path;
+    const ovoid_trajectory *trajectory;
+    PyObject *points, *last; ///< a list of dicts, and a dict
+} trajectory_walk;
 
 static PyObject *make_time(const void *trajectory, size_t i) {
     return PyFloat_FromDouble(ovoid_trajectory_get_time(trajectory, i));
 }
 
-static PyObject *make_trajectory(module_state *state, const ovoid_trajectory *trajectory) {
+// Tells of a first point that is elsewhere than the state in which the trajectory is said to begin.
+static int compare_start(const trajectory_walk *w, const ovoid_joint_position *point, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        PyObject *start = PyDict_GetItemString(w->last, point[i].joint);
+        if (!start || fabs(point[i].position - PyFloat_AsDouble(start)) <= START_TOLERANCE) continue;
+        PyObject *first = PyFloat_FromDouble(point[i].position);
+        PyObject *text = first ? PyUnicode_FromFormat("%s: %s is %R in trajectory_start, %R in the first point: the "
+                                                      "way between is not checked",
+                                                      w->path, point[i].joint, start, first)
+                               : NULL;
+        int failed = !text || PyErr_WarnFormat(PyExc_UserWarning, 1, "%U", text);
+        Py_XDECREF(text);
+        Py_XDECREF(first);
+        return failed ? -1 : 0;
+    }
+    return 0;
+}
+
+// Paths in time go forwards, as the tool wants them.
+static int check_time(const trajectory_walk *w, size_t i) {
+    if (!i || isnan(ovoid_trajectory_get_time(w->trajectory, i)) ||
+        ovoid_trajectory_get_time(w->trajectory, i) > ovoid_trajectory_get_time(w->trajectory, i - 1))
+        return 0;
+    PyObject *time = make_time(w->trajectory, i), *before = time ? make_time(w->trajectory, i - 1) : NULL;
+    Py_ssize_t line = (Py_ssize_t)ovoid_trajectory_get_line(w->trajectory, i);
+    if (before)
+        raise_code(w->state, OVOID_ERROR_FORMAT, line,
+                   "%s:%zd: point %zu: its time, %R s, is not after that of the point before, %R s", w->path, line, i,
+                   time, before);
+    Py_XDECREF(before);
+    Py_XDECREF(time);
+    return -1;
+}
+
+// A point names all joints that the start, a point before or itself names.
+static int add_point(trajectory_walk *w, size_t i) {
+    size_t count;
+    const ovoid_joint_position *point = ovoid_trajectory_get_point(w->trajectory, i, &count);
+    if (check_time(w, i) || (!i && compare_start(w, point, count))) return -1;
+    PyObject *own = make_positions(point, count), *whole = own ? PyDict_Copy(w->last) : NULL;
+    int failed = !whole || PyDict_Update(whole, own) || PyList_Append(w->points, whole);
+    Py_XDECREF(own);
+    if (failed) {
+        Py_XDECREF(whole);
+        return -1;
+    }
+    Py_DECREF(w->last);
+    w->last = whole;
+    return 0;
+}
+
+static PyObject *make_trajectory(module_state *state, const char *path, const ovoid_trajectory *trajectory) {
     size_t count, points = ovoid_trajectory_get_count(trajectory);
-    const ovoid_joint_position *start = ovoid_trajectory_get_start(trajectory, &count);
-    int has_times = !isnan(ovoid_trajectory_get_time(trajectory, 0));
-    return PyObject_CallFunction(state->trajectory, "NNN", make_positions(start, count),
-                                 list_make(points, make_point, trajectory),
-                                 has_times ? list_make(points, make_time, trajectory) : Py_NewRef(Py_None));
+    const ovoid_joint_position *positions = ovoid_trajectory_get_start(trajectory, &count);
+    PyObject *start = make_positions(positions, count), *made = NULL;
+    trajectory_walk walk = {state, path, trajectory, start ? PyList_New(0) : NULL, Py_XNewRef(start)};
+    int failed = !walk.points;
+    for (size_t i = 0; i < points && !failed; i++) failed = add_point(&walk, i);
+    if (!failed)
+        made = PyObject_CallFunction(state->trajectory, "OON", start, walk.points,
+                                     isnan(ovoid_trajectory_get_time(trajectory, 0))
+                                         ? Py_NewRef(Py_None)
+                                         : list_make(points, make_time, trajectory));
+    Py_XDECREF(walk.last);
+    Py_XDECREF(walk.points);
+    Py_XDECREF(start);
+    return made;
 }
 
 static PyObject *read_trajectory(PyObject *module, PyObject *given) {
-    PyObject *path = NULL;
+    PyObject *path = NULL, *made = NULL;
     ovoid_error error;
     if (!PyUnicode_FSConverter(given, &path)) return NULL;
-    ovoid_trajectory *trajectory = ovoid_trajectory_read(PyBytes_AsString(path), NULL, &error);
-    Py_DECREF(path);
+    notes told = {NULL, 0, 0};
+    ovoid_robot_read_options o = {.note = gather, .context = &told};
+    ovoid_trajectory *trajectory = ovoid_trajectory_read(PyBytes_AsString(path), &o, &error);
     module_state *state = state_of_module(module);
-    PyObject *made = trajectory ? make_trajectory(state, trajectory) : raise_error(state, &error);
+    if (!tell(&told))
+        made = trajectory ? make_trajectory(state, PyBytes_AsString(path), trajectory) : raise_error(state, &error);
     ovoid_trajectory_destroy(trajectory);
+    Py_DECREF(path);
     return made;
 }
+
+// ---- problems
 
 static PyObject *make_problem(const void *problems, size_t i) {
     ovoid_problem p = ovoid_problems_get(problems, i);
@@ -458,7 +530,8 @@ PyMethodDef robot_file_functions[] = {
     {"read_trajectory", read_trajectory, METH_O,
      "read_trajectory(path: PathLike, /) -> Trajectory\n--\n\nA trajectory of MoveIt or ROS (YAML or JSON): a "
      "Trajectory "
-     "(start, points, times), states as dicts of joints."},
+     "(start, points, times), states as dicts of joints. A point has the joints that the start or a point before names "
+     "too.\nTimes that do not rise are refused."},
     {"find_problems", find_problems, METH_O,
      "find_problems(folder: PathLike, /) -> list[tuple[str, str, str]]\n--\n\nThe planning problems of a folder: a "
      "list of (name, path of the scene, path of the request)."},
