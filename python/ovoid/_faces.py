@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from typing import Any
 
@@ -64,12 +65,13 @@ def q(self: Any, state: str | Mapping[str, float] | None = None, /, **values: fl
 
 
 def default_state(self: Any) -> Any:
-    """The state of zeros, a list: where 0 is outside of the limits the nearest one, and of a floating joint the
-    quaternion that turns nothing."""
+    """The state that MoveIt and the tool take by default, a list: zeros, the middle of the limits where 0 is outside them, and of a
+    floating joint the quaternion that turns nothing."""
     numbers: list[float] = self.lower.tolist()
     for i, variable in enumerate(self.variables):
         turned = 1.0 if variable.name.endswith("/qw") and variable.component == 3 else 0.0
-        numbers[i] = min(max(turned, variable.lower), variable.upper)
+        middle = variable.lower + (variable.upper - variable.lower) / 2
+        numbers[i] = middle if math.isfinite(middle) and not variable.lower <= turned <= variable.upper else min(max(turned, variable.lower), variable.upper)
     return numbers
 
 

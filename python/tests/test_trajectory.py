@@ -12,6 +12,7 @@ import ovoid
 
 SOURCE = os.environ.get("OVOID_SOURCE_DIR", os.path.join(os.path.dirname(__file__), "..", ".."))
 START = os.path.join(SOURCE, "examples", "start")
+ARM = os.path.join(START, "arm.urdf")
 TOOL = os.path.join(os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(ovoid.__file__)))), "ovoid")
 
 
@@ -29,8 +30,8 @@ def display(start, *trajectories):
             "trajectory": [{"joint_trajectory": one} for one in trajectories]}
 
 
-def find_hit(points):
-    cell = ovoid.Cell(ovoid.Robot.read(os.path.join(START, "arm.urdf"), os.path.join(START, "arm.srdf")))
+def find_hit(points, urdf=ARM):
+    cell = ovoid.Cell(ovoid.Robot.read(urdf, os.path.join(START, "arm.srdf")))
     cell.read(os.path.join(START, "cell.json"))
     return cell.find_hit(points)
 
@@ -47,8 +48,8 @@ class Trajectories(unittest.TestCase):
             json.dump(message, file)
         return ovoid.read_trajectory(self.path)
 
-    def ask_tool(self):
-        words = ["robot", "path", "arm.urdf", "--srdf", "arm.srdf", "--scene", "cell.json", "--states", self.path, "--limit-slack", "0", "--json"]
+    def ask_tool(self, urdf=ARM):
+        words = ["robot", "path", urdf, "--srdf", "arm.srdf", "--scene", "cell.json", "--states", self.path, "--limit-slack", "0", "--json"]
         return subprocess.run([TOOL, *words], check=False, capture_output=True, text=True, cwd=START)
 
     def test_whole_points(self):
@@ -75,6 +76,22 @@ class Trajectories(unittest.TestCase):
                     self.assertEqual(path.free_until, answer["free_until"], tool)
                 seen.add(str(path.status))
         self.assertEqual(seen, {"free", "hit", "refused"})
+
+    @unittest.skipUnless(os.path.exists(TOOL), "the tool is not built")
+    def test_default_as_the_tool(self):
+        """Where 0 is outside the limits: joints that nothing names."""
+        with open(ARM, encoding="utf-8") as file:
+            text = file.read().replace('lower="-2.6"', 'lower="0.5"')
+        urdf = os.path.join(self.folder.name, "bent.urdf")
+        with open(urdf, "w", encoding="utf-8") as file:
+            file.write(text)
+        self.assertEqual(ovoid.Robot.read(urdf).default_state(), [0, 1.55])
+        path = find_hit(self.read(make_points(["shoulder"], [-2], [2])).points, urdf)
+        answer = json.loads(self.ask_tool(urdf).stdout)
+        self.assertEqual((str(path.status), path.free_until), (answer["status"], answer["free_until"]))
+        self.assertIn("elbow 1.55", self.ask_tool(urdf).stderr)
+        half = ovoid.Joint("j", "prismatic", "a", "b", lower=1, upper=float("inf"))
+        self.assertEqual(ovoid.Robot(["a", "b"], [half], [("b", ovoid.Shape.sphere(1))]).default_state(), [1])
 
     def test_far_start(self):
         with self.assertWarnsRegex(UserWarning, r"shoulder is 0.5 in trajectory_start, 1.0 in the first point: the way between is not checked"):
