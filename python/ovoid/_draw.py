@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 #: The bits of ovoid_picture_layer.
 _LAYERS = {"outer": 1, "inner": 2, "areas": 4, "witness": 8, "names": 16, "legend": 32, "meshes": 64}
+#: Names' ends of other formats, which the tool refuses for a picture too.
+_OTHERS = frozenset("stl obj off ply dae gltf glb 3ds x3d fbx 3mf json csv ovoid png jsonl pdf jpg html".split())
 #: Most bodies of which a notebook draws a picture without being asked.
 _MOST = 400
 
@@ -33,8 +35,11 @@ class Picture:
         return f"<ovoid.Picture: SVG, {len(self.svg)} characters>"
 
     def write(self, path: PathLike) -> None:
-        """Writes the picture to a file."""
-        with open(os.fsdecode(path), "w", encoding="utf-8") as file:
+        """Writes the picture to a file. A name of another format, as picture.png, is refused."""
+        name = os.fsdecode(path)
+        if os.path.splitext(name)[1][1:].lower() in _OTHERS:
+            raise Error(f"{name}: the picture is svg; choose a name that says so", Code.ARGUMENT)
+        with open(name, "w", encoding="utf-8") as file:
             file.write(self.svg)
 
 

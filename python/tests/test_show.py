@@ -118,6 +118,15 @@ class Pictures(unittest.TestCase):
                                      (([],), {}, "nothing to show")):
             with self.assertRaisesRegex((TypeError, ovoid.Error), sentence):
                 ovoid.draw(*items, **how)
+        picture = ovoid.draw(BOX)
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("z.png", "z.PDF", "z.html"):
+                with self.assertRaisesRegex(ovoid.Error, f"{name}: the picture is svg; choose a name that says so"):
+                    picture.write(os.path.join(folder, name))
+            self.assertEqual(os.listdir(folder), [])
+            for name in ("z.svg", "z", "z.v2"):
+                picture.write(os.path.join(folder, name))
+            self.assertEqual(len(os.listdir(folder)), 3)
         if ovoid.has_robot:
             robot = read_robot()
             with self.assertRaisesRegex(ovoid.Error, "one robot"):
