@@ -57,12 +57,14 @@ def _find_movable(robot: Any) -> list[int]:
 
 def _find_moving(robot: Any, moving: str | Sequence[str] | None) -> list[int]:
     """The variables of a group of the SRDF, of joints by their names, or of all that can move."""
-    if not moving:
+    if moving is None or moving == "":
         return _find_movable(robot)
     groups = {name: joints for name, joints, _links in robot.groups}
     if isinstance(moving, str) and moving not in groups:
         raise Error(f"the robot has no group {moving!r}: {', '.join(sorted(groups)) or 'it has none'}", Code.INDEX)
-    names = groups[moving] if isinstance(moving, str) else moving
+    names = groups[moving] if isinstance(moving, str) else list(moving)
+    if not names:
+        raise Error(f"moving={moving!r} has no joint; None moves all that can move", Code.EMPTY)
     for name in names:
         robot.find_joint(name)
     return [i for i, one in enumerate(robot.variables) if one.joint in names]
@@ -70,18 +72,71 @@ def _find_moving(robot: Any, moving: str | Sequence[str] | None) -> list[int]:
 
 # ---- the ends
 
-def _fill_state(robot: Any, state: Any, others: list[float]) -> list[float]:
+def _refuse_type(what: str, state: Any) -> TypeError:
+    return TypeError(f"{what}: a state is numbers, one for each variable of the robot, a name or a dict by names, not {state!r}")
+
+
+def _read_numbers(robot: Any, state: Any, what: str) -> list[float]:
+    try:
+        if isinstance(state, (bytes, bytearray)):
+            raise TypeError
+        numbers = [float(number) for number in (state.tolist() if hasattr(state, "tolist") else state)]
+    except (TypeError, ValueError):
+        raise _refuse_type(what, state) from None
+    if len(numbers) != len(robot.variables):
+        raise Error(f"{what} has {len(numbers)} number{'' if len(numbers) == 1 else 's'}, the robot {len(robot.variables)} variables", Code.ARGUMENT)
+    return numbers
+
+
+def _fill_state(robot: Any, state: Any, others: list[float], what: str) -> list[float]:
     """A state given by name or by a dict has the numbers of another where it names none."""
     if not isinstance(state, (str, Mapping)):
-        return [float(number) for number in (state.tolist() if hasattr(state, "tolist") else state)]
+        return _read_numbers(robot, state, what)
     named = robot.named_state(state) if isinstance(state, str) else state
     numbers: list[float] = robot.q({**robot.q_dict(others), **named})
     return numbers
 
 
-def _explain(robot: Any, answer: Any) -> str:
+def _list_goals(robot: Any, goal: Any, begin: list[float]) -> list[list[float]]:
+    """The goals; joints that one does not name stay where they begin, and one without joints would be the start."""
+    if isinstance(goal, (bytes, bytearray)) or not hasattr(goal, "__iter__"):
+        raise _refuse_type("the goal", goal)
+    given = list_states(goal)
+    goals = []
+    for i, one in enumerate(given):
+        what = "the goal" if len(given) == 1 else f"goal {i}"
+        if isinstance(one, Mapping) and not one:
+            raise Error(f"{what} names no joint", Code.EMPTY)
+        goals.append(_fill_state(robot, one, begin, what))
+    return goals
+
+
+def _compute_value(robot: Any, joints: dict[str, Any], joint: Any, q: list[float]) -> float:
+    """The number of a joint, which may follow another."""
+    if joint.mimic is None:
+        return q[robot.joint_variable(joint.name)]
+    value: float = joint.multiplier * _compute_value(robot, joints, joints[joint.mimic], q) + joint.offset
+    return value
+
+
+def _explain_refusal(robot: Any, answer: Any, q: list[float]) -> str:
+    """Which number is outside of which limits: the variable's, or those of a joint that follows it."""
+    variable, joints = robot.variables[answer.variable], {joint.name: joint for joint in robot.joints}
+    value = q[answer.variable]
+    if not variable.lower <= value <= variable.upper:
+        return f"{variable.name}: {value:.9g} is outside its limits, {variable.lower:.9g} .. {variable.upper:.9g}"
+    for joint in robot.joints:
+        if joint.mimic is None or joint.type not in ("revolute", "prismatic") or robot.joint_variable(joint.name) != answer.variable:
+            continue
+        value = _compute_value(robot, joints, joint, q)
+        if not joint.lower <= value <= joint.upper:
+            return f"{variable.name}: {joint.name}, which follows it, is {value:.9g}, outside its limits, {joint.lower:.9g} .. {joint.upper:.9g}"
+    return f"{variable.name}: {answer.code}"
+
+
+def _explain(robot: Any, answer: Any, q: list[float]) -> str:
     if answer.status == "refused":
-        return f"{robot.variables[answer.variable].name}: {answer.code}"
+        return _explain_refusal(robot, answer, q)
     return f"not free: {answer.a.name}, {answer.b.name}: {answer.status}" if answer.a else "no pair of bodies is queried"
 
 
@@ -95,16 +150,16 @@ def _find_goals(cell: Any, start: list[float], goals: list[list[float]], how: di
     """Those that are free; the start has to be."""
     answer = cell.collide(start, **how)
     if answer.status != "free":
-        raise Error(f"the start: {_explain(cell.robot, answer)}", Code.ARGUMENT)
+        raise Error(f"the start: {_explain(cell.robot, answer, start)}", Code.ARGUMENT)
     free = []
     for i, goal in enumerate(goals):
         answer = cell.collide(goal, **how)
         if answer.status == "free":
             free.append(goal)
         elif len(goals) == 1:
-            raise Error(f"the goal: {_explain(cell.robot, answer)}", Code.ARGUMENT)
+            raise Error(f"the goal: {_explain(cell.robot, answer, goal)}", Code.ARGUMENT)
         else:
-            warnings.warn(f"goal {i}: {_explain(cell.robot, answer)}", stacklevel=4)
+            warnings.warn(f"goal {i}: {_explain(cell.robot, answer, goal)}", stacklevel=4)
     if not free:
         raise Error("no goal is free", Code.ARGUMENT)
     return free
@@ -127,8 +182,8 @@ def plan(self: Any, start: StateLike, goal: StatesLike, *, moving: str | Sequenc
     if not 1 <= seed < 2**32 or not 0 < seconds < math.inf:
         raise Error("seed is a whole number from 1 to 2**32 - 1, seconds a number above 0", Code.ARGUMENT)
     how = {"margin": margin, "limit_slack": limit_slack, "without_self": without_self, "without_obstacles": without_obstacles}
-    begin = _fill_state(robot, start, robot.default_state())
-    goals = [_fill_state(robot, one, begin) for one in list_states(goal)]
+    begin = _fill_state(robot, start, robot.default_state(), "the start")
+    goals = _list_goals(robot, goal, begin)
     variables = _find_moving(robot, moving)
     if not variables or not goals:
         raise Error("no joint moves" if goals else "there is no goal", Code.EMPTY)

@@ -87,8 +87,40 @@ class Plans(unittest.TestCase):
         for start, goal in (({"knee": 0}, ENDS[1]), (ENDS[0], []), (ENDS[0], "up"), ((9, 9), ENDS[1]), ((0,), ENDS[1])):
             with self.assertRaises(ovoid.Error):
                 cell.plan(start, goal)
+        for moving in ([], ()):
+            with self.assertRaisesRegex(ovoid.Error, "moving=.* has no joint"):
+                cell.plan(*ENDS, moving=moving)
         self.assertIsNone(cell.plan((-0.5, 0), (2.6, 0.5), margin=0.16, seconds=0.05))
         cell.add(ovoid.Shape.sphere(0.1), (9, 9, 9))  # no query is left open
+
+    def test_ends(self):
+        """What is said of an end that is no state: which one, what it has, what is wanted."""
+        cell, (start, goal) = make_cell(), ENDS
+        for ends, sentence in ((((0,), goal), "the start has 1 number, the robot 2 variables"), (((0, 0, 0), goal), "the start has 3 numbers, the robot 2"),
+                               (((), goal), "the start has 0 numbers"), ((start, (1.2,)), "the goal has 1 number, the robot 2 variables"),
+                               ((start, [(1.2, 0), (1,)]), "goal 1 has 1 number"), ((start, {}), "the goal names no joint"), ((start, [goal, {}]), "goal 1 names no joint")):
+            with self.assertRaisesRegex(ovoid.Error, sentence):
+                cell.plan(*ends)
+        for state in (b"x", None, 5, [0, None], [(0, 0)], [0, (1, 2)]):
+            with self.assertRaisesRegex(TypeError, "the start: a state is numbers, one for each variable of the robot, a name or a dict by names, not"):
+                cell.plan(state, goal)
+        for state, what in ((b"x", "the goal"), (None, "the goal"), (5, "the goal"), ([0, None], "the goal"), ([(1.2, 0), None], "goal 1"), ([b"x", b"y"], "goal 0")):
+            with self.assertRaisesRegex(TypeError, f"{what}: a state is numbers"):
+                cell.plan(start, state)
+
+    def test_refused(self):
+        """A number outside its limits is told as the tool tells it, a joint that follows with its own."""
+        cell, (start, goal) = make_cell(), ENDS
+        with self.assertRaisesRegex(ovoid.Error, r"^the start: shoulder: 9 is outside its limits, -3 \.\. 3$"):
+            cell.plan((9, 0), goal)
+        with self.assertRaisesRegex(ovoid.Error, r"^the goal: elbow: -2.75 is outside its limits, -2.6 \.\. 2.6$"):
+            cell.plan(start, {"elbow": -2.75})
+        joints = [ovoid.Joint("j", "revolute", "a", "b", lower=-3, upper=3), ovoid.Joint("k", "revolute", "b", "c", lower=-1, upper=1, mimic="l", multiplier=2, offset=0.5),
+                  ovoid.Joint("l", "revolute", "c", "d", lower=-9, upper=9, mimic="j", multiplier=-1)]
+        cell = ovoid.Cell(ovoid.Robot(["a", "b", "c", "d"], joints, [("d", ovoid.Shape.sphere(0.1))]))
+        cell.add(ovoid.Shape.sphere(0.1), (9, 9, 9))
+        with self.assertRaisesRegex(ovoid.Error, r"^the goal: j: k, which follows it, is -1.5, outside its limits, -1 \.\. 1$"):
+            cell.plan([0], [1])
 
     def test_interrupt(self):
         """A signal's handler that raises ends the search, and the cell can be changed again."""

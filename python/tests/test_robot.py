@@ -523,7 +523,7 @@ class Files(unittest.TestCase):
             shutil.copy(os.path.join(ARM, "cell.yaml"), os.path.join(folder, "scene0001.yaml"))
             with open(os.path.join(folder, "request0001.yaml"), "w", encoding="utf-8") as file:
                 file.write("start_state: {joint_state: {name: [a, b], position: [1, -2.5e-1]}}\ngroup_name: arm\n"
-                           "goal_constraints: [{joint_constraints: [{joint_name: b, position: 3}]}, {joint_constraints: []}]\n")
+                           "goal_constraints: [{joint_constraints: [{joint_name: b, position: 3}]}]\n")
             ((name, scene, request),) = ovoid.find_problems(folder)
             self.assertEqual(name, "0001")
             self.assertEqual(len(ovoid.read_obstacles(scene)), 2)
@@ -537,7 +537,12 @@ class Files(unittest.TestCase):
             self.assertEqual(ovoid.read_trajectory(moved).times, [1.5])
             self.assertRaises(ovoid.Error, ovoid.read_trajectory, scene)
             found = ovoid.read_motion_request(request)
-            self.assertEqual(found, ("arm", {"a": 1, "b": -0.25}, [{"b": 3}, {}]))
+            self.assertEqual(found, ("arm", {"a": 1, "b": -0.25}, [{"b": 3}]))
+            with open(request, "w", encoding="utf-8") as file:
+                file.write("start_state: {joint_state: {name: [a], position: [1]}}\ngoal_constraints: [{joint_constraints: [{joint_name: b, position: 3}]}, {joint_constraints: []}]\n")
+            with self.assertRaisesRegex(ovoid.Error, "request0001.yaml: goal_constraints: goal 1 names no joint") as trouble:
+                ovoid.read_motion_request(request)
+            self.assertEqual(trouble.exception.code, ovoid.Code.EMPTY)
 
 
 if __name__ == "__main__":
