@@ -44,28 +44,39 @@ export function formatBracket({ status, lower, upper }, unit) {
   return width <= 0.05 * most ? formatMiddle(lower, upper, unit) : formatEnds(lower, upper, unit, 3);
 }
 
+// Three digits say all of a bracket that a glance needs.
+const isNarrow = (low, high) => low.toPrecision(3) === high.toPrecision(3) || high - low <= 1e-4 * high;
+
 /** A number > 0 in a bracket, to be read at a glance: three digits where both ends round to them. */
-export function formatGlance(low, high, unit) {
+export const formatGlance = (low, high, unit) => (isNarrow(low, high) ? formatLength((low + high) / 2, unit, 3) : formatEnds(low, high, unit, 3));
+
+// Three digits that are not more than the proven lower end; of a bracket as narrow as rounding makes it, the round number within.
+function roundProven(low, high) {
+  const near = Number(((low + high) / 2).toPrecision(3));
+  return near <= low || (near <= high && high - low <= 1e-6 * high) ? near : roundOut(low, 3, -1);
+}
+
+/** A length > 0 of which the lower end is what is proven, to be read at a glance: it is not rounded up. */
+export function formatProven(low, high, unit) {
   if (high === Infinity) return `at least ${formatLength(roundOut(low, 3, -1), unit, 3)}`;
-  if (low.toPrecision(3) === high.toPrecision(3) || high - low <= 1e-4 * high) return formatLength((low + high) / 2, unit, 3);
-  return formatEnds(low, high, unit, 3);
+  return isNarrow(low, high) ? formatLength(roundProven(low, high), unit, 3) : formatEnds(low, high, unit, 3);
 }
 
 /** How two bodies are, in words that follow their names. */
 export function describeAnswer({ status, lower, upper }, unit) {
   switch (status) {
-    case 'separated': return `are ${formatGlance(lower, upper, unit)} apart, proven`;
+    case 'separated': return `are ${formatProven(lower, upper, unit)} apart, proven`;
     case 'touching': return 'touch, proven';
-    case 'overlapping': return upper < 0 ? `overlap by ${formatGlance(-upper, -lower, unit)}, proven` : 'overlap, proven';
+    case 'overlapping': return upper < 0 ? `overlap by ${formatProven(-upper, -lower, unit)}, proven` : 'overlap, proven';
     default: return Number.isFinite(lower) || Number.isFinite(upper) ? `are not proven apart or touching: the distance is from ${formatEnds(lower, upper, unit, 3)}` : 'are not compared';
   }
 }
 
 /** The same on a label. */
 export function labelAnswer({ status, lower, upper }, unit) {
-  if (status === 'separated') return formatGlance(lower, upper, unit);
+  if (status === 'separated') return formatProven(lower, upper, unit);
   if (status === 'touching') return 'touching';
-  if (status === 'overlapping') return upper < 0 ? `overlap ${formatGlance(-upper, -lower, unit)}` : 'overlap';
+  if (status === 'overlapping') return upper < 0 ? `overlap ${formatProven(-upper, -lower, unit)}` : 'overlap';
   return '?';
 }
 
