@@ -324,7 +324,7 @@ int robot_add(PyObject *module) {
 #ifdef OVOID_PYTHON_ROBOT_READ
     static PyMethodDef with_files[24];
     slots_set_methods(slots, with_files, all, robot_constructors);
-    if (functions_add(module, robot_file_functions)) return -1;
+    if (functions_add(module, robot_file_functions) || functions_add(module, robot_message_functions)) return -1;
 #endif
     return type_add(module, &spec, &state_of_module(module)->robot);
 }

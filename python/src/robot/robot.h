@@ -108,7 +108,8 @@ int query_options_validate(module_state *state, const ovoid_robot_query_options 
 
 // ---- tables of methods, and what each file adds
 
-extern PyMethodDef robot_constructors[], robot_spheres_methods[], robot_matrix_methods[], robot_file_functions[];
+extern PyMethodDef robot_constructors[], robot_spheres_methods[], robot_matrix_methods[], robot_file_functions[],
+    robot_message_functions[];
 extern PyMethodDef cell_queries[], cell_clearances[], cell_sides[], cell_plans[], cell_scenes[], cell_proofs[],
     robot_functions[];
 extern PyMethodDef robot_facts_methods[];
