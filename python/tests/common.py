@@ -1,6 +1,7 @@
 """What the tests share: the last line that the house's tests end with, and numbers without NumPy."""
 
 import os
+import subprocess
 import sys
 import unittest
 
@@ -20,6 +21,12 @@ except ImportError:
 
 needs_numpy = unittest.skipUnless(numpy, "needs python3-numpy")
 needs_hypothesis = unittest.skipUnless(hypothesis, "needs python3-hypothesis")
+
+
+def run_tool(words, **how):
+    """subprocess.run without the runtime of the sanitizers that Python is started with: the tool brings its own."""
+    environment = {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}
+    return subprocess.run(words, env=environment, **how)
 
 
 class Result(unittest.TextTestResult):

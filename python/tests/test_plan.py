@@ -3,7 +3,6 @@
 import csv
 import os
 import signal
-import subprocess
 import sys
 import tempfile
 import threading
@@ -54,7 +53,7 @@ class Plans(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "path.csv")
             words = ["arm.urdf", "--srdf", "arm.srdf", "--scene", "cell.json", "--request", "request.yaml", "--margin", "0.005", "--seed", "3", "--limit-slack", "0"]
-            subprocess.run([os.path.join(BUILD, "ovoid"), "robot", "plan", *words, "-o", path], check=True, capture_output=True, cwd=START)
+            common.run_tool([os.path.join(BUILD, "ovoid"), "robot", "plan", *words, "-o", path], check=True, capture_output=True, cwd=START)
             with open(path, encoding="utf-8") as file:
                 rows = list(csv.reader(file))
         request = ovoid.read_motion_request(os.path.join(START, "request.yaml"))

@@ -8,7 +8,6 @@ import json
 import math
 import os
 import random
-import subprocess
 import tempfile
 import unittest
 
@@ -86,9 +85,7 @@ def write_cube(path, half):
 @unittest.skipUnless(os.path.isdir(DATA), "the folder of data is not there (OVOID_DATA)")
 class RealMeshes(unittest.TestCase):
     def run_tool(self, *words, code=0):
-        # The runtime of the sanitizers that Python is started with is not the tool's.
-        environment = {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}
-        done = subprocess.run([TOOL, *words], capture_output=True, text=True, env=environment)
+        done = common.run_tool([TOOL, *words], capture_output=True, text=True)
         self.assertEqual(done.returncode, code, (words, done.stdout[-500:], done.stderr))
         return done
 

@@ -8,7 +8,6 @@ import os
 import pickle
 import re
 import shutil
-import subprocess
 import tempfile
 import unittest
 import warnings
@@ -172,7 +171,7 @@ class Paged(unittest.TestCase):
         return self.read(ovoid.show(*items, path=self.get("own.html"), browser=False, **how))
 
     def ask_tool(self, *words):
-        subprocess.run([TOOL, *words, "--html", self.get("tool.html")], capture_output=True, check=False, cwd=self.folder)
+        common.run_tool([TOOL, *words, "--html", self.get("tool.html")], capture_output=True, check=False, cwd=self.folder)
         return self.read(self.get("tool.html"))
 
 

@@ -2,7 +2,6 @@
 
 import json
 import os
-import subprocess
 import tempfile
 import unittest
 import warnings
@@ -50,7 +49,7 @@ class Trajectories(unittest.TestCase):
 
     def ask_tool(self, urdf=ARM):
         words = ["robot", "path", urdf, "--srdf", "arm.srdf", "--scene", "cell.json", "--states", self.path, "--limit-slack", "0", "--json"]
-        return subprocess.run([TOOL, *words], check=False, capture_output=True, text=True, cwd=START)
+        return common.run_tool([TOOL, *words], check=False, capture_output=True, text=True, cwd=START)
 
     def test_whole_points(self):
         read = self.read(display({"elbow": 1, "shoulder": 0.2}, make_points(["shoulder"], [0.2], [0.3]), make_points(["elbow"], [1.5])))

@@ -563,7 +563,9 @@ static void search(path_search *s, const ovoid_robot_path *path) {
     int has_pairs = cell_has_pairs(s->w->cell, &s->options->query);
     if (uses_covers(s->options) && has_pairs) {
         if (run_all_covered(s, path, segments)) return;
+        const uint32_t checked = s->answer->states;
         *s->answer = empty;
+        s->answer->states = checked;
         s->answer->status = OVOID_ROBOT_FREE;
         s->set_segment = 0;
     }
