@@ -30,7 +30,7 @@ static int is_allowed(const char *path, const char *formats) {
     return 1;
 }
 
-static int is_same_file(const char *a, const char *b) {
+int outputs_is_same_file(const char *a, const char *b) {
     struct stat one, two;
     if (strcmp(a, "-") == 0 || strcmp(b, "-") == 0) return 0;
     if (strcmp(a, b) == 0) return stat(a, &one) != 0 || S_ISREG(one.st_mode);
@@ -49,13 +49,13 @@ static int validate_output(const cli_command *command, const cli_option *o, cons
         return args_complain(command, "%s: --%s %s: the output is %s; choose a name that says so", command->name,
                              o->name, path, o->choices);
     for (int i = 0; i < operands->count; i++)
-        if (is_same_file(path, operands->items[i]))
+        if (outputs_is_same_file(path, operands->items[i]))
             return args_complain(command, "%s: --%s %s would overwrite its own input; choose another name",
                                  command->name, o->name, path);
     for (const cli_option *other = command->options; other->name; other++) {
         if (other == o || (other->kind != OPTION_FILE && other->kind != OPTION_OUTPUT)) continue;
         const char *theirs = get_path(other, settings);
-        if (theirs && is_same_file(path, theirs))
+        if (theirs && outputs_is_same_file(path, theirs))
             return args_complain(command, "%s: --%s and --%s are one file, %s; choose another name", command->name,
                                  o->name, other->name, path);
     }

@@ -12,4 +12,7 @@ int command_parse(const cli_command *command, int argc, char **argv, void *setti
 /// 1 if the path ends in a dot and the word, in any case.
 int outputs_has_extension(const char *path, const char *word);
 
+/// 1 if both paths are one file, by a link or through other folders too; "-" and pipes are none.
+int outputs_is_same_file(const char *a, const char *b);
+
 #endif

@@ -3,6 +3,7 @@
 #define _FILE_OFFSET_BITS 64
 #include "shard/mark.h"
 
+#include "base/lines.h"
 #include "base/message.h"
 #include "tools/array.h"
 
@@ -167,7 +168,7 @@ char *shard_header_make(const shard_job *job, size_t *size) {
 static char *read_line(FILE *file, shard_header *h) {
     char *line = NULL;
     size_t room = 0;
-    ssize_t length = getline(&line, &room, file);
+    long length = lines_read(file, &line, &room);
     if (length <= 0 || line[length - 1] != '\n') return free(line), NULL;
     shard_digest_add(&h->digest, line, (size_t)length);
     line[length - 1] = 0;

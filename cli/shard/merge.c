@@ -4,6 +4,7 @@
 #include "base/outputs.h"
 #include "commands.h"
 #include "results.h"
+#include "shard/mark.h"
 #include "shard/order.h"
 #include "tools/heap.h"
 
@@ -37,6 +38,21 @@ typedef struct merge {
     size_t waiting;       ///< of the heap
     cli_results results;
 } merge;
+
+/// Refuses an output that would overwrite the mark of a shard. -1 to go on, or EXIT_USAGE after a message.
+static int check_marks(const cli_command *command, const cli_operands *shards, const char *path) {
+    for (int i = 0; i < shards->count && path; i++) {
+        char *mark = shard_get_mark_path(shards->items[i]);
+        if (!mark) return message_error("out of memory"), EXIT_INPUT;
+        int is_mark = outputs_is_same_file(path, mark);
+        free(mark);
+        if (is_mark)
+            return args_complain(command,
+                                 "%s: --output %s would overwrite the mark of its own input %s; choose another name",
+                                 command->name, path, shards->items[i]);
+    }
+    return -1;
+}
 
 /* ---- the shards */
 
@@ -140,7 +156,8 @@ static int is_before(const void *a, const void *b) {
 /// Reads the next line of a shard, with its key. 1; 0 where there is none; -1 after a message.
 static int read_item(const merge *m, item *i) {
     shard_reader *r = &m->readers[i->reader];
-    if (!shard_reader_next(r)) return 0;
+    int got = shard_reader_next(r);
+    if (got <= 0) return got;
     return shard_key_find(&i->key, &m->lines, r->line) ? 1 : (shard_reader_complain(r), -1);
 }
 
@@ -182,8 +199,10 @@ static int write_lines(merge *m) {
 
 /// Writes the header of CSV, with which all shards begin, and keeps it. 0, or EXIT_INPUT after a message.
 static int write_header(merge *m, char **columns) {
+    int got;
     for (size_t i = 0; i < m->count; i++)
-        if (!shard_reader_next(&m->readers[i])) return shard_reader_complain(&m->readers[i]);
+        if ((got = shard_reader_next(&m->readers[i])) <= 0)
+            return got ? EXIT_INPUT : shard_reader_complain(&m->readers[i]);
     const shard_reader *first = &m->readers[0];
     m->lines.columns = *columns = strdup(first->line);
     if (!*columns) return message_error("out of memory"), EXIT_INPUT;
@@ -235,6 +254,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     settings s = {NULL};
     cli_operands paths;
     int code = command_parse(command, argc, argv, &s, &paths);
+    if (code < 0) code = check_marks(command, &paths, s.path);
     if (code >= 0) return code;
     raise_limit();
     const size_t count = (size_t)paths.count;

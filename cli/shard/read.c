@@ -2,30 +2,46 @@
 #define _FILE_OFFSET_BITS 64
 #include "shard/read.h"
 
+#include "base/lines.h"
 #include "base/message.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
+
+/// Opens a regular file; a pipe, which would wait for its writer, is none. NULL with errno set; 0: no regular file.
+static FILE *open_regular(const char *path) {
+    struct stat status;
+    int number = open(path, O_RDONLY | O_NONBLOCK);
+    if (number < 0) return NULL;
+    int is_regular = fstat(number, &status) == 0 && S_ISREG(status.st_mode);
+    FILE *file = is_regular ? fdopen(number, "rb") : (errno = 0, NULL);
+    if (!file) (void)close(number);
+    return file;
+}
 
 /// Opens the mark and reads its header. 0, or EXIT_INPUT after a message.
 static int open_mark(shard_reader *r, const char *path) {
-    struct stat status;
-    r->mark = fopen(path, "rb");
-    if (r->mark && fstat(fileno(r->mark), &status) == 0 && S_ISREG(status.st_mode) &&
-        shard_header_read(r->mark, &r->header))
-        return 0;
+    r->mark = open_regular(path);
+    int is_there = r->mark || !errno;
+    errno = 0;
+    if (r->mark && shard_header_read(r->mark, &r->header)) return 0;
+    if (errno == ENOMEM) return message_error("%s: cannot be read: %s", path, strerror(errno)), EXIT_INPUT;
     message_error("%s: is no shard, as ovoid batch --shard I/N makes them: %s, which says of which run it is, %s",
-                  r->path, path, r->mark ? "does not" : "is not there");
+                  r->path, path, is_there ? "does not" : "is not there");
     return EXIT_INPUT;
 }
 
 int shard_reader_open(shard_reader *r, const char *path) {
     *r = (shard_reader){.path = path};
-    errno = 0;
-    r->file = fopen(path, "rb");
-    if (!r->file) return message_error("%s: cannot be opened: %s", path, strerror(errno)), EXIT_INPUT;
+    r->file = open_regular(path);
+    if (!r->file) {
+        message_error("%s: cannot be opened: %s", path, errno ? strerror(errno) : "it is no regular file");
+        return EXIT_INPUT;
+    }
     char *mark = shard_get_mark_path(path);
     int code = mark ? open_mark(r, mark) : (message_error("out of memory"), EXIT_INPUT);
     free(mark);
@@ -57,7 +73,10 @@ int shard_reader_check(shard_reader *r) {
 }
 
 int shard_reader_next(shard_reader *r) {
-    ssize_t size = getline(&r->line, &r->room, r->file);
+    long size = lines_read(r->file, &r->line, &r->room);
     r->line_size = size > 0 ? (size_t)size : 0;
-    return size > 0;
+    r->taken += r->line_size;
+    if (size > 0) return 1;
+    if (size < 0) return message_error("%s: a line cannot be read: %s", r->path, strerror(errno)), -1;
+    return r->taken == r->progress.bytes ? 0 : (shard_reader_complain(r), -1);
 }

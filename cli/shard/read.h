@@ -11,6 +11,7 @@ typedef struct shard_reader {
     shard_progress progress; ///< once it was checked
     char *line;              ///< that was read last
     size_t line_size, room;
+    uint64_t taken; ///< bytes of the lines that were read
 } shard_reader;
 
 /// Opens a shard and reads the header of its mark. 0, or EXIT_INPUT after a message.
@@ -21,7 +22,8 @@ void shard_reader_close(shard_reader *reader);
 /// EXIT_INPUT after a message.
 int shard_reader_check(shard_reader *reader);
 
-/// The next line with its end, valid until the next call: line, line_size. 1; 0 at the end.
+/// The next line with its end, valid until the next call: line, line_size. 1; 0 at the end, once all bytes were read
+/// that the mark speaks of; -1 after a message.
 int shard_reader_next(shard_reader *reader);
 
 /// Says that the shard is not what it should be; EXIT_INPUT.

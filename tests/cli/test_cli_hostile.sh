@@ -375,6 +375,22 @@ if [ "$addresses" ]; then
         rm -f new.out
         clean "little memory, $run"
     done
+    # A line that is too long for the memory is no end of the file: no states, no lines of shards are lost.
+    { printf 'shoulder\n0\n' && head -c 70000000 /dev/zero | tr '\0' ' ' && printf '\n1\n'; } >blanks.csv
+    # shellcheck disable=SC3045
+    (ulimit -v 60000 && exec "$OVOID_TOOL" robot path arm/arm.urdf --states blanks.csv) >/dev/null 2>err
+    code=$?
+    expect 'a long line of states' 3 'blanks.csv:3: the line is too long for the memory'
+    rm -f blanks.csv
+    { printf 'world:\n  collision_objects:\n  - id: ' && head -c 40000000 /dev/zero | tr '\0' a &&
+        printf '\n    primitives: [{type: box, dimensions: [9, 9, 9]}]\n    primitive_poses: [{position: [0, 0, 0]}]\n'; } >long.yaml
+    printf 'shoulder\n99\n0\n' >two.csv
+    "$OVOID_TOOL" robot check arm/arm.urdf --scene long.yaml --states two.csv --json --shard 1/1 -o long.jsonl 2>err
+    # shellcheck disable=SC3045
+    (ulimit -v 50000 && exec "$OVOID_TOOL" merge long.jsonl) >/dev/null 2>err
+    code=$?
+    expect 'a long line of a shard' 3 'long.jsonl: a line cannot be read: Cannot allocate memory'
+    rm -f long.yaml long.jsonl long.jsonl.mark
     # The least stack of a thread with the C library of musl: 128 KB.
     printf 'v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\nv 0 0 1\nv 2 0 1\nv 2 1 1\nv 1 1 1\nv 1 2 1\nv 0 2 1\nf 4 3 2 1\nf 6 5 4 1\nf 7 8 9 10\nf 7 10 11 12\nf 1 2 8 7\nf 2 3 9 8\nf 3 4 10 9\nf 4 5 11 10\nf 5 6 12 11\nf 6 1 7 12\n' >l.obj
     for run in "distance cube.off tetra.obj" "distance many.obj cube.off" "distance l.obj cube.off --hull" "check scene.json" \

@@ -266,6 +266,20 @@ sed 's/^objects .*/objects 4000000000/' 2.shard.mark >alone.shard.mark
 refuse 'alone.shard.mark, which says of which run it is, does not' 1.shard alone.shard
 sed '$d' 2.shard.mark >alone.shard.mark
 refuse 'alone.shard: part 2/3 is not finished, or damaged; run it again, with --shard 2/3: it goes on' 1.shard alone.shard 3.shard
+# A pipe in the place of a shard or of its mark is refused at once, without waiting for a writer.
+mkfifo pipe.shard
+timeout 10 "$OVOID_TOOL" merge 1.shard pipe.shard 3.shard >merged 2>said
+check "a pipe for a shard; got $(cat said)" grep -q 'pipe.shard: cannot be opened: it is no regular file' said
+cp 2.shard queue.shard && mkfifo queue.shard.mark
+timeout 10 "$OVOID_TOOL" merge 1.shard queue.shard 3.shard >merged 2>said
+check "a pipe for a mark; got $(cat said)" grep -q 'queue.shard.mark, which says of which run it is, does not' said
+rm pipe.shard queue.shard.mark
+# The marks of the shards are inputs, too.
+cp 2.shard.mark before
+"$OVOID_TOOL" merge 1.shard 2.shard 3.shard -o ./2.shard.mark 2>said
+check 'a mark is not overwritten: the code' [ $? -eq 2 ]
+check 'a mark is not overwritten' cmp before 2.shard.mark
+check 'a mark is not overwritten: said' grep -q 'would overwrite the mark of its own input 2.shard' said
 # Altered bytes: in all pieces of the results, and in the mark.
 for file in altered.shard altered.shard.mark; do
     copy 2.shard altered.shard

@@ -1,6 +1,7 @@
 // States from a CSV file: a header of names in any order, then one state a line; or a bag's joint states (bag.c).
 #include "robot/states/reader.h"
 
+#include "base/lines.h"
 #include "base/message.h"
 #include "io/fields.h"
 
@@ -123,13 +124,16 @@ int reader_read_csv(reader *r, const char *path) {
     const char *name = is_input ? "standard input" : path;
     char *line = NULL;
     size_t room = 0, number = 0;
-    for (;;) {
-        ssize_t length = getline(&line, &room, file);
-        if (length < 0 || code) break;
+    long length = 0;
+    while (!code && (length = lines_read(file, &line, &room)) > 0)
         code = take_line(r, name, ++number, line, (size_t)length);
-        if (code) break;
+    if (!code && length < 0) {
+        if (errno == ENOMEM)
+            message_error("%s:%zu: the line is too long for the memory that there is", name, number + 1);
+        else
+            message_error("%s: cannot be read: %s", name, strerror(errno));
+        code = EXIT_INPUT;
     }
-    if (!code && ferror(file)) message_error("%s: cannot be read: %s", name, strerror(errno)), code = EXIT_INPUT;
     free(line);
     if (!is_input) (void)fclose(file); // it was read
     if (code || r->states->count) return code;
