@@ -279,6 +279,14 @@ static const bad_input scenes[] = {
      "an attached object needs link_name and object"},
     {"held_empty.yaml", "robot_state: {attached_collision_objects: [{link_name: b, object: {id: a}}]}\nworld: {}\n", 1,
      "object \"a\": it has neither primitives nor meshes", OVOID_ERROR_EMPTY},
+    {"twin.yaml",
+     PART("{type: sphere, dimensions: [1]}") "    - id: p\n      primitives: [{type: sphere, dimensions: [2]}]\n"
+                                             "    - id: o\n      primitives: [{type: sphere, dimensions: [3]}]\n",
+     8, "object \"o\": it is there twice"},
+    {"held_twin.yaml",
+     PART("{type: sphere, dimensions: [1]}") "robot_state:\n  attached_collision_objects:\n    - link_name: b\n"
+                                             "      object: {id: o, primitives: [{type: sphere, dimensions: [2]}]}\n",
+     9, "object \"o\": it is there twice"},
     {"root_key.yaml", "world: {}\ngravity: 9\n", 2, "\"gravity\" is no key that is read here"},
     {"world_key.yaml", "world:\n  voxels: 9\n", 2, "\"voxels\" is no key that is read here"},
     {"object_key.yaml", OBJECT("      colour: red\n"), 4, "\"colour\" is no key that is read here"},
@@ -308,9 +316,10 @@ static int accepts_scene(const char *path, ovoid_error *error) {
 #define START "start_state: {joint_state: {name: [a, b], position: [1, -2.5e-1]}}\n"
 
 static void test_request(void) {
-    static const char text[] = START "group_name: arm\ngoal_constraints:\n  - joint_constraints:\n"
-                                     "      - {joint_name: b, position: 3}\n  - joint_constraints: []\n"
-                                     "    position_constraints: []\n";
+    static const char text[] =
+        START "group_name: arm\ngoal_constraints:\n  - joint_constraints:\n"
+              "      - {joint_name: b, position: 3}\n  - joint_constraints: [{joint_name: a, position: 4}]\n"
+              "    position_constraints: []\n";
     ovoid_robot_read_options options = make_read_options();
     ovoid_motion_request *r = ovoid_motion_request_read(file_write_text("good.yaml", text), &options, NULL);
     size_t count;
@@ -321,8 +330,8 @@ static void test_request(void) {
     CHECK_EQ(ovoid_motion_request_get_goal_count(r), 2);
     const ovoid_joint_position *goal = ovoid_motion_request_get_goal(r, 0, &count);
     CHECK(count == 1 && strcmp(goal[0].joint, "b") == 0 && goal[0].position == 3);
-    (void)ovoid_motion_request_get_goal(r, 1, &count);
-    CHECK_EQ(count, 0);
+    goal = ovoid_motion_request_get_goal(r, 1, &count);
+    CHECK(count == 1 && goal[0].position == 4);
     CHECK_EQ(notes.count, 0);
     ovoid_motion_request_destroy(r);
 }
@@ -334,6 +343,8 @@ static const bad_input requests[] = {
     {"name.yaml", "start_state: {joint_state: {name: [[a]], position: [1]}}\n", 1, "must be a text"},
     {"goal.yaml", START "goal_constraints: [{joint_constraints: [{joint_name: a}]}]\n", 2,
      "needs joint_name and position"},
+    {"no_goal.yaml", START "goal_constraints:\n  - {name: home}\n", 3, "a goal without joint_constraints"},
+    {"empty_goal.yaml", START "goal_constraints:\n  - joint_constraints: []\n", 3, "a goal without joint_constraints"},
     {"goals.yaml", START "goal_constraints: 5\n", 2, "must be a list"},
     {"region.yaml", START "goal_constraints: [{position_constraints: [{weight: 1}]}]\n", 2,
      "\"position_constraints\" of a goal are not read"},
@@ -367,6 +378,39 @@ static void test_trajectory(void) {
     CHECK(count == 1 && strcmp(last[0].joint, "b") == 0 && last[0].position == -3);
     CHECK(ovoid_trajectory_get_time(t, 0) == 0 && ovoid_trajectory_get_time(t, 1) == 1.5);
     CHECK_EQ(ovoid_trajectory_get_time(t, 2), 1.75); // the second begins where the first ends
+    ovoid_trajectory_destroy(t);
+}
+
+#define JOINED(first, later)                                                                                           \
+    "trajectory_start: {joint_state: {name: [a, b, c], position: [1, 2, 0]}}\ntrajectory:\n"                           \
+    "  - {joint_names: [a, b], points: [" first "{positions: [2, 2], time_from_start: 1}]}\n"                          \
+    "  - {joint_names: [c], points: [{positions: [0], time_from_start: 0}, {positions: [7], time_from_start: "         \
+    "1}]}\n" later
+#define AT_ONCE "{positions: [1, 2], time_from_start: 0}, "
+
+// A later trajectory that begins at its time 0 in the state in which the one before ended, of the joints that moved
+// last or of others: that state is there once. The same where the first trajectory is that state alone.
+static void test_joined_trajectories(void) {
+    static const char text[] = JOINED(
+        AT_ONCE, "  - {joint_names: [b, a], points: [{positions: [2, 2], time_from_start: 0}]}\n"
+                 "  - joint_trajectory: {joint_names: [a], points: [{positions: [2], time_from_start: 0}, {positions: "
+                 "[3], time_from_start: 2}]}\n");
+    static const double times[] = {0, 1, 2, 4}, last[] = {1, 2, 7, 3};
+    ovoid_error error = {OVOID_OK, -1, ""};
+    ovoid_trajectory *t = ovoid_trajectory_read(file_write_text("joined.yaml", text), NULL, &error);
+    size_t count;
+    if (CHECK(t) && CHECK_EQ(ovoid_trajectory_get_count(t), 4))
+        for (size_t i = 0; i < 4; i++) {
+            CHECK_EQ(ovoid_trajectory_get_time(t, i), times[i]);
+            CHECK_EQ(ovoid_trajectory_get_point(t, i, &count)[0].position, last[i]);
+        }
+    if (!t) printf("  %s\n", error.message);
+    ovoid_trajectory_destroy(t);
+    static const char alone[] = "trajectory:\n  - {joint_names: [a], points: [{positions: [1], time_from_start: 0}]}\n"
+                                "  - {joint_names: [a], points: [{positions: [1], time_from_start: 0}, {positions: "
+                                "[2], time_from_start: 1}]}\n";
+    t = ovoid_trajectory_read(file_write_text("alone.yaml", alone), NULL, NULL);
+    if (CHECK(t)) CHECK_EQ(ovoid_trajectory_get_count(t), 2);
     ovoid_trajectory_destroy(t);
 }
 
@@ -421,6 +465,12 @@ static const bad_input trajectories[] = {
     {"held.yaml", "trajectory_start: {attached_collision_objects: [{weight: 1}]}\ntrajectory: []\n", 1,
      "\"attached_collision_objects\" of a trajectory are not read"},
     {"name.yaml", "joint_names: [[a]]\npoints: []\n", 1, "must be a text"},
+    {"leap.yaml", JOINED(AT_ONCE, "  - joint_names: [b]\n    points:\n      - {positions: [9], time_from_start: 0}\n"),
+     7, "begins at time 0 with joint \"b\" at 9, where the one before ended with 2"},
+    {"leap_c.yaml", JOINED(AT_ONCE, "  - {joint_names: [a, c], points: [{positions: [2, 6], time_from_start: 0}]}\n"),
+     5, "begins at time 0 with joint \"c\" at 6, where the one before ended with 7"},
+    {"untold.yaml", JOINED(AT_ONCE, "  - {joint_names: [d], points: [{positions: [2], time_from_start: 0}]}\n"), 5,
+     "joint \"d\" at 2, and nothing says where it was before: name it in trajectory_start"},
 };
 
 static int accepts_trajectory(const char *path, ovoid_error *error) {
@@ -509,6 +559,7 @@ int main(void) {
     check_bad_inputs(scenes, sizeof scenes / sizeof *scenes, accepts_scene);
     test_request();
     test_trajectory();
+    test_joined_trajectories();
     test_trajectory_kinds();
     check_bad_inputs(trajectories, sizeof trajectories / sizeof *trajectories, accepts_trajectory);
     check_bad_inputs(requests, sizeof requests / sizeof *requests, accepts_request);

@@ -241,6 +241,7 @@ static ovoid_code read_object(message_reader *r, ovoid_obstacles *o, const yaml_
     if (code) return code;
     if (!name[0]) return message_fail(r, object, OVOID_ERROR_FORMAT, "an object needs an id");
     holder.name = r->object = name;
+    holder.object = object;
     size_t before = o->count;
     code = refuse_others(r, object);
     if (!code) code = read_frame(r, object, &holder.frame);
@@ -290,6 +291,20 @@ static ovoid_code read_all_attached(message_reader *r, ovoid_obstacles *o, const
     for (const yaml_value *v = list ? list->first : NULL; v && !code; v = v->next) code = read_attached(r, o, v);
     r->object = NULL;
     return code;
+}
+
+// MoveIt keeps the last of two objects with one id; which of them is meant is for the file to say.
+static ovoid_code refuse_twice(message_reader *r, const ovoid_obstacles *o) {
+    name_index names = {.entries = pool_get(&r->scratch, o->count, sizeof *names.entries)};
+    if (!names.entries) return io_fail_memory(r->error, r->path);
+    for (size_t i = 0; i < o->count; i++)
+        if (!i || o->entries[i].object != o->entries[i - 1].object)
+            names.entries[names.count++] = (name_entry){o->entries[i].name, (uint32_t)i};
+    size_t twice = name_index_sort(&names);
+    if (twice == names.count) return OVOID_OK;
+    r->object = names.entries[twice].name;
+    return message_fail(r, o->entries[names.entries[twice].index].object, OVOID_ERROR_FORMAT,
+                        "it is there twice: each object needs an id of its own");
 }
 
 // ---- shapes of primitives
@@ -355,6 +370,7 @@ static ovoid_code read_world(message_reader *r, ovoid_obstacles *o, const yaml_v
     for (const yaml_value *v = objects ? objects->first : NULL; v && !code; v = v->next)
         code = read_object(r, o, v, (obstacle_entry){.name = NULL});
     if (!code) code = read_all_attached(r, o, root);
+    if (!code) code = refuse_twice(r, o);
     return code ? code : make_shapes(r, o);
 }
 

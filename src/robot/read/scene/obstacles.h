@@ -16,9 +16,9 @@ typedef struct obstacle_entry {
     primitive what;
     ovoid_shape *made; ///< of a mesh: its own; NULL: of the primitive
     const ovoid_shape *shape;
-    const ovoid_solid *solid; ///< of which the shape is the hull; NULL: none
-    const yaml_value *at;     ///< while the scene is read
-    int64_t line;             ///< 0: of ovoid's own scenes
+    const ovoid_solid *solid;      ///< of which the shape is the hull; NULL: none
+    const yaml_value *at, *object; ///< the part and its object, while the scene is read
+    int64_t line;                  ///< 0: of ovoid's own scenes
     size_t index;
 } obstacle_entry;
 

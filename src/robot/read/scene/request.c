@@ -46,9 +46,10 @@ static ovoid_code read_goal(const message_reader *r, const yaml_value *value, po
     for (int i = 0; i < 3 && !code; i++)
         code = message_refuse_filled(r, value, others[i], "of a goal are not read: its states are not known by joints");
     if (code) return code;
-    code = position_list_make(r, constraints ? constraints->count : 0, out);
-    for (const yaml_value *v = constraints ? constraints->first : NULL; v && !code; v = v->next)
-        code = read_constraint(r, v, out);
+    if (!constraints || !constraints->first)
+        return message_fail(r, value, OVOID_ERROR_FORMAT, "a goal without joint_constraints: nothing says where it is");
+    code = position_list_make(r, constraints->count, out);
+    for (const yaml_value *v = constraints->first; v && !code; v = v->next) code = read_constraint(r, v, out);
     return code;
 }
 

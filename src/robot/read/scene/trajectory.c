@@ -11,6 +11,7 @@ typedef struct trajectory_point {
     position_list positions;
     double time; ///< seconds from the start; NAN: none is given
     int64_t line;
+    int is_first; ///< of its trajectory
 } trajectory_point;
 
 struct ovoid_trajectory {
@@ -26,6 +27,7 @@ typedef struct trajectory_reader {
     message_reader message;
     ovoid_trajectory *out;
     double begin;
+    size_t first; ///< the number of its first point
 } trajectory_reader;
 
 static const ovoid_robot_read_options no_options;
@@ -65,7 +67,7 @@ static ovoid_code add_point(trajectory_reader *t, const yaml_value *at, const tr
 static ovoid_code read_point(trajectory_reader *t, const yaml_value *value, const char *const *names, size_t count) {
     const message_reader *r = &t->message;
     const yaml_value *positions = NULL, *time = NULL;
-    trajectory_point point = {.line = value->line};
+    trajectory_point point = {.line = value->line, .is_first = t->out->count == t->first};
     ovoid_code code = message_refuse_others(r, value, "positions|velocities|accelerations|effort|time_from_start");
     if (!code) code = message_find_kind(r, value, "positions", YAML_LIST, &positions);
     if (!code) code = message_find(r, value, "time_from_start", &time);
@@ -92,7 +94,7 @@ static ovoid_code read_names(const message_reader *r, const yaml_value *list, co
     return code;
 }
 
-// trajectory_msgs/JointTrajectory
+// trajectory_msgs/JointTrajectory. It begins where the one before ended.
 static ovoid_code read_joint_trajectory(trajectory_reader *t, const yaml_value *value) {
     const message_reader *r = &t->message;
     const yaml_value *list = NULL, *points = NULL;
@@ -101,6 +103,8 @@ static ovoid_code read_joint_trajectory(trajectory_reader *t, const yaml_value *
     if (!code) code = message_find_kind(r, value, "joint_names", YAML_LIST, &list);
     if (!code) code = message_find_kind(r, value, "points", YAML_LIST, &points);
     if (!code) code = read_names(r, list, &names);
+    t->first = t->out->count;
+    if (t->first && !isnan(t->out->points[t->first - 1].time)) t->begin = t->out->points[t->first - 1].time;
     for (const yaml_value *v = points ? points->first : NULL; v && !code; v = v->next)
         code = read_point(t, v, names, list ? list->count : 0);
     return code;
@@ -118,7 +122,7 @@ static ovoid_code refuse_multiple(const message_reader *r, const yaml_value *val
                         names->first->text);
 }
 
-// moveit_msgs/RobotTrajectory, or a JointTrajectory in its place. It begins where the one before ended.
+// moveit_msgs/RobotTrajectory, or a JointTrajectory in its place.
 static ovoid_code read_trajectory(trajectory_reader *t, const yaml_value *value) {
     const message_reader *r = &t->message;
     const yaml_value *joints = NULL, *points = NULL;
@@ -127,10 +131,7 @@ static ovoid_code read_trajectory(trajectory_reader *t, const yaml_value *value)
     code = message_refuse_others(r, value, "joint_trajectory|multi_dof_joint_trajectory");
     if (!code) code = refuse_multiple(r, value);
     if (!code) code = message_find_kind(r, value, "joint_trajectory", YAML_MAP, &joints);
-    if (!code && joints) code = read_joint_trajectory(t, joints);
-    size_t count = t->out->count;
-    if (!code && count && !isnan(t->out->points[count - 1].time)) t->begin = t->out->points[count - 1].time;
-    return code;
+    return code || !joints ? code : read_joint_trajectory(t, joints);
 }
 
 // A message that holds a trajectory or a list of them, and perhaps the state in which the first begins.
@@ -177,6 +178,81 @@ static ovoid_code read_root(trajectory_reader *t, const yaml_value *root) {
                         "(DisplayTrajectory), \"points\" (JointTrajectory) nor \"position\" (JointState)");
 }
 
+// ---- where one trajectory ends and the next one begins
+
+/// Where the joints stand, as far as the file has told it.
+typedef struct known_joints {
+    name_index names;
+    double *positions; ///< by the names' indices; NAN: not told yet
+} known_joints;
+
+static void add_names(known_joints *known, const position_list *list) {
+    for (size_t i = 0; i < list->count; i++, known->names.count++)
+        known->names.entries[known->names.count] = (name_entry){list->items[i].joint, (uint32_t)known->names.count};
+}
+
+static void set_positions(known_joints *known, const position_list *list) {
+    for (size_t i = 0; i < list->count; i++)
+        known->positions[name_index_find(&known->names, list->items[i].joint)] = list->items[i].position;
+}
+
+// The names of the start and of every trajectory.
+static ovoid_code make_known(trajectory_reader *t, known_joints *known) {
+    const ovoid_trajectory *o = t->out;
+    pool *scratch = &t->message.scratch;
+    size_t count = o->start.count;
+    for (size_t i = 0; i < o->count; i++) count += o->points[i].is_first ? o->points[i].positions.count : 0;
+    *known = (known_joints){.names.entries = pool_get(scratch, count, sizeof *known->names.entries),
+                            .positions = pool_get(scratch, count, sizeof *known->positions)};
+    if (!known->names.entries || !known->positions) return io_fail_memory(t->message.error, t->message.path);
+    add_names(known, &o->start);
+    for (size_t i = 0; i < o->count; i++)
+        if (o->points[i].is_first) add_names(known, &o->points[i].positions);
+    (void)name_index_sort(&known->names); // joints of several trajectories
+    for (size_t i = 0; i < count; i++) known->positions[i] = NAN;
+    set_positions(known, &o->start);
+    return OVOID_OK;
+}
+
+// Refuses a point at which a joint is elsewhere at the same time.
+static ovoid_code compare_point(const message_reader *r, const known_joints *known, const trajectory_point *point) {
+    const yaml_value at = {.line = point->line};
+    for (size_t i = 0; i < point->positions.count; i++) {
+        const ovoid_joint_position *joint = &point->positions.items[i];
+        double before = known->positions[name_index_find(&known->names, joint->joint)];
+        if (before == joint->position) continue;
+        if (isnan(before))
+            return message_fail(r, &at, OVOID_ERROR_FORMAT,
+                                "a later trajectory begins at time 0 with joint \"%.60s\" at %.9g, and nothing says "
+                                "where it was before: name it in trajectory_start",
+                                joint->joint, joint->position);
+        return message_fail(r, &at, OVOID_ERROR_FORMAT,
+                            "a later trajectory begins at time 0 with joint \"%.60s\" at %.9g, where the one before "
+                            "ended with %.9g: no time is left for the way",
+                            joint->joint, joint->position, before);
+    }
+    return OVOID_OK;
+}
+
+// A trajectory that begins at its time 0 repeats the state in which the one before ended: one point is enough.
+static ovoid_code join_trajectories(trajectory_reader *t) {
+    ovoid_trajectory *o = t->out;
+    known_joints known;
+    size_t kept = 0;
+    ovoid_code code = o->has_times ? make_known(t, &known) : OVOID_OK;
+    if (code || !o->has_times) return code;
+    for (size_t i = 0; i < o->count && !code; i++) {
+        const trajectory_point point = o->points[i];
+        int is_last = i + 1 == o->count || o->points[i + 1].is_first;
+        int is_repeated = i && point.is_first && point.time == o->points[i - 1].time;
+        if (is_repeated) code = compare_point(&t->message, &known, &point);
+        if (!is_repeated) o->points[kept++] = point;
+        if (is_last) set_positions(&known, &point.positions);
+    }
+    o->count = kept;
+    return code;
+}
+
 // Without times where none is given, or all are 0: the path was not given a speed.
 static void settle_times(ovoid_trajectory *o) {
     for (size_t i = 0; i < o->count; i++) o->has_times |= o->points[i].time != 0;
@@ -199,8 +275,9 @@ ovoid_trajectory *ovoid_trajectory_read(const char *path, const ovoid_robot_read
     if (!code) code = read_root(&t, root);
     if (!code && !trajectory->count)
         code = message_fail(&t.message, root, OVOID_ERROR_EMPTY, "the trajectory has no points");
-    pool_clear(&t.message.scratch);
     settle_times(trajectory);
+    if (!code) code = join_trajectories(&t);
+    pool_clear(&t.message.scratch);
     if (!code) return trajectory;
     ovoid_trajectory_destroy(trajectory);
     return NULL;
