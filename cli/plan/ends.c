@@ -40,12 +40,22 @@ static void add_all(const cli_cell *cell, plan_ends *ends) {
     }
 }
 
-/// Adds the group of the request; 0 where there is none, or the SRDF does not have it.
+/// Adds the group of the request, or all where it names none. 0, or EXIT_INPUT after a message.
 static int add_group_of_request(const cli_cell *cell, const char *path, plan_ends *ends) {
-    ovoid_motion_request *request = path ? ovoid_motion_request_read(path, NULL, NULL) : NULL;
-    int is_found = request && add_group(cell, ovoid_motion_request_get_group(request), ends);
+    ovoid_error error;
+    ovoid_motion_request *request = path ? ovoid_motion_request_read(path, NULL, &error) : NULL;
+    if (path && !request) return message_error("%s", error.message), EXIT_INPUT;
+    const char *group = request ? ovoid_motion_request_get_group(request) : "";
+    int is_found = *group && add_group(cell, group, ends);
+    if (*group && !is_found)
+        message_error(
+            "%s: group_name \"%s\": the SRDF has no such group: --srdf FILE gives one that has it, --moving GROUP "
+            "names another group",
+            path, group);
+    if (!*group) add_all(cell, ends);
+    int code = is_found || !*group ? 0 : EXIT_INPUT;
     ovoid_motion_request_destroy(request);
-    return is_found;
+    return code;
 }
 
 static int find_moving(const cli_command *command, const plan_settings *s, const cli_cell *cell, plan_ends *ends) {
@@ -53,8 +63,8 @@ static int find_moving(const cli_command *command, const plan_settings *s, const
     if (!ends->moving) return message_error("out of memory"), EXIT_INPUT;
     if (s->moving && !add_group(cell, s->moving, ends))
         return args_complain(command, "%s: --moving %s: the SRDF has no such group", command->name, s->moving);
-    if (!s->moving && !add_group_of_request(cell, s->states.request, ends)) add_all(cell, ends);
-    if (ends->moving_count) return 0;
+    int code = s->moving ? 0 : add_group_of_request(cell, s->states.request, ends);
+    if (code || ends->moving_count) return code;
     message_error("no joint moves: a group without joints that a planner can move");
     return EXIT_INPUT;
 }

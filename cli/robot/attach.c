@@ -42,6 +42,8 @@ typedef struct attacher {
 enum { WHY_ROOM = 400 };
 
 static int complain_of(const attacher *a, const char *why) {
+    const char *file = a->settings->attached_in;
+    if (file) return message_error("%s: \"attached\": \"%.150s\": %s", file, a->given, why), EXIT_INPUT;
     (void)args_complain(a->command, "%s: --attach \"%.150s\": %s", a->command->name, a->given, why);
     return EXIT_USAGE;
 }
@@ -281,6 +283,12 @@ static int complain_nothing(const attacher *a) {
     enum { WORDS_MAX = 256 };
     const char *words[WORDS_MAX];
     char why[WHY_ROOM];
+    for (size_t i = 0; i < a->cell->body_count; i++) {
+        const cell_body *body = &a->cell->bodies[i];
+        if (body->at.link == OVOID_ROBOT_NONE || strcmp(body->name, a->words.object) != 0) continue;
+        return complain(a, "%.60s is held already, by %.60s", body->name,
+                        a->cell->description.links[body->at.link].name);
+    }
     size_t count = a->cell->body_count < WORDS_MAX ? a->cell->body_count : WORDS_MAX;
     for (size_t i = 0; i < count; i++) words[i] = a->cell->bodies[i].name;
     const char *similar = args_find_similar(a->words.object, words, count);

@@ -16,6 +16,7 @@ typedef struct cell_settings {
     double margin, slack;        ///< slack: of the joints' limits
     args_list paddings;          ///< LINK=P or P
     args_list attached;          ///< LINK=OBJECT ..., of commands that have ATTACH_OPTION
+    const char *attached_in;     ///< the file of proofs that these are of; NULL: the command line
 } cell_settings;
 
 /// The row of the option that attaches objects; `cell` is the member of the settings that holds it.

@@ -296,8 +296,8 @@ typedef struct ovoid_trajectory ovoid_trajectory;
  * Reads a trajectory (YAML or JSON): moveit_msgs/RobotTrajectory, moveit_msgs/DisplayTrajectory and other messages that
  * hold one or several as "trajectory", trajectory_msgs/JointTrajectory, or one sensor_msgs/JointState. Several
  * trajectories follow one another: each begins at the time at which the one before ended. A first point at that time is
- * left out where it repeats that state, and refused where it does not. Velocities, accelerations, efforts and tolerances
- * are not used. Any other key is refused with its line, as are joints of several variables
+ * left out where it repeats that state, and refused where it does not. Velocities, accelerations, efforts and
+ * tolerances are not used. Any other key is refused with its line, as are joints of several variables
  * (multi_dof_joint_trajectory), a start that holds an object, and points of which only some have times. options: note.
  * Errors: FILE, FORMAT, NOT_FINITE, EMPTY (no points), LIMIT, MEMORY.
  */

@@ -13,6 +13,7 @@
 #include "robot/report.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct settings {
     cell_settings cell;
@@ -205,8 +206,9 @@ static int check_times(const settings *s, const cli_cell *cell, const cli_states
         return message_error("--check-speed: the states have no times: a column \"time\", in seconds"), EXIT_INPUT;
     for (size_t i = 0; i + 1 < states->count && states->times; i += step) {
         if (states->times[i + 1] > states->times[i]) continue;
-        message_error("state %zu: its time, %.9g s, is not after that of the state before, %.9g s", i + 1,
-                      states->times[i + 1], states->times[i]);
+        message_error("%s: state %zu: its time, %.9g s, is not after that of the state before, %.9g s",
+                      strcmp(s->states.path, "-") == 0 ? "standard input" : s->states.path, i + 1, states->times[i + 1],
+                      states->times[i]);
         return EXIT_INPUT;
     }
     for (size_t i = 0; i + 1 < states->count && s->speed; i += step) *is_too_fast |= speed_report(cell, states, i);

@@ -102,6 +102,7 @@ static int open_cell(verify *v, ovoid_robot_proofs_reader *proofs, const double 
                              "verify PROOFS.jsonl robot.urdf --srdf robot.srdf",
                              v->path),
                EXIT_INPUT;
+    v->options.attached_in = v->path;
     take_list(&v->options.attached, attached, attached_count);
     int code = cell_open(v->command, v->urdf ? v->urdf : source->robot, &v->options, &v->cell);
     // A state of another robot is not looked at: the difference is reported below.

@@ -47,8 +47,19 @@ static int has_other_commas(reader *r, const char *line) {
     return 1;
 }
 
+/// 1: a header begins as JSON does; r->why is filled.
+static int is_json(reader *r, const char *line) {
+    const char first = line[strspn(line, " \t")];
+    if (first != '{' && first != '[') return 0;
+    snprintf(r->why, WHY_ROOM,
+             "this is JSON, where CSV is wanted: a trajectory is read from a file whose name ends in "
+             ".json or .yaml");
+    return 1;
+}
+
 static int read_header(reader *r, const char *path, const char *line) {
     size_t most = 1;
+    if (is_json(r, line)) return 0;
     if (has_other_commas(r, line)) return 0;
     r->takes_fixed = r->bag.is_bag = bag_is_header(line);
     for (const char *c = line; *c; c++) most += *c == ',';
