@@ -26,12 +26,13 @@ static FILE *open_regular(const char *path) {
 /// Opens the mark and reads its header. 0, or EXIT_INPUT after a message.
 static int open_mark(shard_reader *r, const char *path) {
     r->mark = open_regular(path);
-    int is_there = r->mark || !errno;
+    const char *what = r->mark || !errno ? "is no mark of a shard"
+                       : errno == ENOENT ? "is not there"
+                                         : "cannot be opened";
     errno = 0;
     if (r->mark && shard_header_read(r->mark, &r->header)) return 0;
     if (errno == ENOMEM) return message_error("%s: cannot be read: %s", path, strerror(errno)), EXIT_INPUT;
-    message_error("%s: is no shard, as ovoid batch --shard I/N makes them: %s, which says of which run it is, %s",
-                  r->path, path, is_there ? "does not" : "is not there");
+    message_error("%s: is no shard, as ovoid batch --shard I/N makes them: its mark, %s, %s", r->path, path, what);
     return EXIT_INPUT;
 }
 

@@ -259,11 +259,11 @@ refuse 'mesh2.shard: is of inputs with the digest .*, and mesh1.shard' mesh1.sha
 refuse 'pairs.csv: is no shard' 1.shard pairs.csv
 refuse 'nowhere.shard: cannot be opened' nowhere.shard
 cp 2.shard alone.shard
-refuse 'alone.shard: is no shard, as .*: alone.shard.mark, which says of which run it is, is not there' 1.shard alone.shard
+refuse 'alone.shard: is no shard, as .*: its mark, alone.shard.mark, is not there' 1.shard alone.shard
 head -n 5 2.shard.mark >alone.shard.mark
-refuse 'alone.shard.mark, which says of which run it is, does not' 1.shard alone.shard
+refuse 'alone.shard.mark, is no mark of a shard' 1.shard alone.shard
 sed 's/^objects .*/objects 4000000000/' 2.shard.mark >alone.shard.mark
-refuse 'alone.shard.mark, which says of which run it is, does not' 1.shard alone.shard
+refuse 'alone.shard.mark, is no mark of a shard' 1.shard alone.shard
 sed '$d' 2.shard.mark >alone.shard.mark
 refuse 'alone.shard: part 2/3 is not finished, or damaged; run it again, with --shard 2/3: it goes on' 1.shard alone.shard 3.shard
 # A pipe in the place of a shard or of its mark is refused at once, without waiting for a writer.
@@ -272,7 +272,7 @@ timeout 10 "$OVOID_TOOL" merge 1.shard pipe.shard 3.shard >merged 2>said
 check "a pipe for a shard; got $(cat said)" grep -q 'pipe.shard: cannot be opened: it is no regular file' said
 cp 2.shard queue.shard && mkfifo queue.shard.mark
 timeout 10 "$OVOID_TOOL" merge 1.shard queue.shard 3.shard >merged 2>said
-check "a pipe for a mark; got $(cat said)" grep -q 'queue.shard.mark, which says of which run it is, does not' said
+check "a pipe for a mark; got $(cat said)" grep -q 'queue.shard.mark, is no mark of a shard' said
 rm pipe.shard queue.shard.mark
 # The marks of the shards are inputs, too.
 cp 2.shard.mark before

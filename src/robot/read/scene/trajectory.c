@@ -37,18 +37,23 @@ static const ovoid_robot_read_options no_options;
 // A duration in seconds: {secs, nsecs}, {sec, nanosec}, or a number; NULL: not given.
 static ovoid_code read_seconds(const message_reader *r, const yaml_value *value, double *seconds) {
     static const char *const keys[2][2] = {{"secs", "nsecs"}, {"sec", "nanosec"}};
+    double parts[2] = {0, 0};
     *seconds = NAN;
     if (!value) return OVOID_OK;
-    if (value->kind != YAML_MAP) return message_read_number(r, value, seconds);
-    ovoid_code code = message_refuse_others(r, value, "secs|nsecs|sec|nanosec");
-    double parts[2] = {0, 0};
-    for (int i = 0; i < 4 && !code; i++) {
+    ovoid_code code = value->kind == YAML_MAP ? message_refuse_others(r, value, "secs|nsecs|sec|nanosec")
+                                              : message_read_number(r, value, &parts[0]);
+    for (int i = 0; i < 4 && !code && value->kind == YAML_MAP; i++) {
         const yaml_value *part = NULL;
         code = message_find(r, value, keys[i / 2][i % 2], &part);
         if (!code && part) code = message_read_number(r, part, &parts[i % 2]);
     }
     *seconds = parts[0] + 1e-9 * parts[1];
-    return code;
+    if (code) return code;
+    if (parts[0] < 0)
+        return message_fail(r, value, OVOID_ERROR_FORMAT, "time_from_start is below zero: %.9g s", parts[0]);
+    if (!(parts[1] >= 0 && parts[1] < 1e9))
+        return message_fail(r, value, OVOID_ERROR_FORMAT, "%.9g nanoseconds are not between 0 and 999999999", parts[1]);
+    return OVOID_OK;
 }
 
 static ovoid_code add_point(trajectory_reader *t, const yaml_value *at, const trajectory_point *point) {
