@@ -540,9 +540,9 @@ class Files(unittest.TestCase):
             self.assertEqual(found, ("arm", {"a": 1, "b": -0.25}, [{"b": 3}]))
             with open(request, "w", encoding="utf-8") as file:
                 file.write("start_state: {joint_state: {name: [a], position: [1]}}\ngoal_constraints: [{joint_constraints: [{joint_name: b, position: 3}]}, {joint_constraints: []}]\n")
-            with self.assertRaisesRegex(ovoid.Error, "request0001.yaml: goal_constraints: goal 1 names no joint") as trouble:
+            with self.assertRaisesRegex(ovoid.Error, "request0001.yaml:2: a goal without joint_constraints") as trouble:
                 ovoid.read_motion_request(request)
-            self.assertEqual(trouble.exception.code, ovoid.Code.EMPTY)
+            self.assertEqual(trouble.exception.place, 2)
 
 
 if __name__ == "__main__":

@@ -23,22 +23,9 @@ static PyObject *make_goal(const void *request, size_t i) {
     return make_positions(goal, count);
 }
 
-// A goal without joints would be the start, or any state.
-static int check_goals(module_state *state, const char *path, const ovoid_motion_request *request) {
-    for (size_t i = 0; i < ovoid_motion_request_get_goal_count(request); i++) {
-        size_t count;
-        (void)ovoid_motion_request_get_goal(request, i, &count);
-        if (count) continue;
-        raise_code(state, OVOID_ERROR_EMPTY, -1, "%s: goal_constraints: goal %zu names no joint", path, i);
-        return -1;
-    }
-    return 0;
-}
-
-static PyObject *make_request(module_state *state, const char *path, const ovoid_motion_request *request) {
+static PyObject *make_request(module_state *state, const ovoid_motion_request *request) {
     size_t count;
     const ovoid_joint_position *start = ovoid_motion_request_get_start(request, &count);
-    if (check_goals(state, path, request)) return NULL;
     return PyObject_CallFunction(state->motion_request, "sNN", ovoid_motion_request_get_group(request),
                                  make_positions(start, count),
                                  list_make(ovoid_motion_request_get_goal_count(request), make_goal, request));
@@ -53,8 +40,7 @@ static PyObject *read_motion_request(PyObject *module, PyObject *given) {
     ovoid_motion_request *request = ovoid_motion_request_read(PyBytes_AsString(path), &o, &error);
     module_state *state = state_of_module(module);
     PyObject *made = NULL;
-    if (!notes_tell(&told))
-        made = request ? make_request(state, PyBytes_AsString(path), request) : raise_error(state, &error);
+    if (!notes_tell(&told)) made = request ? make_request(state, request) : raise_error(state, &error);
     ovoid_motion_request_destroy(request);
     Py_DECREF(path);
     return made;

@@ -157,13 +157,13 @@ typedef struct related {
 
 // A lane group, and what its steps hand on.
 typedef struct ellipsoid_work {
-    pair8 *o;
-    const pair8_query *query;
     lane_column qa[6], qb[6], d[3], gap; ///< the outer ellipsoids, B's turned into the frame; between their centres
     lane_column inner_upper;
     lane_column good;     ///< 1 in lanes that stayed in the common case so far, else 0
     lane_column is_inner; ///< 1 in lanes decided by the inner ellipsoids, else 0
-    int is_searching;     ///< 1 if any lane searches for the ellipsoids' direction
+    pair8 *o;
+    const pair8_query *query;
+    int is_searching; ///< 1 if any lane searches for the ellipsoids' direction
 } ellipsoid_work;
 
 LANES_INLINE related get_related(const pair8 *o, int at) {

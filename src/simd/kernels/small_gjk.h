@@ -26,10 +26,10 @@ typedef struct walk {
 
 // A search: what is asked, what is found, where it is, and the latest support.
 typedef struct small_search {
-    const small_gjk_query *q;
-    small_gjk_result *r;
     walk k;
     met m;
+    const small_gjk_query *q;
+    small_gjk_result *r;
 } small_search;
 
 SMALL_GJK_INLINE void put_corner(walk *k, unsigned i, const met *m) {
