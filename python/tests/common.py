@@ -23,6 +23,17 @@ needs_numpy = unittest.skipUnless(numpy, "needs python3-numpy")
 needs_hypothesis = unittest.skipUnless(hypothesis, "needs python3-hypothesis")
 
 
+def make_corner():
+    """Points and triangles of an L."""
+    outline = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
+    cap = [(3, 4, 5), (3, 5, 0), (3, 0, 1), (3, 1, 2)]
+    faces = [(a, c, b) for a, b, c in cap] + [(a + 6, b + 6, c + 6) for a, b, c in cap]
+    for i in range(6):
+        k = (i + 1) % 6
+        faces += [(i, k, k + 6), (i, k + 6, i + 6)]
+    return [(x, y, z) for z in (0, 1) for x, y in outline], faces
+
+
 def run_tool(words, **how):
     """subprocess.run without the runtime of the sanitizers that Python is started with: the tool brings its own."""
     environment = {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}

@@ -372,13 +372,7 @@ class Names(unittest.TestCase):
 
     def test_solids(self):
         """A ball in the notch of an L is free of it; a robot that is pickled keeps its solids."""
-        outline = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
-        cap = [(3, 4, 5), (3, 5, 0), (3, 0, 1), (3, 1, 2)]
-        faces = [(a, c, b) for a, b, c in cap] + [(a + 6, b + 6, c + 6) for a, b, c in cap]
-        for i in range(6):
-            k = (i + 1) % 6
-            faces += [(i, k, k + 6), (i, k + 6, i + 6)]
-        corner = ovoid.Solid.from_triangles([(x, y, z) for z in (0, 1) for x, y in outline], faces)
+        corner = ovoid.Solid.from_triangles(*common.make_corner())
         joint = ovoid.Joint("j", "prismatic", "base", "tip", axis=(1, 0, 0), lower=-9, upper=9)
         robot = ovoid.Robot(["base", "tip"], [joint], [("tip", corner)])
         hulls = ovoid.Robot(["base", "tip"], [joint], [("tip", robot.elements[0].shape)])

@@ -28,17 +28,6 @@ PILL = ovoid.Shape.capsule(0.5, 1)
 AWAY = ovoid.Pose.from_rpy((4, 0, 0), (0, 0.7, 0))
 
 
-def make_corner():
-    """An L."""
-    outline = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
-    cap = [(3, 4, 5), (3, 5, 0), (3, 0, 1), (3, 1, 2)]
-    faces = [(a, c, b) for a, b, c in cap] + [(a + 6, b + 6, c + 6) for a, b, c in cap]
-    for i in range(6):
-        k = (i + 1) % 6
-        faces += [(i, k, k + 6), (i, k + 6, i + 6)]
-    return [(x, y, z) for z in (0, 1) for x, y in outline], faces
-
-
 def read_robot(**how):
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -66,7 +55,7 @@ class Pictures(unittest.TestCase):
                 self.assertEqual(file.read(), picture.svg)
 
     def test_items(self):
-        points, faces = make_corner()
+        points, faces = common.make_corner()
         solid = ovoid.Solid.from_triangles(points, faces)
         pair = ovoid.Compound([BOX, PILL], [(0, 0, 0), (0, 0, 5)])
         texts = find_texts(ovoid.draw({"box": BOX, "pill": (PILL, AWAY), "pair": (pair, (0, 9, 0)), "corner": (solid, (9, 9, 0))}).svg)
@@ -227,7 +216,7 @@ class Pages(Paged):
         obstacles = ovoid.read_obstacles(self.get("scene.json")) if ovoid.has_robot else []
         if obstacles:
             self.assertEqual(self.show({one.name: (one.shape, one.pose) for one in obstacles}), self.ask_tool("view", "scene.json"))
-        points, faces = make_corner()
+        points, faces = common.make_corner()
         with open(self.get("corner.off"), "w", encoding="utf-8") as file:
             file.write(f"OFF\n{len(points)} {len(faces)} 0\n" + "".join("%d %d %d\n" % p for p in points) + "".join("3 %d %d %d\n" % f for f in faces))
         PILL.write(self.get("pill.ovoid"))
