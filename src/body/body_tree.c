@@ -73,6 +73,12 @@ static void set_triangle_box(const ovoid_solid *s, uint32_t place, float low[3],
     }
 }
 
+static tree_box make_box(const ovoid_solid *s, const float low[3], const float high[3]) {
+    vec3 from = {low[0], low[1], low[2]}, to = {high[0], high[1], high[2]};
+    double half = 0.5 * s->unit;
+    return (tree_box){vec3_scale(vec3_add(to, from), half), vec3_scale(vec3_sub(to, from), half)};
+}
+
 tree_box body_tree_get_box(const body_tree *tree, tree_ref ref) {
     if (tree->shape) return (tree_box){{0, 0, 0}, tree->half};
     if (tree->compound) {
@@ -87,16 +93,70 @@ tree_box body_tree_get_box(const body_tree *tree, tree_ref ref) {
         low = tree->solid->nodes[ref].low;
         high = tree->solid->nodes[ref].high;
     }
-    vec3 from = {low[0], low[1], low[2]}, to = {high[0], high[1], high[2]};
-    double half = 0.5 * tree->solid->unit;
-    return (tree_box){vec3_scale(vec3_add(to, from), half), vec3_scale(vec3_sub(to, from), half)};
+    return make_box(tree->solid, low, high);
+}
+
+// A box along axes, whose centre is turned into the tree's frame.
+static turned_box turn_box(tree_box along, const mat3 *axes) {
+    return (turned_box){{mat3_mul_transposed_vec3(*axes, along.center), along.half}, *axes};
+}
+
+// Along the longest edge and the plane.
+static turned_box get_triangle_box(const ovoid_solid *s, uint32_t place) {
+    vec3 p[3], edge[3];
+    int longest = 0;
+    for (int i = 0; i < 3; i++) p[i] = vec3_sub(solid_get_corner(s, place, i), s->center);
+    for (int i = 0; i < 3; i++) {
+        edge[i] = vec3_sub(p[(i + 1) % 3], p[i]);
+        if (vec3_norm_squared(edge[i]) > vec3_norm_squared(edge[longest])) longest = i;
+    }
+    const mat3 axes = axes_make(edge[longest], edge[(longest + 1) % 3]);
+    box around = box_make_empty();
+    for (int i = 0; i < 3; i++) {
+        vec3 x = mat3_mul_vec3(axes, p[i]);
+        const box at = {x, x};
+        around = box_join(&around, &at);
+    }
+    return turn_box((tree_box){vec3_scale(vec3_add(around.max, around.min), 0.5),
+                               vec3_scale(vec3_sub(around.max, around.min), 0.5)},
+                    &axes);
+}
+
+turned_box body_tree_get_turned_box(const body_tree *tree, tree_ref ref) {
+    if (!tree->solid) return (turned_box){body_tree_get_box(tree, ref), axes_upright};
+    if (ref_is_leaf(ref)) return get_triangle_box(tree->solid, ref_get_index(ref));
+    const node_frame *f = &tree->solid->frames[ref];
+    return turn_box(make_box(tree->solid, f->low, f->high), &f->axes);
+}
+
+// From the root down, by the places below a node; ref is not the root.
+static uint32_t find_parent(const ovoid_solid *s, tree_ref ref, uint32_t *lane) {
+    uint32_t place = ref_is_leaf(ref) ? ref_get_index(ref) : s->nodes[ref].first;
+    for (uint32_t node = 0;;) {
+        tree_ref below = 0;
+        for (*lane = 0; *lane < s->nodes[node].children; ++*lane) {
+            below = solid_get_child(s, node, *lane);
+            if (below == ref) return node;
+            if (!ref_is_leaf(below) && s->nodes[below].first <= place && place < s->nodes[below].end) break;
+        }
+        node = below;
+    }
+}
+
+turned_box body_tree_get_child_box(const body_tree *tree, tree_ref ref) {
+    if (!tree->solid || ref == body_tree_get_root(tree)) return body_tree_get_turned_box(tree, ref);
+    uint32_t lane, node = find_parent(tree->solid, ref, &lane);
+    const box8 *boxes = &tree->solid->turned[node];
+    const float low[3] = {boxes->low[0][lane], boxes->low[1][lane], boxes->low[2][lane]};
+    const float high[3] = {boxes->high[0][lane], boxes->high[1][lane], boxes->high[2][lane]};
+    return turn_box(make_box(tree->solid, low, high), &tree->solid->frames[node].axes);
 }
 
 int trees_split_first(const body_tree *a, tree_ref ref_a, const body_tree *b, tree_ref ref_b) {
     if (ref_is_leaf(ref_a) || ref_is_leaf(ref_b)) return ref_is_leaf(ref_b);
     if (a->compound && b->compound) return a->compound->nodes[ref_a].radius >= b->compound->nodes[ref_b].radius;
-    tree_box box_a = body_tree_get_box(a, ref_a), box_b = body_tree_get_box(b, ref_b);
-    return boxes_split_first(ref_a, &box_a, ref_b, &box_b);
+    vec3 half_a = body_tree_get_box(a, ref_a).half, half_b = body_tree_get_box(b, ref_b).half;
+    return half_a.x + half_a.y + half_a.z >= half_b.x + half_b.y + half_b.z;
 }
 
 void triangle_begin(triangle_shape *t) {

@@ -57,14 +57,19 @@ typedef struct tree_box {
 } tree_box;
 tree_box body_tree_get_box(const body_tree *tree, tree_ref ref);
 
+/// A box along axes of its own: rows in the tree's frame, in which its centre is too.
+typedef struct turned_box {
+    tree_box box;
+    mat3 axes;
+} turned_box;
+/// The thinnest box at hand around a node or leaf: along its node's axes, or along its triangle.
+turned_box body_tree_get_turned_box(const body_tree *tree, tree_ref ref);
+/// The box that the parent of a node or leaf has around it; the root's own.
+turned_box body_tree_get_child_box(const body_tree *tree, tree_ref ref);
+
 /// Of a pair of nodes, not both leaves, 1 if the first is to be split: where one of the bodies is a solid the one with
 /// the larger box, else the one with the larger ball.
 int trees_split_first(const body_tree *a, tree_ref ref_a, const body_tree *b, tree_ref ref_b);
-/// The rule of trees_split_first beside a solid, for boxes that are at hand.
-static inline int boxes_split_first(tree_ref a, const tree_box *box_a, tree_ref b, const tree_box *box_b) {
-    if (ref_is_leaf(a) || ref_is_leaf(b)) return ref_is_leaf(b);
-    return box_a->half.x + box_a->half.y + box_a->half.z >= box_b->half.x + box_b->half.y + box_b->half.z;
-}
 
 /// A triangle as a shape, without an allocation. It must not be moved once made.
 typedef struct triangle_shape {

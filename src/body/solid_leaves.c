@@ -7,13 +7,24 @@
 
 #include "linear/rotation.h"
 
+// The direction that shows the bound of a pair. The node opened last was of a or of b: its box is that of its parent,
+// beside the other node's own.
+static vec3 find_direction(const body_search *state, const waiting_pair *w) {
+    tree_ref ref_a = waiting_get_a(w), ref_b = waiting_get_b(w);
+    vec3 tried = state->solids->normals[waiting_get_reason(w)];
+    turned_box a = body_tree_get_child_box(&state->a, ref_a), b = body_tree_get_turned_box(&state->b, ref_b);
+    box_gap of_a = tree_frame_find_gap(&state->frame, &a, &b, tried);
+    a = body_tree_get_turned_box(&state->a, ref_a);
+    b = body_tree_get_child_box(&state->b, ref_b);
+    box_gap of_b = tree_frame_find_gap(&state->frame, &a, &b, tried);
+    return of_b.lower > of_a.lower ? of_b.normal : of_a.normal;
+}
+
 void solids_exclude_boxes(body_search *state, const waiting_pair *w) {
     state->lower = min2(state->lower, w->lower);
     if (!state->exclusions) return;
-    tree_box a = body_tree_get_box(&state->a, waiting_get_a(w)), b = body_tree_get_box(&state->b, waiting_get_b(w));
-    vec3 tried = state->solids->normals[waiting_get_reason(w)];
     ovoid_exclusion x = {.lower = w->lower};
-    x.normal = mat3_mul_vec3(state->frame.world, tree_frame_find_gap(&state->frame, &a, &b, tried).normal);
+    x.normal = mat3_mul_vec3(state->frame.world, find_direction(state, w));
     body_tree_get_range(&state->a, waiting_get_a(w), &x.first_a, &x.end_a);
     body_tree_get_range(&state->b, waiting_get_b(w), &x.first_b, &x.end_b);
     exclusions_add(state->exclusions, &x);
@@ -160,14 +171,19 @@ void solids_visit_triangles(body_search *state, const triangle_group *group) {
     for (uint32_t i = 0; i < count && !search_is_decided(state); i++) {
         uint32_t a = side ? one : places[i], b = side ? places[i] : one;
         if (a == state->warm_a && b == state->warm_b) continue;
+        double lower = gaps.lower[i] - f->claim;
+        int is_out = search_is_left_out(state, lower);
+        if (is_out && lower > f->claim && !state->exclusions) {
+            state->lower = min2(state->lower, lower);
+            continue;
+        }
         vec3 n = {gaps.normal[0][i], gaps.normal[1][i], gaps.normal[2][i]};
-        leaf_pair c = {
-            .place_a = a, .place_b = b, .lower = gaps.lower[i] - f->claim, .upper = gaps.upper[i] + f->claim};
+        leaf_pair c = {.place_a = a, .place_b = b, .lower = lower, .upper = gaps.upper[i] + f->claim};
         // From the one to the eight: for nodes of a that is from b to a.
         c.normal = side ? mat3_mul_vec3(f->world, n) : vec3_neg(mat3_mul_vec3(f->world_b, n));
         int is_known = state->goal.wants_bracket && c.upper - c.lower <= state->tolerance / 2;
-        if (search_is_left_out(state, c.lower)) {
-            note_flush(state, a, b, c.lower);
+        if (is_out) {
+            note_flush(state, a, b, lower);
             search_exclude_leaves(state, &c);
         } else if (is_known)
             solids_take(state, &c);

@@ -1,6 +1,8 @@
 // The nodes of two bodies with a solid: bounds of eight children at a time, and which pairs wait where.
 #include "body/solid_search.h"
 
+#include <string.h>
+
 enum { WAITING_ROOM = 1280, HEAP_MOST = 1024 };
 _Static_assert(WAITING_ROOM > 2 * (BOX8 - 1) * SOLID_DEPTH_MAX + 1, "the deepest trees leave room for a heap");
 
@@ -20,15 +22,16 @@ static void insert(children *c, const waiting_pair *w) {
 typedef struct opened_node {
     int side;
     tree_ref node;
-    const tree_box *rest;
+    turned_box rest;
 } opened_node;
 
 // The bounds of the children of a solid's node, in lanes.
 static void bound_boxes(const body_search *state, const opened_node *o, double lower[BOX8]) {
     const ovoid_solid *s = o->side ? state->b.solid : state->a.solid;
-    solid8_other other = tree_frame_turn(&state->frame, o->side, o->rest, solids_get_normal(state));
+    const framed_node framed = {o->side, &s->frames[o->node].axes, &o->rest};
+    solid8_other other = tree_frame_turn(&state->frame, &framed, solids_get_normal(state));
     other.unit = s->unit;
-    state->solids->kernels->boxes(&s->boxes[o->node], &other, lower);
+    state->solids->kernels->boxes(&s->turned[o->node], &other, lower);
 }
 
 // Of the two children of a compound's node.
@@ -36,8 +39,8 @@ static void bound_nodes(const body_search *state, const opened_node *o, const tr
     const body_tree *tree = o->side ? &state->b : &state->a;
     vec3 normal = solids_get_normal(state);
     for (int i = 0; i < 2; i++) {
-        tree_box own = body_tree_get_box(tree, two[i]);
-        const tree_box *a = o->side ? o->rest : &own, *b = o->side ? &own : o->rest;
+        const turned_box own = body_tree_get_turned_box(tree, two[i]);
+        const turned_box *a = o->side ? &o->rest : &own, *b = o->side ? &own : &o->rest;
         lower[i] = tree_frame_find_gap(&state->frame, a, b, normal).lower;
     }
 }
@@ -57,18 +60,22 @@ static void bound_children(body_search *state, const waiting_pair *w, const open
     for (uint32_t i = 0; i < count; i++) {
         const waiting_pair next = waiting_make(side ? waiting_get_a(w) : all[i], side ? all[i] : waiting_get_b(w),
                                                lower[i] - state->frame.claim, state->solids->normal_count - 1);
-        if (search_is_left_out(state, next.lower))
+        if (!search_is_left_out(state, next.lower))
+            insert(found, &next);
+        else if (state->exclusions)
             solids_exclude_boxes(state, &next);
         else
-            insert(found, &next);
+            state->lower = min2(state->lower, next.lower);
     }
 }
 
 // Children that are triangles, of a node beside a triangle: in lanes.
 static void visit_triangles(body_search *state, int side, const children *found) {
     const waiting_pair *any = &found->pair[0];
-    triangle_group group = {
-        .side = side, .one = ref_get_index(side ? waiting_get_a(any) : waiting_get_b(any)), .count = found->count};
+    triangle_group group;
+    group.side = side;
+    group.one = ref_get_index(side ? waiting_get_a(any) : waiting_get_b(any));
+    group.count = found->count;
     for (uint32_t i = 0; i < found->count; i++) {
         // The nearest first.
         const waiting_pair *w = &found->pair[found->count - 1 - i];
@@ -78,14 +85,18 @@ static void visit_triangles(body_search *state, int side, const children *found)
 }
 
 // Children wait: boxes that overlap on the stack, since each has to be opened, the others in the heap; where that is
-// full on the stack too. Triangles beside a triangle are visited at once.
+// full on the stack too. Until there is an upper bound the nearest goes on the stack: straight down to a pair of leaves
+// costs less than what would be opened without a bound. Triangles beside a triangle are visited at once.
 static void pass_on(body_search *state, int side, const children *found, waiting *q) {
-    children leaves = {.count = 0};
+    children leaves;
+    leaves.count = 0;
+    int is_first = !state->has_best && state->goal.wants_bracket;
     for (uint32_t i = 0; i < found->count; i++) {
         const waiting_pair *w = &found->pair[i];
+        int is_next = is_first && i + 1 == found->count;
         if (waiting_is_leaves(w) && state->a.solid && state->b.solid)
             leaves.pair[leaves.count++] = *w;
-        else if (!(w->lower > 0 && waiting_push_heap(q, w)))
+        else if (is_next || !(w->lower > 0 && waiting_push_heap(q, w)))
             waiting_push(q, w);
     }
     if (leaves.count) visit_triangles(state, side, &leaves);
@@ -94,16 +105,35 @@ static void pass_on(body_search *state, int side, const children *found, waiting
 waiting_pair solids_bound_roots(const body_search *state, double enough) {
     (void)enough;
     tree_ref root_a = body_tree_get_root(&state->a), root_b = body_tree_get_root(&state->b);
-    tree_box a = body_tree_get_box(&state->a, root_a), b = body_tree_get_box(&state->b, root_b);
+    turned_box a = body_tree_get_turned_box(&state->a, root_a), b = body_tree_get_turned_box(&state->b, root_b);
     double gap = tree_frame_find_gap(&state->frame, &a, &b, solids_get_normal(state)).lower;
     return waiting_make(root_a, root_b, gap - state->frame.claim, state->solids->normal_count - 1);
 }
 
+// A node of a solid beside one triangle of the other, if all its children are triangles: they cost no more than their
+// boxes. 1 if they were visited.
+static int visit_all(body_search *state, const opened_node *o, uint32_t one) {
+    const ovoid_solid *own = o->side ? state->b.solid : state->a.solid;
+    triangle_group group;
+    group.side = o->side;
+    group.one = one;
+    group.count = own->nodes[o->node].children;
+    if (own->boxes[o->node].leaves != (1u << group.count) - 1) return 0;
+    memcpy(group.places, own->boxes[o->node].child, group.count * sizeof *group.places);
+    solids_visit_triangles(state, &group);
+    return 1;
+}
+
 static void open_nodes(body_search *state, const waiting_pair *w, waiting *q) {
     const tree_ref ref_a = waiting_get_a(w), ref_b = waiting_get_b(w);
-    tree_box a = body_tree_get_box(&state->a, ref_a), b = body_tree_get_box(&state->b, ref_b);
-    int side = !boxes_split_first(ref_a, &a, ref_b, &b);
-    const opened_node opened = {side, side ? ref_b : ref_a, side ? &a : &b};
+    int side = !trees_split_first(&state->a, ref_a, &state->b, ref_b);
+    tree_ref other = side ? ref_a : ref_b;
+    opened_node opened;
+    opened.side = side;
+    opened.node = side ? ref_b : ref_a;
+    if (state->a.solid && state->b.solid && ref_is_leaf(other) && visit_all(state, &opened, ref_get_index(other)))
+        return;
+    opened.rest = body_tree_get_turned_box(side ? &state->a : &state->b, other);
     children found;
     bound_children(state, w, &opened, &found);
     pass_on(state, side, &found, q);

@@ -45,50 +45,49 @@ static box_gap find_axis_gap(vec3 d, vec3 half) {
 
 static double find_reach(vec3 half, vec3 n) { return vec3_dot(half, absolute(n)); }
 
-// Two boxes, with the vector between their centres in a's frame.
-typedef struct box_pair {
-    const tree_box *a, *b;
-    vec3 between;
-} box_pair;
-
-// The gap along a unit direction of a's frame.
-static box_gap find_gap_along(const tree_frame *f, const box_pair *pair, vec3 n) {
-    double reach_a = find_reach(pair->a->half, n), reach_b = find_reach(pair->b->half, mat3_mul_vec3(f->to_b, n));
-    return (box_gap){vec3_dot(n, pair->between) - reach_a - reach_b, n};
-}
-
-box_gap tree_frame_find_gap(const tree_frame *f, const tree_box *a, const tree_box *b, vec3 normal) {
-    vec3 d = vec3_sub(vec3_add(f->between, mat3_mul_vec3(f->to_a, b->center)), a->center);
-    const box_pair pair = {a, b, d};
-    box_gap best = find_axis_gap(d, vec3_add(a->half, mat3_mul_vec3(f->absolute_a, b->half)));
-    box_gap next = find_axis_gap(mat3_mul_vec3(f->to_b, d), vec3_add(b->half, mat3_mul_vec3(f->absolute_b, a->half)));
-    next.normal = mat3_mul_vec3(f->to_a, next.normal);
+box_gap tree_frame_find_gap(const tree_frame *f, const turned_box *a, const turned_box *b, vec3 normal) {
+    // In the frame of a's box: the vector between the centres, and the rotation to b's box.
+    vec3 between = vec3_sub(vec3_add(f->between, mat3_mul_vec3(f->to_a, b->box.center)), a->box.center);
+    vec3 d = mat3_mul_vec3(a->axes, between);
+    const mat3 to_b = mat3_mul(mat3_mul(b->axes, f->to_b), mat3_transpose(a->axes)), absolute = absolute_matrix(to_b);
+    vec3 half_a = a->box.half, half_b = b->box.half;
+    box_gap best = find_axis_gap(d, vec3_add(half_a, mat3_mul_transposed_vec3(absolute, half_b)));
+    box_gap next = find_axis_gap(mat3_mul_vec3(to_b, d), vec3_add(half_b, mat3_mul_vec3(absolute, half_a)));
+    next.normal = mat3_mul_transposed_vec3(to_b, next.normal);
     if (next.lower > best.lower) best = next;
-    next = find_gap_along(f, &pair, normal);
-    if (next.lower > best.lower) best = next;
-    vec3 line = vec3_unit(d);
-    if (!(vec3_norm_squared(line) > 0.5)) return best;
-    next = find_gap_along(f, &pair, line);
-    return next.lower > best.lower ? next : best;
+    vec3 tried[2] = {mat3_mul_vec3(a->axes, normal), vec3_unit(d)};
+    for (int i = 0; i < 2; i++) {
+        vec3 n = tried[i];
+        if (!(vec3_norm_squared(n) > 0.5)) continue;
+        double gap = vec3_dot(n, d) - find_reach(half_a, n) - find_reach(half_b, mat3_mul_vec3(to_b, n));
+        if (gap > best.lower) best = (box_gap){gap, n};
+    }
+    best.normal = mat3_mul_transposed_vec3(a->axes, best.normal);
+    return best;
 }
 
 box_gap tree_frame_find_parting(const tree_frame *f, const body_tree *a, const body_tree *b) {
-    tree_box box_a = body_tree_get_box(a, body_tree_get_root(a)), box_b = body_tree_get_box(b, body_tree_get_root(b));
+    turned_box box_a = body_tree_get_turned_box(a, body_tree_get_root(a)),
+               box_b = body_tree_get_turned_box(b, body_tree_get_root(b));
     box_gap gap = tree_frame_find_gap(f, &box_a, &box_b, (vec3){1, 0, 0});
     gap.lower -= f->claim;
     gap.normal = mat3_mul_vec3(f->world, gap.normal);
     return gap;
 }
 
-solid8_other tree_frame_turn(const tree_frame *f, int side, const tree_box *rest, vec3 normal) {
-    // A box of b beside nodes of a, or the other way round; the normal goes from a to b.
-    vec3 in_b = mat3_mul_vec3(f->to_b, normal);
-    return (solid8_other){.center = side ? mat3_mul_vec3(f->to_b, vec3_sub(rest->center, f->between))
-                                         : vec3_add(f->between, mat3_mul_vec3(f->to_a, rest->center)),
-                          .turned = mat3_mul_vec3(side ? f->absolute_b : f->absolute_a, rest->half),
-                          .half = rest->half,
-                          .rotation = side ? f->to_a : f->to_b,
-                          .absolute = side ? f->absolute_a : f->absolute_b,
-                          .normal = side ? vec3_neg(in_b) : normal,
-                          .reach = find_reach(rest->half, side ? normal : in_b)};
+solid8_other tree_frame_turn(const tree_frame *f, const framed_node *node, vec3 normal) {
+    // A box of b beside a node of a, or the other way round; the normal goes from a to b.
+    const turned_box *rest = node->rest;
+    vec3 in_b = mat3_mul_vec3(f->to_b, normal), half = rest->box.half;
+    const mat3 rotation = mat3_mul(mat3_mul(rest->axes, node->side ? f->to_a : f->to_b), mat3_transpose(*node->axes));
+    const mat3 all = absolute_matrix(rotation);
+    vec3 center = node->side ? mat3_mul_vec3(f->to_b, vec3_sub(rest->box.center, f->between))
+                             : vec3_add(f->between, mat3_mul_vec3(f->to_a, rest->box.center));
+    return (solid8_other){.center = mat3_mul_vec3(*node->axes, center),
+                          .turned = mat3_mul_transposed_vec3(all, half),
+                          .half = half,
+                          .rotation = rotation,
+                          .absolute = all,
+                          .normal = mat3_mul_vec3(*node->axes, node->side ? vec3_neg(in_b) : normal),
+                          .reach = find_reach(half, mat3_mul_vec3(rest->axes, node->side ? normal : in_b))};
 }

@@ -6,9 +6,12 @@
 // - a point of b in a's frame is off by 91 u S, as in pair/frame.h; so is one of a in b's;
 // - centres and half sizes of boxes are off by 8 u S beside that, since boxes are rounded outward to single precision
 //   when they are made; the largest of gaps, sums and a root by 16 u S;
+// - the axes of a box are a rotation but for 8 u in the operator norm, and points along them are off by 4 u S: a
+//   length along one axis, the turn between two boxes' axes, a centre there and back, and the extent of the other box
+//   along a turned direction are together off by 80 u S;
 // - a gap of two triangles along a unit direction is off by 100 u S, turning the direction to the world moves it by
 //   42 u S, and whoever measures it again there is off by 148 u S.
-// Together below 400 u S; a bound is lowered by 512 u S and twice what underflow can hide.
+// Together below 480 u S; a bound is lowered by 512 u S and twice what underflow can hide.
 // A part of a compound is where the rounded product of two poses has it (compound.h): off by 45 u S more, and by u of
 // its body's position; where a compound takes part, a bound is lowered by 8 u of both positions beside that.
 #ifndef OVOID_BODY_TREE_FRAME_H
@@ -49,11 +52,16 @@ typedef struct box_gap {
     double lower;
     vec3 normal;
 } box_gap;
-box_gap tree_frame_find_gap(const tree_frame *f, const tree_box *a, const tree_box *b, vec3 normal);
+box_gap tree_frame_find_gap(const tree_frame *f, const turned_box *a, const turned_box *b, vec3 normal);
 
-/// A box of b (side 0) or of a (side 1) as the kernel wants it beside nodes of the other; the
-/// unit of these is left to the caller.
-solid8_other tree_frame_turn(const tree_frame *f, int side, const tree_box *rest, vec3 normal);
+/// A node of a (side 0) or of b (side 1) whose children are bounded in lanes: its axes, and the other body's box.
+typedef struct framed_node {
+    int side;
+    const mat3 *axes;
+    const turned_box *rest;
+} framed_node;
+/// The other body's box as the kernel wants it; the unit of the node's boxes is left to the caller.
+solid8_other tree_frame_turn(const tree_frame *f, const framed_node *node, vec3 normal);
 
 /// The bound by the boxes of both roots, lowered by the claim, and its direction in the world: what parts the bodies.
 box_gap tree_frame_find_parting(const tree_frame *f, const body_tree *a, const body_tree *b);

@@ -10,7 +10,7 @@
 #include <string.h>
 
 typedef struct layout {
-    size_t boxes, points, triangles, order, places, nodes, components, size;
+    size_t boxes, turned, points, triangles, order, places, nodes, frames, components, size;
 } layout;
 
 static size_t advance(size_t *at, size_t count, size_t size) {
@@ -23,11 +23,13 @@ static layout make_layout(uint32_t points, uint32_t triangles, uint32_t nodes, u
     layout l;
     size_t at = (sizeof(ovoid_solid) + 63) / 64 * 64;
     l.boxes = advance(&at, nodes, sizeof(box8));
+    l.turned = advance(&at, nodes, sizeof(box8));
     l.points = advance(&at, points, 3 * sizeof(double));
     l.triangles = advance(&at, triangles, sizeof(solid_triangle));
     l.order = advance(&at, triangles, sizeof(uint32_t));
     l.places = advance(&at, triangles, sizeof(uint32_t));
     l.nodes = advance(&at, nodes, sizeof(solid_node));
+    l.frames = advance(&at, nodes, sizeof(node_frame));
     l.components = advance(&at, components, sizeof(uint32_t));
     l.size = at;
     return l;
@@ -36,11 +38,13 @@ static layout make_layout(uint32_t points, uint32_t triangles, uint32_t nodes, u
 static void place_arrays(ovoid_solid *s, const layout *l) {
     char *base = (char *)s;
     s->boxes = (box8 *)(base + l->boxes);
+    s->turned = (box8 *)(base + l->turned);
     s->points = (double *)(base + l->points);
     s->triangles = (solid_triangle *)(base + l->triangles);
     s->order = (uint32_t *)(base + l->order);
     s->places = (uint32_t *)(base + l->places);
     s->nodes = (solid_node *)(base + l->nodes);
+    s->frames = (node_frame *)(base + l->frames);
     s->components = (uint32_t *)(base + l->components);
     s->size = l->size;
 }
@@ -83,6 +87,7 @@ static ovoid_solid *assemble(ovoid_solid *made, const solid_merger *m, const uin
                 s->triangles[i] = m->triangles[s->order[i]];
                 s->places[s->order[i]] = i;
             }
+            solid_make_frames(s);
         }
     }
     allocator_release(a, made->boxes);

@@ -1,10 +1,13 @@
 // A solid's block: a header, then arrays at fixed offsets. The tree has eight children to a node, each a node or one
 // triangle; the triangles of a node are a range of the tree's order. Its boxes are in the tree's frame, the solid's
 // frame moved to `center`, in units of a power of two, `unit`: so single precision serves solids of any size and place.
+// Each node has a second set of boxes around its children, along axes of its own (frames.c): queries of two bodies
+// use these, whatever goes along the solid's axes (rays, crossings, motions) the first.
 #ifndef OVOID_SOLID_SOLID_H
 #define OVOID_SOLID_SOLID_H
 
 #include "linear/box.h"
+#include "linear/mat3.h"
 #include "linear/pose.h"
 #include "ovoid/solid.h"
 #include "simd/solid8.h"
@@ -15,6 +18,17 @@ typedef struct solid_node {
     uint32_t first, end;
     uint32_t children;
 } solid_node;
+
+/// The axes of a node, as rows in the tree's frame, and its box along them around the tree's origin, in its unit.
+typedef struct node_frame {
+    mat3 axes;
+    float low[3], high[3];
+} node_frame;
+
+static const mat3 axes_upright = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+/// A rotation whose first row is along the first vector, and whose third is across both; upright if the two are nearly
+/// parallel. With u = 2^-53 its rows are units to 4 u and perpendicular to 8 u, however short or near the vectors.
+mat3 axes_make(vec3 first, vec3 second);
 
 /// Three points, by index.
 typedef struct solid_triangle {
@@ -36,8 +50,9 @@ struct ovoid_solid {
     solid_triangle *triangles; ///< in the order of the tree
     uint32_t *order;           ///< the caller's index of the triangle at each place
     uint32_t *places;          ///< the place of each of the caller's triangles
-    box8 *boxes;
+    box8 *boxes, *turned;      ///< along the solid's axes, and along each node's; with equal children
     solid_node *nodes;
+    node_frame *frames;
     uint32_t *components; ///< one point of each component
 };
 
@@ -78,6 +93,8 @@ uint32_t tree_get_most_nodes(uint32_t triangles);
 /// Fills boxes, nodes, order and node_count; center and unit must be set. triangles: in the caller's order. 0 if memory
 /// runs out.
 int solid_build_tree(ovoid_solid *solid, const solid_triangle *triangles);
+/// Fills frames and turned, beside a tree and triangles in its order.
+void solid_make_frames(ovoid_solid *solid);
 
 /// The signed crossing of the ray from p toward +x with a triangle, with p moved by an infinitesimal amount: 1, 0 or
 /// -1; 2 if p is on the triangle, by exact signs. Coordinates in units of the body. index: of the corners, so that both
