@@ -1,27 +1,37 @@
-// Solids compared with FCL's BVHModel<OBBRSS>, in one run: bumpy spheres of about 5 000 and 50 000 triangles, at gaps
-// of 10 % and 1 % of their diameter of 2, and overlapping by about a quarter of it, in random rotations. Both answer
-// the same pairs in turns, the best of several passes each; distances and hits are compared and have to agree.
-// Distances are computed to a relative tolerance of 1e-9 here, to FCL's default there. `bench_solids [TRIANGLES
-// [PAIRS]]`.
+// Solids beside FCL's BVHModel, in one run: knots and bumpy spheres of about 5 000 and 50 000 triangles, meshes of
+// files, at gaps of 100, 10 and 1 % of half their diagonal, and overlapping, in random rotations. Both answer the same
+// pairs in turns, the best of several passes each; distances and hits are compared and have to agree. FCL computes
+// distances with OBBRSS and answers yes or no with OBB, the faster of its trees for each. Distances are computed to a
+// relative tolerance of 1e-9 here, to FCL's default there.
 #include <fcl/fcl.h>
+#include <ovoid/io.h>
 #include <ovoid/ovoid.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 namespace {
 
 using clock_type = std::chrono::steady_clock;
-using model = fcl::BVHModel<fcl::OBBRSSd>;
 
 struct mesh {
     std::vector<double> points;
     std::vector<std::uint32_t> triangles;
+    std::string name;
+};
+
+// FCL's trees of a mesh.
+struct models {
+    std::shared_ptr<fcl::BVHModel<fcl::OBBRSSd>> distance;
+    std::shared_ptr<fcl::BVHModel<fcl::OBBd>> collide;
 };
 
 class random_numbers {
@@ -71,14 +81,70 @@ mesh make_bumpy(std::size_t triangles) {
     return m;
 }
 
-std::shared_ptr<model> make_model(const mesh &m) {
+// The tube of radius 0.4 around a (2, 3) torus knot.
+mesh make_knot(std::uint32_t around, std::uint32_t tube) {
+    mesh m;
+    const double turn = 6.283185307179586;
+    const auto center = [](double a) {
+        return fcl::Vector3d((2 + std::cos(3 * a)) * std::cos(2 * a), (2 + std::cos(3 * a)) * std::sin(2 * a),
+                             std::sin(3 * a));
+    };
+    for (std::uint32_t i = 0; i < around; i++) {
+        const double a = turn * i / around;
+        const fcl::Vector3d along = (center(a + 1e-4) - center(a - 1e-4)).normalized();
+        const fcl::Vector3d x = along.cross(fcl::Vector3d(0, 0, 1)).normalized(), y = along.cross(x);
+        for (std::uint32_t j = 0; j < tube; j++) {
+            const double b = turn * j / tube;
+            const fcl::Vector3d p = center(a) + 0.4 * (std::cos(b) * x + std::sin(b) * y);
+            m.points.insert(m.points.end(), {p.x(), p.y(), p.z()});
+        }
+    }
+    for (std::uint32_t i = 0; i < around; i++)
+        for (std::uint32_t j = 0; j < tube; j++) {
+            const std::uint32_t p = i * tube, q = (i + 1) % around * tube, k = (j + 1) % tube;
+            m.triangles.insert(m.triangles.end(), {p + j, q + j, p + k, p + k, q + j, q + k});
+        }
+    return m;
+}
+
+// Moves a mesh's box to the origin and scales half its diagonal to 1.
+void scale(mesh &m) {
+    fcl::Vector3d low = fcl::Vector3d::Constant(INFINITY), high = -low;
+    for (std::size_t i = 0; i < m.points.size(); i += 3) {
+        const fcl::Vector3d p(m.points[i], m.points[i + 1], m.points[i + 2]);
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
+    }
+    const fcl::Vector3d middle = (low + high) / 2;
+    const double half = (high - low).norm() / 2;
+    for (std::size_t i = 0; i < m.points.size(); i++)
+        m.points[i] = (m.points[i] - middle[static_cast<Eigen::Index>(i % 3)]) / half;
+}
+
+bool read_mesh(const std::string &path, mesh &m) {
+    ovoid_error error;
+    ovoid_solid *s = ovoid_solid_read_file(path.c_str(), nullptr, &error);
+    if (!s) {
+        (void)std::fprintf(stderr, "bench_solids: %s\n", error.message);
+        return false;
+    }
+    const ovoid_solid_report report = ovoid_solid_get_report(s);
+    const double *points = ovoid_solid_get_points(s);
+    m.points.assign(points, points + 3 * report.points);
+    m.triangles.resize(3 * report.triangles);
+    for (std::size_t i = 0; i < report.triangles; i++) ovoid_solid_get_triangle(s, i, &m.triangles[3 * i]);
+    ovoid_solid_destroy(s);
+    return true;
+}
+
+template <class Volume> std::shared_ptr<fcl::BVHModel<Volume>> make_model(const mesh &m) {
     std::vector<fcl::Vector3d> points;
     std::vector<fcl::Triangle> triangles;
     for (std::size_t i = 0; i < m.points.size(); i += 3)
         points.emplace_back(m.points[i], m.points[i + 1], m.points[i + 2]);
     for (std::size_t i = 0; i < m.triangles.size(); i += 3)
         triangles.emplace_back(m.triangles[i], m.triangles[i + 1], m.triangles[i + 2]);
-    auto made = std::make_shared<model>();
+    auto made = std::make_shared<fcl::BVHModel<Volume>>();
     made->beginModel();
     made->addSubModel(points, triangles);
     made->endModel();
@@ -93,35 +159,45 @@ fcl::Transform3d make_transform(const ovoid_pose &p) {
     return t;
 }
 
-// A pair at a gap, found by moving the second body along a line; gap 0: at a distance of 1.2 between the centres.
+// A pair at a gap, found by moving the second body along a line; gap 0: from where they touch 0.2 nearer.
 ovoid_body_pair make_pair_at(const ovoid_solid *s, double gap, random_numbers &numbers) {
     ovoid_body_pair pair = {{nullptr, nullptr, {{0, 0, 0}, numbers.turn()}, s},
                             {nullptr, nullptr, {{0, 0, 0}, numbers.turn()}, s}};
     const ovoid_vec3 n = numbers.direction();
-    double at = gap > 0 ? 4 : 1.2;
+    const double wanted = gap > 0 ? gap : 0.01;
+    double at = 4;
     for (int i = 0; i < 40; i++) {
         pair.b.pose.position = {at * n.x, at * n.y, at * n.z};
-        if (!(gap > 0)) break;
         const ovoid_body_answer x = ovoid_body_distance(&pair, nullptr, nullptr);
-        if (std::fabs(x.upper - gap) < 0.02 * gap) break;
-        at += x.upper > 0 ? gap - x.upper : 0.05;
+        if (std::fabs(x.upper - wanted) < 0.02 * wanted) break;
+        at += x.upper > 0 ? wanted - x.upper : 0.05;
     }
+    if (!(gap > 0)) at -= 0.2;
+    pair.b.pose.position = {at * n.x, at * n.y, at * n.z};
     return pair;
 }
 
-// The best of seven passes over all pairs, microseconds a pair.
-template <class Work> double measure(std::size_t count, Work work) {
-    double best = INFINITY;
-    for (int pass = 0; pass < 7; pass++) {
-        const auto start = clock_type::now();
-        work();
-        best = std::fmin(best, std::chrono::duration<double>(clock_type::now() - start).count() * 1e6 /
-                                   static_cast<double>(count));
+// The best passes of two works over all pairs, in turns; microseconds a pair.
+struct times {
+    double own, theirs;
+};
+
+double measure_once(std::size_t count, const std::function<void()> &work) {
+    const auto start = clock_type::now();
+    work();
+    return std::chrono::duration<double>(clock_type::now() - start).count() * 1e6 / static_cast<double>(count);
+}
+
+times measure(std::size_t count, const std::function<void()> &own, const std::function<void()> &theirs) {
+    times best = {INFINITY, INFINITY};
+    for (int pass = 0; pass < 5; pass++) {
+        best.own = std::fmin(best.own, measure_once(count, own));
+        best.theirs = std::fmin(best.theirs, measure_once(count, theirs));
     }
     return best;
 }
 
-int run(const ovoid_solid *s, const model *m, double gap, std::size_t count) {
+bool run(const ovoid_solid *s, const models &m, double gap, std::size_t count) {
     random_numbers numbers;
     std::vector<ovoid_body_pair> pairs;
     std::vector<fcl::Transform3d> a, b;
@@ -130,72 +206,114 @@ int run(const ovoid_solid *s, const model *m, double gap, std::size_t count) {
         a.push_back(make_transform(pairs.back().a.pose));
         b.push_back(make_transform(pairs.back().b.pose));
     }
+    std::vector<double> distances(count), their_distances(count);
+    std::vector<int> hits(count), their_hits(count);
+    const times collide = measure(
+        count,
+        [&] {
+            for (std::size_t i = 0; i < count; i++)
+                hits[i] = ovoid_body_collide(&pairs[i], nullptr, nullptr).status == OVOID_OVERLAPPING;
+        },
+        [&] {
+            for (std::size_t i = 0; i < count; i++) {
+                fcl::CollisionResultd result;
+                their_hits[i] =
+                    fcl::collide(m.collide.get(), a[i], m.collide.get(), b[i], fcl::CollisionRequestd(), result) > 0;
+            }
+        });
+    times distance = {NAN, NAN};
+    if (gap > 0)
+        distance = measure(
+            count,
+            [&] {
+                for (std::size_t i = 0; i < count; i++)
+                    distances[i] = std::fmax(0, ovoid_body_distance(&pairs[i], nullptr, nullptr).upper);
+            },
+            [&] {
+                for (std::size_t i = 0; i < count; i++) {
+                    fcl::DistanceResultd result;
+                    their_distances[i] =
+                        fcl::distance(m.distance.get(), a[i], m.distance.get(), b[i], fcl::DistanceRequestd(), result);
+                }
+            });
     double off = 0;
+    for (std::size_t i = 0; i < count && gap > 0; i++)
+        off = std::fmax(off, std::fabs(distances[i] - their_distances[i]));
     std::size_t differ = 0;
-    std::vector<double> distances(count);
-    std::vector<int> hits(count);
-    const double distance = measure(count, [&] {
-        for (std::size_t i = 0; i < count; i++)
-            distances[i] = std::fmax(0, ovoid_body_distance(&pairs[i], nullptr, nullptr).upper);
-    });
-    const double their_distance = measure(count, [&] {
-        for (std::size_t i = 0; i < count; i++) {
-            fcl::DistanceResultd result;
-            off = std::fmax(off,
-                            std::fabs(std::fmax(0, fcl::distance(m, a[i], m, b[i], fcl::DistanceRequestd(), result)) -
-                                      distances[i]));
-        }
-    });
-    const double collide = measure(count, [&] {
-        for (std::size_t i = 0; i < count; i++)
-            hits[i] = ovoid_body_collide(&pairs[i], nullptr, nullptr).status == OVOID_OVERLAPPING;
-    });
-    const double their_collide = measure(count, [&] {
-        differ = 0;
-        for (std::size_t i = 0; i < count; i++) {
-            fcl::CollisionResultd result;
-            differ += (fcl::collide(m, a[i], m, b[i], fcl::CollisionRequestd(), result) > 0) != hits[i];
-        }
-    });
-    std::printf(
-        "  gap %-5g distance %8.1f us, FCL %8.1f (%.2f); yes or no %7.1f us, FCL %7.1f (%.2f); off by %.1e, hits "
-        "that differ: %zu\n",
-        gap, distance, their_distance, distance / their_distance, collide, their_collide, collide / their_collide, off,
-        differ);
+    for (std::size_t i = 0; i < count; i++) differ += hits[i] != their_hits[i];
+    std::printf("  %4.0f %%  %9.2f %9.2f %6.2f  %9.2f %9.2f %6.2f  %.0e %zu\n", 100 * gap, distance.own,
+                distance.theirs, distance.theirs / distance.own, collide.own, collide.theirs,
+                collide.theirs / collide.own, off, differ);
     return off < 1e-6 && differ == 0;
+}
+
+double get_milliseconds(clock_type::time_point from, clock_type::time_point to) {
+    return std::chrono::duration<double>(to - from).count() * 1e3;
+}
+
+bool run_mesh(mesh m, std::size_t pairs) {
+    scale(m);
+    const ovoid_triangles all = {m.points.data(), m.points.size() / 3, m.triangles.data(), m.triangles.size() / 3};
+    const auto t0 = clock_type::now();
+    ovoid_solid *s = ovoid_solid_create_from_triangles(&all, nullptr, nullptr);
+    const auto t1 = clock_type::now();
+    models theirs;
+    theirs.distance = make_model<fcl::OBBRSSd>(m);
+    const auto t2 = clock_type::now();
+    theirs.collide = make_model<fcl::OBBd>(m);
+    const auto t3 = clock_type::now();
+    if (!s) return false;
+    std::printf("%s: %zu triangles, %s; set-up %.1f ms, FCL's %.1f (OBBRSS) and %.1f (OBB); %.0f bytes a triangle\n",
+                m.name.c_str(), all.count, ovoid_solid_get_report(s).is_closed ? "closed" : "open",
+                get_milliseconds(t0, t1), get_milliseconds(t1, t2), get_milliseconds(t2, t3),
+                static_cast<double>(ovoid_solid_get_size(s)) / static_cast<double>(all.count));
+    bool ok = true;
+    for (double gap : {1.0, 0.1, 0.01, 0.0}) ok &= run(s, theirs, gap, pairs);
+    ovoid_solid_destroy(s);
+    return ok;
+}
+
+mesh name(mesh m, const char *as) {
+    m.name = as;
+    return m;
 }
 
 } // namespace
 
 int main(int argc, char **argv) {
-    const long only = argc > 1 ? std::atol(argv[1]) : 0;
-    const long wanted = argc > 2 ? std::atol(argv[2]) : 100;
-    if (argc > 3 || (argc > 1 && only < 1) || wanted < 1) {
-        const bool help = argc == 2 && std::strcmp(argv[1], "--help") == 0;
-        (void)std::fprintf(help ? stdout : stderr,
-                           "bench_solids [TRIANGLES [PAIRS]]: queries of solids beside FCL; 5000 "
-                           "or 50000 triangles alone, PAIRS (100) of each gap\n");
-        return help ? 0 : 2;
+    long pairs = 40;
+    std::vector<mesh> meshes;
+    bool is_small = false;
+    for (int i = 1; i < argc; i++) {
+        const std::string given = argv[i];
+        if (given == "--help") {
+            std::printf(
+                "bench_solids [--pairs N] [--small] [MESH...]: queries of solids beside FCL, N (40) pairs of each "
+                "gap.\nKnots and bumpy spheres of 5 000 and 50 000 triangles (--small: of 5 000), and the meshes "
+                "given.\nColumns: gap; microseconds of a distance, FCL's, and FCL's over ovoid's; the same for yes "
+                "or no;\nthe largest difference of distances, and how many hits differ\n");
+            return 0;
+        }
+        if (given == "--pairs" && i + 1 < argc && (pairs = std::atol(argv[++i])) > 0) continue;
+        if (given == "--small") {
+            is_small = true;
+            continue;
+        }
+        mesh m;
+        if (given[0] == '-' || !read_mesh(given, m)) {
+            (void)std::fprintf(stderr, "bench_solids: %s is no option and no mesh; see --help\n", argv[i]);
+            return 2;
+        }
+        m.name = given.substr(given.find_last_of('/') + 1);
+        meshes.push_back(m);
     }
-    const std::size_t pairs = static_cast<std::size_t>(wanted);
-    int ok = 1;
-    for (long size : {5000L, 50000L}) {
-        if (only > 0 && size != only) continue;
-        const mesh m = make_bumpy(static_cast<std::size_t>(size));
-        const double count = static_cast<double>(m.triangles.size() / 3);
-        const auto t0 = clock_type::now();
-        const ovoid_triangles all = {m.points.data(), m.points.size() / 3, m.triangles.data(), m.triangles.size() / 3};
-        ovoid_solid *s = ovoid_solid_create_from_triangles(&all, nullptr, nullptr);
-        const auto t1 = clock_type::now();
-        const auto theirs = make_model(m);
-        const auto t2 = clock_type::now();
-        if (!s) return 1;
-        std::printf("%.0f triangles: set-up %.2f us a triangle, FCL %.2f; %.1f bytes a triangle\n", count,
-                    std::chrono::duration<double>(t1 - t0).count() * 1e6 / count,
-                    std::chrono::duration<double>(t2 - t1).count() * 1e6 / count,
-                    static_cast<double>(ovoid_solid_get_size(s)) / count);
-        for (double gap : {0.2, 0.02, 0.0}) ok &= run(s, theirs.get(), gap, pairs);
-        ovoid_solid_destroy(s);
+    if (!is_small) {
+        meshes.insert(meshes.begin(), name(make_bumpy(50000), "bumpy sphere"));
+        meshes.insert(meshes.begin(), name(make_knot(500, 48), "knot"));
     }
+    meshes.insert(meshes.begin(), name(make_bumpy(5000), "bumpy sphere"));
+    meshes.insert(meshes.begin(), name(make_knot(160, 16), "knot"));
+    bool ok = true;
+    for (const mesh &m : meshes) ok &= run_mesh(m, static_cast<std::size_t>(pairs));
     return !ok;
 }

@@ -3,15 +3,32 @@
 // distance of a vertex of each. So no part is posed and no frame of either body is made.
 //
 // Errors: all is measured in the world, where rotations are off by 36 u, not by 82 u as in the frame of the other body
-// (node_bounds.c): its claim covers them, for the bounds and for whoever checks them in the world poses of the parts.
+// (node_bounds.c, tree_frame.h): its claim covers them, for the bounds and for whoever checks them in the world poses
+// of the parts.
 #include "body/first_look.h"
 
 #include "linear/rotation.h"
 
-// The deciding parts are the first of the trees' order; one vertex of each, from its body's origin, in the world's
-// axes.
-static vec3 find_vertex(const compound_part *part, mat3 r) {
-    return mat3_mul_vec3(r, vec3_add(part->at, mat3_mul_vec3(part->rotation, part->shape->first)));
+// What is looked at of a body, in its frame: the ball around it, and a vertex of the first leaf of the tree's order,
+// with the leaf's radii.
+typedef struct first_sight {
+    vec3 center, vertex;
+    double ball_radius, radius, upper_radius;
+} first_sight;
+
+static first_sight see_parts(const compound_node *root, const compound_part *first) {
+    const ovoid_shape *s = first->shape;
+    vec3 vertex = vec3_add(first->at, mat3_mul_vec3(first->rotation, s->first));
+    return (first_sight){root->center, vertex, root->radius, s->radius, s->upper_radius};
+}
+
+static first_sight see(const body_tree *tree) {
+    if (tree->solid) return (first_sight){tree->center, solid_get_corner(tree->solid, 0, 0), tree->solid->reach, 0, 0};
+    if (tree->compound) return see_parts(tree->compound->nodes, tree->compound->parts);
+    const ovoid_posed_shape own = {tree->shape, {{0, 0, 0}, {1, 0, 0, 0}}};
+    const compound_node root = node_make_shape(tree->shape);
+    const compound_part part = part_make(&own);
+    return see_parts(&root, &part);
 }
 
 static ovoid_limit find_limit(const final_bracket *b, const query_goal *goal) {
@@ -25,21 +42,20 @@ static void exclude_all(const body_search *state, vec3 normal, double lower) {
 
 int first_look(const body_search *state, const query_goal *goal) {
     const body_tree *a = &state->a, *b = &state->b;
-    const compound_node *node_a = state->parts->nodes[0], *node_b = state->parts->nodes[1];
-    const compound_part *part_a = state->parts->parts[0], *part_b = state->parts->parts[1];
+    const first_sight of_a = see(a), of_b = see(b);
     ovoid_body_answer *out = state->out;
     mat3 ra = quat_to_mat3(a->pose->rotation), rb = quat_to_mat3(b->pose->rotation);
     vec3 offset = vec3_sub(b->pose->position, a->pose->position);
-    vec3 between = vec3_add(offset, vec3_sub(mat3_mul_vec3(rb, node_b->center), mat3_mul_vec3(ra, node_a->center)));
+    vec3 between = vec3_add(offset, vec3_sub(mat3_mul_vec3(rb, of_b.center), mat3_mul_vec3(ra, of_a.center)));
     double length = vec3_norm(between), size = trees_compute_size(a, b, offset),
            claim = trees_compute_claim(a, b, size);
-    double lower = length - (node_a->radius + node_b->radius) - claim;
+    double lower = length - (of_a.ball_radius + of_b.ball_radius) - claim;
     if (!(lower > goal->far)) return 0;
     // A vertex of each; the radii go along their difference, which is longer than both.
-    vec3 from = find_vertex(part_a, ra), d = vec3_add(offset, vec3_sub(find_vertex(part_b, rb), from));
-    const ovoid_shape *shape_a = part_a->shape, *shape_b = part_b->shape;
-    double distance = vec3_norm(d), upper = distance - (shape_a->upper_radius + shape_b->upper_radius) + claim;
-    vec3 point = vec3_add(a->pose->position, from), normal = vec3_scale(between, 1 / length);
+    vec3 from = mat3_mul_vec3(ra, of_a.vertex), to = mat3_mul_vec3(rb, of_b.vertex);
+    vec3 d = vec3_add(offset, vec3_sub(to, from));
+    double distance = vec3_norm(d), upper = distance - (of_a.upper_radius + of_b.upper_radius) + claim;
+    vec3 normal = vec3_scale(between, 1 / length);
     double tolerance = options_compute_tolerance(&state->options, size, 0), allowance = a->allowance + b->allowance;
     const final_bracket bracket = {lower, upper, tolerance + allowance, allowance, OVOID_SEPARATED, OVOID_PROOF_POINTS};
     out->part_a = body_tree_get_index(a, 0);
@@ -52,8 +68,8 @@ int first_look(const body_search *state, const query_goal *goal) {
         .limit = find_limit(&bracket, goal),
         .lower = lower,
         .upper = upper,
-        .point_a = vec3_add_scaled(point, d, shape_a->radius / distance),
-        .point_b = vec3_add_scaled(vec3_add(point, d), d, -(shape_b->radius / distance)),
+        .point_a = vec3_add_scaled(vec3_add(a->pose->position, from), d, of_a.radius / distance),
+        .point_b = vec3_add_scaled(vec3_add(b->pose->position, to), d, -(of_b.radius / distance)),
         .normal = normal,
         .proof = {.normal = normal, .kind = OVOID_PROOF_POINTS, .count = 1, .weight_a = {1}, .weight_b = {1}}};
     exclude_all(state, normal, lower);

@@ -4,8 +4,7 @@
 
 #include "body/search.h"
 
-/// The whole answer, and the exclusion of all pairs of parts, where they are: 1. The search has its options, trees and
-/// nodes.
+/// The whole answer, and the exclusion of all pairs of parts, where they are: 1. The search has its options and trees.
 int first_look(const body_search *state, const query_goal *goal);
 
 #endif

@@ -2,6 +2,7 @@
 // what.
 #include "base/compiler.h"
 #include "body/body_find.h"
+#include "body/first_look.h"
 #include "body/solid_search.h"
 
 // ---- the end of a query
@@ -42,14 +43,19 @@ static void find_common_point(body_search *state) {
     out->lower = min2(out->lower, out->upper);
 }
 
-// From the surfaces to the bodies: what is inside what, and how deep an overlap may be.
-static void finish(body_search *state) {
-    ovoid_body_answer *out = state->out;
+static void take_deciding(ovoid_body_answer *out) {
     const ovoid_answer *x = &out->deciding;
     out->status = x->status;
     out->limit = x->limit;
     out->lower = x->lower;
     out->upper = x->upper;
+}
+
+// From the surfaces to the bodies: what is inside what, and how deep an overlap may be.
+static void finish(body_search *state) {
+    ovoid_body_answer *out = state->out;
+    const ovoid_answer *x = &out->deciding;
+    take_deciding(out);
     int is = x->lower > 0 ? find_inside(state) : -1;
     if (is == 0) return;
     if (is > 0) out->upper = -x->lower;
@@ -64,17 +70,14 @@ static void finish(body_search *state) {
 
 // ---- the beginning
 
-static ovoid_limit begin(body_search *state, const ovoid_body_pair *pair, const body_request *request) {
-    if (!options_make(request->options, &state->options) || !(request->goal->far >= 0)) return OVOID_LIMIT_OPTIONS;
-    ovoid_limit refused = body_trees_make(pair, &state->a, &state->b);
-    if (refused != OVOID_LIMIT_NONE) return refused;
+static void begin(body_search *state, const query_goal *goal) {
     tree_frame_make(&state->a, &state->b, &state->frame);
     state->tolerance = tree_frame_compute_tolerance(&state->frame, &state->options);
     // Half for a pair, half for what is left out beside it.
     state->slack = state->options.absolute_tolerance = state->tolerance / 2;
     state->options.relative_tolerance = OVOID_LENGTH_MIN;
     state->least_far = state->frame.claim;
-    search_begin(state, request->goal);
+    search_begin(state, goal);
     solids_state *solids = state->solids;
     solids->flush.count = 0;
     solids->filter_support = -INFINITY;
@@ -83,15 +86,21 @@ static ovoid_limit begin(body_search *state, const ovoid_body_pair *pair, const 
     solids->kernels = solid8_get_kernels();
     if (state->a.solid) triangle_begin(&solids->rooms[0]);
     if (state->b.solid) triangle_begin(&solids->rooms[1]);
-    return OVOID_LIMIT_NONE;
 }
 
 // The whole query; the limit is that of a refusal.
 static ovoid_limit search_from(body_search *state, const ovoid_body_pair *pair, const body_request *request) {
     *state->out = (ovoid_body_answer){.status = OVOID_UNDECIDED};
     exclusions_begin(state->exclusions);
-    ovoid_limit refused = begin(state, pair, request);
+    const query_goal *goal = request->goal;
+    if (!options_make(request->options, &state->options) || !(goal->far >= 0)) return OVOID_LIMIT_OPTIONS;
+    ovoid_limit refused = body_trees_make(pair, &state->a, &state->b);
     if (refused != OVOID_LIMIT_NONE) return refused;
+    if (goal->far < INFINITY && first_look(state, goal)) {
+        take_deciding(state->out);
+        return OVOID_LIMIT_NONE;
+    }
+    begin(state, goal);
     search_run(state, request->earlier);
     finish(state);
     return OVOID_LIMIT_NONE;

@@ -6,12 +6,13 @@
 // - a point of b in a's frame is off by 91 u S, as in pair/frame.h; so is one of a in b's;
 // - centres and half sizes of boxes are off by 8 u S beside that, since boxes are rounded outward to single precision
 //   when they are made; the largest of gaps, sums and a root by 16 u S;
-// - the axes of a box are a rotation but for 8 u in the operator norm, and points along them are off by 4 u S: a
+// - the axes of a box are a rotation but for 12 u in the operator norm, and points along them are off by 4 u S: a
 //   length along one axis, the turn between two boxes' axes, a centre there and back, and the extent of the other box
-//   along a turned direction are together off by 80 u S;
+//   along a turned direction are together off by 100 u S;
 // - a gap of two triangles along a unit direction is off by 100 u S, turning the direction to the world moves it by
 //   42 u S, and whoever measures it again there is off by 148 u S.
-// Together below 480 u S; a bound is lowered by 512 u S and twice what underflow can hide.
+// A bound of boxes is off by all of these but that of triangles, one of triangles by the first, its own and the turn:
+// below 405 u S; a bound is lowered by 512 u S and twice what underflow can hide.
 // A part of a compound is where the rounded product of two poses has it (compound.h): off by 45 u S more, and by u of
 // its body's position; where a compound takes part, a bound is lowered by 8 u of both positions beside that.
 #ifndef OVOID_BODY_TREE_FRAME_H
