@@ -73,12 +73,6 @@ static void set_triangle_box(const ovoid_solid *s, uint32_t place, float low[3],
     }
 }
 
-static tree_box make_box(const ovoid_solid *s, const float low[3], const float high[3]) {
-    vec3 from = {low[0], low[1], low[2]}, to = {high[0], high[1], high[2]};
-    double half = 0.5 * s->unit;
-    return (tree_box){vec3_scale(vec3_add(to, from), half), vec3_scale(vec3_sub(to, from), half)};
-}
-
 tree_box body_tree_get_box(const body_tree *tree, tree_ref ref) {
     if (tree->shape) return (tree_box){{0, 0, 0}, tree->half};
     if (tree->compound) {
@@ -93,7 +87,7 @@ tree_box body_tree_get_box(const body_tree *tree, tree_ref ref) {
         low = tree->solid->nodes[ref].low;
         high = tree->solid->nodes[ref].high;
     }
-    return make_box(tree->solid, low, high);
+    return solid_scale_box(tree->solid, low, high);
 }
 
 // A box along axes, whose centre is turned into the tree's frame.
@@ -126,7 +120,7 @@ turned_box body_tree_get_turned_box(const body_tree *tree, tree_ref ref) {
     if (!tree->solid) return (turned_box){body_tree_get_box(tree, ref), axes_upright};
     if (ref_is_leaf(ref)) return get_triangle_box(tree->solid, ref_get_index(ref));
     const node_frame *f = &tree->solid->frames[ref];
-    return turn_box(make_box(tree->solid, f->low, f->high), &f->axes);
+    return turn_box(solid_scale_box(tree->solid, f->low, f->high), &f->axes);
 }
 
 // From the root down, by the places below a node; ref is not the root.
@@ -149,7 +143,7 @@ turned_box body_tree_get_child_box(const body_tree *tree, tree_ref ref) {
     const box8 *boxes = &tree->solid->turned[node];
     const float low[3] = {boxes->low[0][lane], boxes->low[1][lane], boxes->low[2][lane]};
     const float high[3] = {boxes->high[0][lane], boxes->high[1][lane], boxes->high[2][lane]};
-    return turn_box(make_box(tree->solid, low, high), &tree->solid->frames[node].axes);
+    return turn_box(solid_scale_box(tree->solid, low, high), &tree->solid->frames[node].axes);
 }
 
 int trees_split_first(const body_tree *a, tree_ref ref_a, const body_tree *b, tree_ref ref_b) {

@@ -56,6 +56,12 @@ typedef struct tree_box {
     vec3 center, half;
 } tree_box;
 tree_box body_tree_get_box(const body_tree *tree, tree_ref ref);
+/// A box of a solid's tree, from its unit.
+static inline tree_box solid_scale_box(const ovoid_solid *s, const float low[3], const float high[3]) {
+    vec3 from = {low[0], low[1], low[2]}, to = {high[0], high[1], high[2]};
+    double half = 0.5 * s->unit;
+    return (tree_box){vec3_scale(vec3_add(to, from), half), vec3_scale(vec3_sub(to, from), half)};
+}
 
 /// A box along axes of its own: rows in the tree's frame, in which its centre is too.
 typedef struct turned_box {

@@ -156,7 +156,8 @@ void solids_visit_triangles(body_search *state, const triangle_group *group) {
     const uint32_t one = group->one, *places = group->places, count = group->count;
     const tree_frame *f = &state->frame;
     const ovoid_solid *own = side ? state->b.solid : state->a.solid, *other = side ? state->a.solid : state->b.solid;
-    vec3 normal = solids_get_normal(state);
+    // Before a first pair any direction will do.
+    vec3 normal = state->solids->normal_count > 1 ? solids_get_normal(state) : (vec3){1, 0, 0};
     solid8_triangle t = {
         .corner = {solid_get_corner(other, one, 0), solid_get_corner(other, one, 1), solid_get_corner(other, one, 2)},
         .rotation = side ? f->to_a : f->to_b,

@@ -81,7 +81,7 @@ static void begin(body_search *state, const query_goal *goal) {
     solids_state *solids = state->solids;
     solids->flush.count = 0;
     solids->filter_support = -INFINITY;
-    solids->normals[0] = (vec3){1, 0, 0};
+    solids->normals[0] = (vec3){0, 0, 0};
     solids->normal_count = 1;
     solids->kernels = solid8_get_kernels();
     if (state->a.solid) triangle_begin(&solids->rooms[0]);

@@ -45,6 +45,46 @@ static box_gap find_axis_gap(vec3 d, vec3 half) {
 
 static double find_reach(vec3 half, vec3 n) { return vec3_dot(half, absolute(n)); }
 
+// A box along the axes of the frame, and another one beside it.
+typedef struct box_beside {
+    vec3 own, other;      // half sizes
+    vec3 d;               // from its centre to the other's
+    const mat3 *rotation; // to the other's frame
+    const mat3 *absolute; // the sizes of the rotation's entries
+    int axes;             // how many of each are tried
+} box_beside;
+
+static double get_entry(vec3 v, int i) { return i == 0 ? v.x : i == 1 ? v.y : v.z; }
+
+// The direction across an axis of each box along which the gap is largest (S. Gottschalk, M. C. Lin, D. Manocha,
+// OBBTree, 1996); x where all axes are parallel.
+static vec3 find_across(const box_beside *boxes) {
+    const vec3 row[3] = {boxes->rotation->r0, boxes->rotation->r1, boxes->rotation->r2};
+    const vec3 size[3] = {boxes->absolute->r0, boxes->absolute->r1, boxes->absolute->r2};
+    vec3 best = {1, 0, 0};
+    double most = -INFINITY;
+    for (int i = 0; i < boxes->axes; i++)
+        for (int j = 0; j < boxes->axes; j++) {
+            // Axis i of the frame and row j of the rotation.
+            int k = (i + 1) % 3, l = (i + 2) % 3, m = (j + 1) % 3, n = (j + 2) % 3;
+            double u = get_entry(row[j], k), v = get_entry(row[j], l), square = u * u + v * v;
+            if (!(square > 1e-6)) continue;
+            double at = get_entry(boxes->d, l) * u - get_entry(boxes->d, k) * v;
+            double reach = get_entry(boxes->own, l) * fabs(u) + get_entry(boxes->own, k) * fabs(v) +
+                           get_entry(boxes->other, m) * get_entry(size[n], i) +
+                           get_entry(boxes->other, n) * get_entry(size[m], i);
+            double scale = 1 / sqrt(square), gap = (fabs(at) - reach) * scale;
+            if (!(gap > most)) continue;
+            most = gap;
+            scale = copysign(scale, at);
+            double entry[3] = {0, 0, 0};
+            entry[l] = u * scale;
+            entry[k] = -v * scale;
+            best = (vec3){entry[0], entry[1], entry[2]};
+        }
+    return best;
+}
+
 box_gap tree_frame_find_gap(const tree_frame *f, const turned_box *a, const turned_box *b, vec3 normal) {
     // In the frame of a's box: the vector between the centres, and the rotation to b's box.
     vec3 between = vec3_sub(vec3_add(f->between, mat3_mul_vec3(f->to_a, b->box.center)), a->box.center);
@@ -55,7 +95,10 @@ box_gap tree_frame_find_gap(const tree_frame *f, const turned_box *a, const turn
     box_gap next = find_axis_gap(mat3_mul_vec3(to_b, d), vec3_add(half_b, mat3_mul_vec3(absolute, half_a)));
     next.normal = mat3_mul_transposed_vec3(to_b, next.normal);
     if (next.lower > best.lower) best = next;
-    vec3 tried[2] = {mat3_mul_vec3(a->axes, normal), vec3_unit(d)};
+    int is_given = vec3_norm_squared(normal) > 0;
+    vec3 tried[2] = {is_given ? mat3_mul_vec3(a->axes, normal)
+                              : find_across(&(box_beside){half_a, half_b, d, &to_b, &absolute, 3}),
+                     vec3_unit(d)};
     for (int i = 0; i < 2; i++) {
         vec3 n = tried[i];
         if (!(vec3_norm_squared(n) > 0.5)) continue;
@@ -78,16 +121,22 @@ box_gap tree_frame_find_parting(const tree_frame *f, const body_tree *a, const b
 solid8_other tree_frame_turn(const tree_frame *f, const framed_node *node, vec3 normal) {
     // A box of b beside a node of a, or the other way round; the normal goes from a to b.
     const turned_box *rest = node->rest;
-    vec3 in_b = mat3_mul_vec3(f->to_b, normal), half = rest->box.half;
+    vec3 half = rest->box.half;
     const mat3 rotation = mat3_mul(mat3_mul(rest->axes, node->side ? f->to_a : f->to_b), mat3_transpose(*node->axes));
     const mat3 all = absolute_matrix(rotation);
-    vec3 center = node->side ? mat3_mul_vec3(f->to_b, vec3_sub(rest->box.center, f->between))
-                             : vec3_add(f->between, mat3_mul_vec3(f->to_a, rest->box.center));
-    return (solid8_other){.center = mat3_mul_vec3(*node->axes, center),
+    vec3 center =
+        mat3_mul_vec3(*node->axes, node->side ? mat3_mul_vec3(f->to_b, vec3_sub(rest->box.center, f->between))
+                                              : vec3_add(f->between, mat3_mul_vec3(f->to_a, rest->box.center)));
+    vec3 tried = node->side ? vec3_neg(mat3_mul_vec3(f->to_b, normal)) : normal;
+    tried = vec3_norm_squared(normal) > 0
+                ? mat3_mul_vec3(*node->axes, tried)
+                : find_across(&(box_beside){node->own.half, half, vec3_sub(center, node->own.center), &rotation, &all,
+                                            node->across});
+    return (solid8_other){.center = center,
                           .turned = mat3_mul_transposed_vec3(all, half),
                           .half = half,
                           .rotation = rotation,
                           .absolute = all,
-                          .normal = mat3_mul_vec3(*node->axes, node->side ? vec3_neg(in_b) : normal),
-                          .reach = find_reach(half, mat3_mul_vec3(rest->axes, node->side ? normal : in_b))};
+                          .normal = tried,
+                          .reach = find_reach(half, mat3_mul_vec3(rotation, tried))};
 }

@@ -48,7 +48,7 @@ static inline double tree_frame_compute_tolerance(const tree_frame *f, const ovo
 }
 
 /// The bound of two boxes, and a unit direction in a's frame that shows it: as the kernel's. normal: one to try, in a's
-/// frame.
+/// frame; zero: of those across an axis of both boxes the best.
 typedef struct box_gap {
     double lower;
     vec3 normal;
@@ -59,6 +59,8 @@ box_gap tree_frame_find_gap(const tree_frame *f, const turned_box *a, const turn
 typedef struct framed_node {
     int side;
     const mat3 *axes;
+    tree_box own; ///< its box along its axes
+    int across;   ///< how many axes of each box are tried across one another where no normal is known, 1 to 3
     const turned_box *rest;
 } framed_node;
 /// The other body's box as the kernel wants it; the unit of the node's boxes is left to the caller.
