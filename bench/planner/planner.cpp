@@ -1,28 +1,19 @@
-// bench_planner: planners of OMPL on the planning problems of MotionBenchMaker, with ovoid's proofs and with states
-// sampled by FCL as MoveIt drives it, by the same seeds. Every path is then proven or refuted by ovoid. Paths that a
-// sampling peer calls free and that hit are counted in two groups: a state that the peer looked at hits, or only states
-// between them do.
-#include <ovoid/ompl.hpp>
+// The program: options, the robots and their problems, contestants in turn.
+#include "planner/planner.h"
 
 extern "C" {
 #include "common/build.h"
-#include "robots/robots.h"
 }
 
-#include <ompl/geometric/PathSimplifier.h>
-#include <ompl/geometric/SimpleSetup.h>
-#include <ompl/geometric/planners/informedtrees/BITstar.h>
-#include <ompl/geometric/planners/rrt/RRTConnect.h>
 #include <ompl/util/Console.h>
 
-#include <chrono>
+#include <cstdio>
 #include <cstring>
 #include <string>
 
-namespace ob = ompl::base;
-namespace og = ompl::geometric;
-
 namespace {
+
+using namespace planner;
 
 const char help[] =
     "bench_planner [OPTION...]: OMPL's planners with ovoid's proven motions beside FCL's samples, on "
@@ -36,327 +27,122 @@ const char help[] =
     "  --robot TEXT     only robots whose name holds TEXT: panda, fetch\n"
     "  --peer FILE      a module with one more peer (bench/peers/robot_peer.h), at 0.5 %; may be repeated\n"
     "  --alone          without FCL\n"
+    "  --csv FILE       a line for each plan\n"
+    "  --svg FILE       a picture: problems with a proven path, by time\n"
+    "  --edges FOLDER   the motions that ovoid accepted while it planned, one CSV file of states for each problem:\n"
+    "                   each two states are a motion (scripts/path_proofs.sh --planned)\n"
     "  --data FOLDER    where robots/ is (OVOID_DATA, else ../shared/data)\n"
     "  --help           this\n";
 
-struct settings {
-    unsigned scenes = 20, seeds = 1;
-    double seconds = 10;
-    const char *only = "", *data = nullptr;
-    bool is_bit_star = false, is_alone = false;
-    robots_field modules = {};
-};
+// ---- motions for other programs
 
-double get_seconds() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+/// FAMILY-SCENE of a scene's file .../FAMILY/SCENE.yaml.
+std::string get_scene_name(const std::string &file) {
+    const std::size_t name = file.rfind('/'), family = file.rfind('/', name - 1);
+    return file.substr(family + 1, name - family - 1) + "-" + file.substr(name + 1, file.rfind('.') - name - 1);
 }
 
-/// The validator: ovoid, or a peer at states that are this share of the space's extent apart.
-struct contestant {
-    std::string name;
-    const robot_peer *peer;
-    double resolution;
-};
-
-/// The measurements of a contestant.
-struct results {
-    std::vector<double> planned, shortened;
-    unsigned solved = 0, proven = 0, hit_at_samples = 0, hit_between = 0, open = 0;
-    double deepest = 0;
-};
-
-/// One problem: its scene, its ends, the variables that move.
-struct problem {
-    robots_scene scene;
-    ovoid::robot robot;
-    ovoid::robot_cell cell;
-    std::vector<double> start, goal;
-    std::vector<std::uint32_t> moving;
-};
-
-/// States of a peer, placed by ovoid's kinematics.
-class sampled_checker : public ob::StateValidityChecker {
-  public:
-    sampled_checker(ob::SpaceInformation *planner, const problem &of, const robot_peer *peer, void *self)
-        : StateValidityChecker(planner), space_(&ovoid::detail::robot_space_of(*planner)), of_(&of), peer_(peer),
-          self_(self), q_(of.start.size()), links_(of.robot.link_count()) {}
-    bool isValid(const ob::State *state) const override {
-        space_->write_state(state, q_.data());
-        return space_->satisfiesBounds(state) &&
-               (peer_->has_kinematics ||
-                ovoid_robot_compute_poses(of_->robot.get(), q_.data(), links_.data(), nullptr) == OVOID_OK) &&
-               !peer_->is_hit(self_, q_.data(), links_.data());
-    }
-
-  private:
-    const ovoid::robot_space *space_;
-    const problem *of_;
-    const robot_peer *peer_;
-    void *self_;
-    mutable std::vector<double> q_;
-    mutable std::vector<ovoid_pose> links_;
-};
-
-/// Motions of a peer that looks at a whole edge by its own way; its resolution is its own.
-class edge_validator : public ob::MotionValidator {
-  public:
-    edge_validator(ob::SpaceInformation *planner, const problem &of, const robot_peer *peer, void *self)
-        : MotionValidator(planner), space_(&ovoid::detail::robot_space_of(*planner)), peer_(peer), self_(self),
-          q_(2 * of.start.size()) {}
-    bool checkMotion(const ob::State *from, const ob::State *to) const override {
-        space_->write_motion(from, to, q_.data());
-        const unsigned states = space_->validSegmentCount(from, to) + 1;
-        return !peer_->is_edge_hit(self_, q_.data(), q_.data() + q_.size() / 2, states);
-    }
-    bool checkMotion(const ob::State *from, const ob::State *to, std::pair<ob::State *, double> &last) const override {
-        const bool is_free = checkMotion(from, to);
-        if (!is_free) last.second = 0;
-        if (!is_free && last.first) space_->copyState(last.first, from);
-        return is_free;
-    }
-
-  private:
-    const ovoid::robot_space *space_;
-    const robot_peer *peer_;
-    void *self_;
-    mutable std::vector<double> q_;
-};
-
-/// Of the limits: URDFs and requests have few digits.
-const double slack = 1e-6;
-
-ovoid::robot_query_options make_options() {
-    ovoid::robot_query_options how;
-    how.limit_slack = slack;
-    return how;
-}
-
-/// The depth that the path reaches, proven, at states a two hundredth of a segment apart.
-double find_depth(ovoid::robot_checker &checker, const std::vector<double> &states, std::size_t n) {
-    double deepest = 0;
-    std::vector<double> q(n);
-    for (std::size_t i = 0; i + 1 < states.size() / n; i++)
-        for (int k = 0; k <= 200; k++) {
-            for (std::size_t j = 0; j < n; j++)
-                q[j] = states[i * n + j] + k / 200.0 * (states[(i + 1) * n + j] - states[i * n + j]);
-            if (checker.collide({q.data(), n}, make_options()).status != OVOID_ROBOT_HIT) continue;
-            const auto near = checker.find_nearest({q.data(), n}, make_options());
-            if (!near.items.empty()) deepest = std::max(deepest, -near.items[0].upper);
-        }
-    return deepest;
-}
-
-/// Does a state hit that OMPL's discrete motion validator looks at along this path?
-bool is_sample_hit(ovoid::robot_checker &checker, const ovoid::robot_space &space, const og::PathGeometric &path) {
-    std::vector<double> q(space.robot().variable_count());
-    ob::ScopedState<ovoid::robot_space> at(path.getSpaceInformation());
-    for (unsigned i = 0; i + 1 < path.getStateCount(); i++) {
-        const unsigned parts = std::max(1u, space.validSegmentCount(path.getState(i), path.getState(i + 1)));
-        for (unsigned k = 0; k <= parts; k++) {
-            space.interpolate(path.getState(i), path.getState(i + 1), double(k) / parts, at.get());
-            space.write_state(at.get(), q.data());
-            if (checker.collide({q.data(), q.size()}, make_options()).status == OVOID_ROBOT_HIT) return true;
-        }
-    }
-    return false;
-}
-
-void judge(const problem &of, const ovoid::robot_space &space, const og::PathGeometric &path, results &into) {
+bool write_edges(const problem &of, machine *m, const settings &how, const std::vector<double> &edges) {
+    const std::string file = std::string(how.edges) + "/" + m->name + "-" +
+                             get_scene_name(ovoid_problems_get(m->problems, of.index).scene) + ".csv";
+    std::FILE *out = std::fopen(file.c_str(), "w");
+    if (!out) return std::fprintf(stderr, "bench_planner: %s cannot be written\n", file.c_str()), false;
     const std::size_t n = of.start.size();
-    const std::vector<double> states = space.make_states(path, {of.start.data(), n});
-    auto checker = ovoid::robot_checker::create(of.cell);
-    ovoid::robot_path_options how;
-    how.query = make_options();
-    const auto found = checker.find_hit({states.data(), states.size()}, states.size() / n, how);
-    into.proven += found.status == OVOID_ROBOT_FREE;
-    into.open += found.status != OVOID_ROBOT_FREE && found.status != OVOID_ROBOT_HIT;
-    if (found.status != OVOID_ROBOT_HIT) return;
-    (is_sample_hit(checker, space, path) ? into.hit_at_samples : into.hit_between)++;
-    into.deepest = std::max(into.deepest, find_depth(checker, states, n));
+    for (std::size_t i = 0; i < n; i++)
+        std::fprintf(out, "%s%c", of.robot.description().joints[of.robot.variable(i).joint].name,
+                     i + 1 < n ? ',' : '\n');
+    for (std::size_t i = 0; i < edges.size(); i++) std::fprintf(out, "%.17g%c", edges[i], i % n + 1 < n ? ',' : '\n');
+    return std::fclose(out) == 0;
 }
 
-ob::PlannerPtr make_planner(const settings &how, const ob::SpaceInformationPtr &space) {
-    if (how.is_bit_star) return std::make_shared<og::BITstar>(space);
-    return std::make_shared<og::RRTConnect>(space);
+// ---- robots
+
+/// One problem by all contestants, who begins in turn.
+bool run_problem(const problem &of, machine *m, const std::vector<contestant> &who, const settings &how, sheet &into) {
+    std::vector<double> edges;
+    for (unsigned seed = 1; seed <= how.seeds; seed++)
+        for (std::size_t k = 0; k < who.size(); k++) {
+            const std::size_t turn = (k + of.index) % who.size();
+            outcome one;
+            one.problem = of.index;
+            one.seed = seed;
+            if (plan(of, who[turn], how, one, how.edges && !who[turn].peer ? &edges : nullptr))
+                into.all[turn].push_back(one);
+        }
+    return !how.edges || edges.empty() || write_edges(of, m, how, edges);
 }
 
-/// Until the first path: BIT* would go on to shorten it until the time is up.
-bool solve(og::SimpleSetup &setup, double seconds) {
-    const auto &definition = setup.getProblemDefinition();
-    (void)setup.solve(ob::plannerOrTerminationCondition(ob::timedPlannerTerminationCondition(seconds),
-                                                        ob::exactSolnPlannerTerminationCondition(definition)));
-    return definition->hasExactSolution();
-}
-
-void plan(const problem &of, const contestant &who, unsigned seed, const settings &how, results &into) {
-    const ovoid::span<const double> start(of.start.data(), of.start.size()), goal(of.goal.data(), of.goal.size());
-    ompl::RNG::setSeed(seed);
-    const auto space = std::make_shared<ovoid::robot_space>(
-        of.robot, start, ovoid::span<const std::uint32_t>(of.moving.data(), of.moving.size()), slack);
-    og::SimpleSetup setup(space);
-    const auto planner = setup.getSpaceInformation();
-    void *self = who.peer ? who.peer->create(&of.scene.what) : nullptr;
-    if (who.peer && !self) return; // it does not know the robot
-    if (who.peer) {
-        planner->setStateValidityChecker(std::make_shared<sampled_checker>(planner.get(), of, who.peer, self));
-        planner->setStateValidityCheckingResolution(who.resolution);
-        if (who.peer->is_edge_hit && who.peer->has_kinematics)
-            planner->setMotionValidator(std::make_shared<edge_validator>(planner.get(), of, who.peer, self));
-    } else {
-        ovoid::set_cell(*planner, of.cell, make_options());
-    }
-    ob::ScopedState<ovoid::robot_space> from(space), to(space);
-    space->read_state(start, from.get());
-    space->read_state(goal, to.get());
-    setup.setStartAndGoalStates(from, to);
-    setup.setPlanner(make_planner(how, planner));
-    setup.setup();
-    const double begun = get_seconds();
-    const bool is_solved = solve(setup, how.seconds);
-    into.planned.push_back(get_seconds() - begun);
-    if (is_solved) {
-        const double found = get_seconds();
-        og::PathSimplifier(planner, setup.getGoal()).simplifyMax(setup.getSolutionPath());
-        into.shortened.push_back(get_seconds() - found);
-        into.solved++;
-        judge(of, *space, setup.getSolutionPath(), into);
-    }
-    if (who.peer) who.peer->destroy(self);
-}
-
-// ---- problems
-
-void set_positions(const ovoid::robot &robot, const ovoid_joint_position *items, std::size_t count,
-                   std::vector<double> &state) {
-    for (std::size_t i = 0; i < count; i++) {
-        const std::uint32_t joint = robot.find_joint(items[i].joint);
-        if (joint != OVOID_ROBOT_NONE && robot.joint_variable(joint) != OVOID_ROBOT_NONE)
-            state[robot.joint_variable(joint)] = items[i].position;
-    }
-}
-
-/// 0: it cannot be read, or does not have exactly one goal, or an end hits.
-bool open_problem(problem &of, machine *m, unsigned index) {
-    if (!robots_scene_create(&of.scene, m, index)) return false;
-    of.robot = ovoid::robot(m->robot);
-    of.cell = ovoid::robot_cell(of.scene.cell);
-    ovoid_error error;
-    ovoid_motion_request *request =
-        ovoid_motion_request_read(ovoid_problems_get(m->problems, index).request, nullptr, &error);
-    if (!request || ovoid_motion_request_get_goal_count(request) < 1) {
-        ovoid_motion_request_destroy(request);
-        return false;
-    }
-    std::size_t count;
-    of.start.assign(of.robot.variable_count(), 0);
-    const ovoid_joint_position *items = ovoid_motion_request_get_start(request, &count);
-    set_positions(of.robot, items, count, of.start);
-    of.goal = of.start;
-    items = ovoid_motion_request_get_goal(request, 0, &count);
-    set_positions(of.robot, items, count, of.goal);
-    for (std::size_t i = 0; i < count; i++)
-        of.moving.push_back(of.robot.joint_variable(of.robot.find_joint(items[i].joint)));
-    ovoid_motion_request_destroy(request);
-    auto checker = ovoid::robot_checker::create(of.cell);
-    for (const auto *end : {&of.start, &of.goal})
-        if (checker.collide({end->data(), end->size()}, make_options()).status != OVOID_ROBOT_FREE) return false;
-    return true;
-}
-
-void close_problem(problem &of, machine *m) {
-    (void)of.cell.release();
-    (void)of.robot.release();
-    robots_scene_destroy(&of.scene, m);
-}
-
-// ---- the table
-
-double get_median(std::vector<double> of) {
-    if (of.empty()) return NAN;
-    std::sort(of.begin(), of.end());
-    return of[of.size() / 2];
-}
-
-double get_sum(const std::vector<double> &of) {
-    double sum = 0;
-    for (const double x : of) sum += x;
-    return sum;
-}
-
-/// 0: one of ovoid's own paths is not proven.
-bool report(const char *robot, const std::vector<contestant> &who, const std::vector<results> &all) {
-    std::printf("\n| %s | plans | solved | ms to plan, median | s to plan, all | ms to shorten, median | proven free | "
-                "hits at a sample | hits between samples | open | deepest, mm |\n"
-                "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n",
-                robot);
-    for (std::size_t i = 0; i < who.size(); i++) {
-        const results &r = all[i];
-        if (r.planned.empty()) continue;
-        std::printf("| %s | %zu | %u | %.2f | %.3f | %.2f | %u | %u | %u | %u | %.2f |\n", who[i].name.c_str(),
-                    r.planned.size(), r.solved, 1e3 * get_median(r.planned), get_sum(r.planned),
-                    1e3 * get_median(r.shortened), r.proven, r.hit_at_samples, r.hit_between, r.open, 1e3 * r.deepest);
-    }
-    return all[0].proven == all[0].solved;
-}
-
-bool run_robot(const machine_files &files, const std::vector<contestant> &who, const settings &how) {
+bool run_robot(const machine_files &files, const std::vector<contestant> &who, const settings &how,
+               std::vector<sheet> &into) {
     machine m;
     if (!machine_read(&m, how.data, &files)) return true;
     const unsigned scenes = machine_count_scenes(&m), count = std::min(scenes, how.scenes);
     unsigned left_out = 0;
-    std::vector<results> all(who.size());
+    bool is_good = true;
+    into.push_back({m.name, std::vector<outcomes>(who.size())});
     for (unsigned i = 0; i < count; i++) {
         problem of;
-        if (open_problem(of, &m, unsigned(std::uint64_t(i) * scenes / count))) {
-            for (unsigned seed = 1; seed <= how.seeds; seed++)
-                for (std::size_t k = 0; k < who.size(); k++) {
-                    const std::size_t turn = (k + i) % who.size();
-                    plan(of, who[turn], seed, how, all[turn]);
-                }
-        } else {
+        if (problem_open(of, &m, unsigned(std::uint64_t(i) * scenes / count)))
+            is_good = run_problem(of, &m, who, how, into.back()) && is_good;
+        else
             left_out++;
-        }
-        close_problem(of, &m);
+        problem_close(of, &m);
     }
-    const bool is_good = report(m.name, who, all);
+    is_good = report(into.back(), who) && is_good;
     std::printf("%u of %u problems, %u of them left out: an end hits, or there is no goal\n", count, scenes, left_out);
     machine_destroy(&m);
     return is_good;
 }
 
+// ---- options
+
+bool set_planner(settings &how, const char *name) {
+    how.is_bit_star = std::strcmp(name, "BITstar") == 0;
+    return how.is_bit_star || std::strcmp(name, "RRTConnect") == 0;
+}
+
+/// An option with a value.
+bool set_option(settings &how, const char *name, const char *value) {
+    const struct {
+        const char *name, **text;
+    } texts[] = {{"--robot", &how.only},
+                 {"--data", &how.data},
+                 {"--csv", &how.csv},
+                 {"--svg", &how.svg},
+                 {"--edges", &how.edges}};
+    for (const auto &one : texts)
+        if (std::strcmp(name, one.name) == 0) return *one.text = value, true;
+    if (std::strcmp(name, "--scenes") == 0) return (how.scenes = unsigned(std::strtoul(value, nullptr, 10))) > 0;
+    if (std::strcmp(name, "--seeds") == 0) return (how.seeds = unsigned(std::strtoul(value, nullptr, 10))) > 0;
+    if (std::strcmp(name, "--seconds") == 0) return (how.seconds = std::strtod(value, nullptr)) > 0;
+    if (std::strcmp(name, "--peer") == 0) return robots_field_load(&how.modules, value) != 0;
+    return std::strcmp(name, "--planner") == 0 && set_planner(how, value);
+}
+
 bool read_options(int count, char **words, settings &how) {
     for (int i = 1; i < count; i++) {
-        const char *value = i + 1 < count ? words[i + 1] : nullptr;
-        if (std::strcmp(words[i], "--smoke") == 0) {
+        if (std::strcmp(words[i], "--smoke") == 0)
             how.scenes = 1;
-            continue;
-        }
-        if (std::strcmp(words[i], "--alone") == 0) {
+        else if (std::strcmp(words[i], "--alone") == 0)
             how.is_alone = true;
-            continue;
-        }
-        if (!value) return false;
-        if (std::strcmp(words[i], "--scenes") == 0)
-            how.scenes = unsigned(std::strtoul(value, nullptr, 10));
-        else if (std::strcmp(words[i], "--seeds") == 0)
-            how.seeds = unsigned(std::strtoul(value, nullptr, 10));
-        else if (std::strcmp(words[i], "--seconds") == 0)
-            how.seconds = std::strtod(value, nullptr);
-        else if (std::strcmp(words[i], "--robot") == 0)
-            how.only = value;
-        else if (std::strcmp(words[i], "--data") == 0)
-            how.data = value;
-        else if (std::strcmp(words[i], "--peer") == 0 && robots_field_load(&how.modules, value))
-            ;
-        else if (std::strcmp(words[i], "--planner") == 0 && std::strcmp(value, "RRTConnect") == 0)
-            how.is_bit_star = false;
-        else if (std::strcmp(words[i], "--planner") == 0 && std::strcmp(value, "BITstar") == 0)
-            how.is_bit_star = true;
-        else
+        else if (i + 1 == count || !set_option(how, words[i], words[i + 1]))
             return false;
-        i++;
+        else
+            i++;
     }
-    return how.scenes > 0 && how.seeds > 0 && how.seconds > 0;
+    return true;
+}
+
+std::vector<contestant> make_contestants(const settings &how) {
+    // Hulls as ovoid has them; FCL's second contestant.
+    const robot_peer *convex = bench_get_robot_peers()[1];
+    std::vector<contestant> who = {{"ovoid, proven", nullptr, 0}};
+    if (!how.is_alone)
+        for (const auto &[name, part] : {std::pair{"FCL convex, 1 %", 0.01}, {"FCL convex, 0.5 %", 0.005}})
+            who.push_back({name, convex, part});
+    for (std::uint32_t i = 0; i < how.modules.count; i++)
+        who.push_back({how.modules.peers[i]->name, how.modules.peers[i], 0.005});
+    return who;
 }
 
 } // namespace
@@ -372,17 +158,14 @@ int main(int count, char **words) {
     if (!read_options(count, words, how)) return std::fputs(help, stderr), 2;
     ompl::msg::setLogLevel(ompl::msg::LOG_NONE);
     (void)std::setvbuf(stdout, nullptr, _IOLBF, 0);
-    // Hulls as ovoid has them; FCL's second contestant.
-    const robot_peer *convex = bench_get_robot_peers()[1];
-    std::vector<contestant> who = {{"ovoid, proven", nullptr, 0}};
-    if (!how.is_alone)
-        for (const auto &[name, part] : {std::pair{"FCL convex, 1 %", 0.01}, {"FCL convex, 0.5 %", 0.005}})
-            who.push_back({name, convex, part});
-    for (std::uint32_t i = 0; i < how.modules.count; i++)
-        who.push_back({how.modules.peers[i]->name, how.modules.peers[i], 0.005});
-    std::printf("%s, OMPL; %s\n", how.is_bit_star ? "BITstar" : "RRTConnect", get_build());
+    const std::vector<contestant> who = make_contestants(how);
+    const char *name = how.is_bit_star ? "BITstar" : "RRTConnect";
+    std::printf("%s, OMPL; %s\n", name, get_build());
+    std::vector<sheet> robots;
     bool is_good = true;
     for (const auto &robot : files)
-        if (std::strstr(robot.name, how.only)) is_good = run_robot(robot, who, how) && is_good;
+        if (std::strstr(robot.name, how.only)) is_good = run_robot(robot, who, how, robots) && is_good;
+    if (how.csv && !write_csv(how.csv, robots, who)) is_good = false;
+    if (how.svg && !robots.empty() && !write_svg(how.svg, robots, who, name)) is_good = false;
     return is_good ? 0 : 1;
 }
