@@ -204,6 +204,12 @@ bool plan(const problem &of, const contestant &who, const settings &how, outcome
     setup.setStartAndGoalStates(from, to);
     setup.setPlanner(make_planner(how, planner));
     setup.setup();
+    if (!planner->isValid(from.get()) || !planner->isValid(to.get())) {
+        // OMPL would sleep until the goal changes.
+        into.end = path_end::refused;
+        if (who.peer) who.peer->destroy(self);
+        return true;
+    }
     const double begun = get_seconds();
     const bool is_solved = solve(setup, how.seconds);
     into.planned = get_seconds() - begun;

@@ -31,8 +31,8 @@ struct contestant {
     double resolution;
 };
 
-/// The verdict on a path.
-enum class path_end { unsolved, proven, hit_at_sample, hit_between, open };
+/// The verdict on a path. refused: the contestant calls the start or the goal, which are proven free, a hit.
+enum class path_end { refused, unsolved, proven, hit_at_sample, hit_between, open };
 
 /// One plan of one contestant. Times in seconds; depth in metres: the deepest proven overlap of the path.
 struct outcome {

@@ -19,11 +19,12 @@ double get_median(std::vector<double> of) {
     return of[of.size() / 2];
 }
 
-/// A value of each plan; of the solved ones alone, where wanted.
+/// A value of each plan whose ends were not refused; of the solved ones alone, where wanted.
 template <class Get> std::vector<double> collect(const outcomes &of, bool only_solved, Get get) {
     std::vector<double> values;
     for (const outcome &plan : of)
-        if (!only_solved || plan.end != path_end::unsolved) values.push_back(get(plan));
+        if (plan.end > path_end::unsolved || (!only_solved && plan.end == path_end::unsolved))
+            values.push_back(get(plan));
     return values;
 }
 
@@ -33,6 +34,7 @@ std::size_t count_ends(const outcomes &of, path_end end) {
 
 const char *get_name(path_end end) {
     switch (end) {
+    case path_end::refused: return "an end refused";
     case path_end::unsolved: return "unsolved";
     case path_end::proven: return "free";
     case path_end::hit_at_sample: return "hit at a sample";
@@ -59,9 +61,10 @@ line make_line(const outcomes &of) {
 } // namespace
 
 bool report(const sheet &of, const std::vector<contestant> &who) {
-    std::printf("\n| %s | plans | solved | ms to plan, median | s to plan, all | ms to shorten, median | proven free | "
+    std::printf("\n| %s | plans | ends refused | solved | ms to plan, median | s to plan, all | ms to shorten, median "
+                "| proven free | "
                 "hits at a sample | hits between samples | open | deepest, mm |\n"
-                "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n",
+                "|---|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|---:|\n",
                 of.robot.c_str());
     for (std::size_t i = 0; i < who.size(); i++) {
         const outcomes &r = of.all[i];
@@ -69,12 +72,13 @@ bool report(const sheet &of, const std::vector<contestant> &who) {
         const auto planned = collect(r, false, [](const outcome &plan) { return plan.planned; });
         const auto shortened = collect(r, true, [](const outcome &plan) { return plan.shortened; });
         const auto depths = collect(r, false, [](const outcome &plan) { return plan.depth; });
-        std::printf("| %s | %zu | %zu | %.2f | %.3f | %.2f | %zu | %zu | %zu | %zu | %.2f |\n", who[i].name.c_str(),
-                    r.size(), shortened.size(), 1e3 * get_median(planned),
-                    std::accumulate(planned.begin(), planned.end(), 0.0), 1e3 * get_median(shortened),
-                    count_ends(r, path_end::proven), count_ends(r, path_end::hit_at_sample),
-                    count_ends(r, path_end::hit_between), count_ends(r, path_end::open),
-                    1e3 * *std::max_element(depths.begin(), depths.end()));
+        std::printf("| %s | %zu | %zu | %zu | %.2f | %.3f | %.2f | %zu | %zu | %zu | %zu | %.2f |\n",
+                    who[i].name.c_str(), r.size(), count_ends(r, path_end::refused), shortened.size(),
+                    1e3 * get_median(planned), std::accumulate(planned.begin(), planned.end(), 0.0),
+                    1e3 * get_median(shortened), count_ends(r, path_end::proven),
+                    count_ends(r, path_end::hit_at_sample), count_ends(r, path_end::hit_between),
+                    count_ends(r, path_end::open),
+                    1e3 * (depths.empty() ? 0 : *std::max_element(depths.begin(), depths.end())));
     }
     return count_ends(of.all[0], path_end::proven) + count_ends(of.all[0], path_end::unsolved) == of.all[0].size();
 }

@@ -322,6 +322,6 @@ def show(*items: Any, path: PathLike | None = None, title: str = "ovoid", unit: 
     return name
 
 
-def show_one(self: Any, **how: Any) -> str:
+def show_one(self: Any, path: PathLike | None = None, **how: Any) -> str:
     """ovoid.show of this alone: writes its page, opens the browser with it, and returns the page's path."""
-    return show(self, **how)
+    return show(self, path=path, **how)

@@ -201,6 +201,16 @@ static PyObject *array_tolist(PyObject *self, PyObject *ignored) {
     return list;
 }
 
+static PyObject *array_repr(PyObject *self) {
+    array_object *array = (array_object *)self;
+    PyObject *shape = PyTuple_New(array->axes);
+    for (int i = 0; shape && i < array->axes; i++) PyTuple_SetItem(shape, i, PyLong_FromSsize_t(array->shape[i]));
+    const char *what = array->kind <= RECORD_UINT64 ? "numbers" : "records";
+    PyObject *text = shape ? PyUnicode_FromFormat("<ovoid.Array of %s, shape %S: tolist()>", what, shape) : NULL;
+    Py_XDECREF(shape);
+    return text;
+}
+
 static PyMethodDef methods[] = {{"tolist", array_tolist, METH_NOARGS,
                                  "tolist() -> list[Any]\n--\n\nThe items as lists; records as dicts by their fields."},
                                 {NULL, NULL, 0, NULL}};
@@ -209,6 +219,7 @@ static PyType_Slot slots[] = {
     {Py_tp_doc, "Numbers or records of a result, where there is no NumPy. memoryview(array) and whatever reads buffers "
                 "take it; tolist() and, of numbers, indexing work."},
     {Py_tp_dealloc, array_dealloc},
+    {Py_tp_repr, array_repr},
     {Py_bf_getbuffer, array_getbuffer},
     {Py_mp_length, array_length},
     {Py_mp_subscript, array_subscript},

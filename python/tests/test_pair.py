@@ -336,6 +336,10 @@ class Arrays(unittest.TestCase):
             with self.assertRaises(TypeError, msg=bad.dtype):
                 ovoid.Shape.from_points(bad)
 
+    @unittest.skipIf(numpy, "with NumPy there are its arrays")
+    def test_repr_has_the_shape(self):
+        self.assertEqual(repr(BOX.vertices), "<ovoid.Array of numbers, shape (8, 3): tolist()>")
+
     def test_answers_are_neither_true_nor_false(self):
         """A status equals its word and raises for another; bool() of an answer raises with what to ask."""
         box, far = ovoid.Shape.box([1, 1, 1]), [3, 0, 0]

@@ -173,7 +173,7 @@ class Pages(Paged):
             self.assertEqual(opened.call_args[0][0], "file://" + path)
             self.assertEqual(BOX.show(path=self.get("box.html")), self.get("box.html"))
             self.assertEqual(opened.call_count, 2)
-            ovoid.distance(BOX, PILL, None, AWAY).show(path=self.get("box.html"), browser=False)
+            ovoid.distance(BOX, PILL, None, AWAY).show(self.get("box.html"), browser=False)
             self.assertEqual(opened.call_count, 2)
         self.assertEqual(len(self.read(self.get("box.html"))["bodies"]), 2)
 

@@ -44,7 +44,7 @@ export class Track {
   #describe(answer) {
     const { joints, model } = this, pair = answer.a ? `${joints.findTold(answer.a).name} and ${joints.findTold(answer.b).name} ${describeBracket(answer, model.unit)}` : '';
     switch (answer.status) {
-      case 'free': return `free at all times, proven by ${answer.steps} steps`;
+      case 'free': return `free at all times${model.data.margin > 0 ? `, by more than ${formatLength(model.data.margin, model.unit)}` : ''}, proven by ${answer.steps} steps`;
       case 'hit': return `hit first at s = ${formatMiddle(answer.free_until, answer.hit_at, '')}: ${pair}`;
       case 'refused': return `refused: state ${answer.refused}: ${this.#describeRefused(answer)}`;
       default: return pair ? `undecided from s ${format(answer.free_until)} on: ${pair}` : 'undecided: nothing is compared';

@@ -459,7 +459,8 @@ test('a path: what the tool proves of it is at the top, over s, and in its steps
   writeFileSync(join(folder, 'out.csv'), 'shoulder,elbow\n-0.5,0\n-0.5,-2.8\n');
   run('robot', 'path', ...startArm, '--states', 'out.csv', '--html', 'out.html');
   run('robot', 'path', ...startArm, '--states', 'free.csv', '--edges', '--html', 'edges.html');
-  for (const [file, said] of [['free.html', /^The path: free at all times, proven by \d+ steps$/], ['out.html', /^The path: refused: state 1: elbow -2.8 is outside its limits/], ['edges.html', /^1 edge: 1 free$/]]) {
+  run('robot', 'path', ...startArm, '--states', 'free.csv', '--margin', '0.01', '--html', 'margin.html');
+  for (const [file, said] of [['margin.html', /^The path: free at all times, by more than 0.01( m)?, proven by \d+ steps$/], ['free.html', /^The path: free at all times, proven by \d+ steps$/], ['out.html', /^The path: refused: state 1: elbow -2.8 is outside its limits/], ['edges.html', /^1 edge: 1 free$/]]) {
     const other = await open(file, flat);
     assert.match(await other.page.textContent('#whole'), said);
     assert.deepEqual(other.errors, []);
