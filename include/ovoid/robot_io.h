@@ -298,8 +298,9 @@ typedef struct ovoid_trajectory ovoid_trajectory;
  * trajectories follow one another: each begins at the time at which the one before ended. A first point at that time is
  * left out where it repeats that state, and refused where it does not. Velocities, accelerations, efforts and
  * tolerances are not used. Any other key is refused with its line, as are joints of several variables
- * (multi_dof_joint_trajectory), a start that holds an object, and points of which only some have times. options: note.
- * Errors: FILE, FORMAT, NOT_FINITE, EMPTY (no points), LIMIT, MEMORY.
+ * (multi_dof_joint_trajectory), a start that holds an object, points of which only some have times, and times that do
+ * not rise. A first point more than 0.01 from trajectory_start is a note. options: note. Errors: FILE, FORMAT,
+ * NOT_FINITE, EMPTY (no points), LIMIT, MEMORY.
  */
 OVOID_API ovoid_trajectory *ovoid_trajectory_read(const char *path, const ovoid_robot_read_options *options,
                                                   ovoid_error *error);

@@ -446,6 +446,30 @@ static void test_trajectory_kinds(void) {
     }
 }
 
+// A first point that is not where the trajectory is said to begin, which is told of, once.
+static void test_far_start(void) {
+    static const struct {
+        const char *text;
+        size_t notes;
+    } starts[] = {{"[a, b], position: [1.25, 2]", 1}, {"[b, a], position: [7, 1.25]", 1}, {"[a], position: [1.5]", 0},
+                  {"[a], position: [1.4901]", 0},     {"[a], position: [1.4899]", 1},     {"[c], position: [9]", 0}};
+    for (size_t i = 0; i < sizeof starts / sizeof *starts; i++) {
+        char text[300];
+        snprintf(text, sizeof text,
+                 "trajectory_start: {joint_state: {name: %s}}\ntrajectory:\n  - joint_names: [a, b]\n    points:\n"
+                 "      - {positions: [1.5, 2]}\n      - {positions: [9, 2]}\n",
+                 starts[i].text);
+        ovoid_robot_read_options options = make_read_options();
+        ovoid_trajectory *t = ovoid_trajectory_read(file_write_text("far.yaml", text), &options, NULL);
+        CHECK(t);
+        ovoid_trajectory_destroy(t);
+        CHECK_EQ(notes.count, starts[i].notes);
+        if (i == 0)
+            CHECK(has_note("far.yaml:5: a is 1.25 in trajectory_start, 1.5 in the first point: the way between is not "
+                           "checked"));
+    }
+}
+
 #define POINTS "joint_names: [a]\npoints:\n"
 static const bad_input trajectories[] = {
     {"list.yaml", "[1]\n", 1, "this is no trajectory"},
@@ -463,6 +487,12 @@ static const bad_input trajectories[] = {
      "1e+09 nanoseconds are not between"},
     {"nsecs.yaml", POINTS "  - positions: [1]\n    time_from_start: {secs: 1, nsecs: -1}\n", 4,
      "-1 nanoseconds are not between"},
+    {"back.yaml", POINTS "  - {positions: [1], time_from_start: 1}\n  - {positions: [1], time_from_start: 0.5}\n", 4,
+     "point 1: its time, 0.5 s, is not after that of the point before, 1 s"},
+    {"still.yaml",
+     POINTS "  - {positions: [1], time_from_start: 0}\n  - {positions: [1], time_from_start: 2}\n"
+            "  - {positions: [3], time_from_start: 2}\n",
+     5, "point 2: its time, 2 s, is not after that of the point before, 2 s"},
     {"infinite.yaml", POINTS "  - {positions: [1e999]}\n", 3, "is not finite", OVOID_ERROR_NOT_FINITE},
     {"key.yaml", POINTS "  - {positions: [1], jerk: [1]}\n", 3, "\"jerk\" is no key"},
     {"floats.yaml", "multi_dof_joint_trajectory: {joint_names: [world], points: []}\n", 1, "moves joint \"world\""},
@@ -567,6 +597,7 @@ int main(void) {
     test_trajectory();
     test_joined_trajectories();
     test_trajectory_kinds();
+    test_far_start();
     check_bad_inputs(trajectories, sizeof trajectories / sizeof *trajectories, accepts_trajectory);
     check_bad_inputs(requests, sizeof requests / sizeof *requests, accepts_request);
     test_problems();

@@ -7,10 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// A trajectory that begins farther than this from its trajectory_start, in radians or metres, is told of; MoveIt's
-/// default of allowed_start_tolerance.
-#define START_TOLERANCE 0.01
-
 // ---- requests
 
 /// The numbers that a request gives; `state` has those that it does not.
@@ -94,19 +90,6 @@ static int find_variables(reader *r, const ovoid_joint_position *point, size_t c
     return 1;
 }
 
-/// Tells of a first point that is elsewhere than the state in which the trajectory is said to begin; r->defaults.
-static void compare_start(const reader *r, const char *path, const ovoid_joint_position *point,
-                          const point_variables *v) {
-    for (size_t i = 0; i < v->count; i++) {
-        if (v->items[i] >= COLUMN_FOLLOWS) continue;
-        double start = r->defaults[v->items[i]];
-        if (fabs(point[i].position - start) <= START_TOLERANCE) continue;
-        message_warning("%s: %s is %.9g in trajectory_start, %.9g in the first point: the way between is not checked",
-                        path, point[i].joint, start, point[i].position);
-        return;
-    }
-}
-
 /// The state in which the trajectory begins; joints that a point does not name stay there. 0 with r->why filled.
 static int read_start(reader *r, const ovoid_trajectory *trajectory, point_variables *v) {
     size_t count;
@@ -140,7 +123,7 @@ static int read_points(reader *r, const ovoid_trajectory *trajectory, const char
     size_t n = r->states->variable_count, count, points = ovoid_trajectory_get_count(trajectory);
     unsigned char *in_start = malloc(n + 1);
     if (!in_start) return message_error("out of memory"), EXIT_INPUT;
-    int code = 0, is_good = read_start(r, trajectory, v), has_start = is_good && v->count > 0;
+    int code = 0, is_good = read_start(r, trajectory, v);
     if (!is_good) message_error("%s: trajectory_start: %s", path, r->why), code = EXIT_INPUT;
     memcpy(in_start, r->given, n);
     for (size_t i = 0; i < points && !code; i++) {
@@ -150,7 +133,6 @@ static int read_points(reader *r, const ovoid_trajectory *trajectory, const char
             code = EXIT_INPUT;
             break;
         }
-        if (!i && has_start) compare_start(r, path, point, v);
         if (!i) report_first(r, path, in_start);
         code = add_point(r, trajectory, i, v);
     }

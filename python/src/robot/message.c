@@ -48,13 +48,8 @@ static PyObject *read_motion_request(PyObject *module, PyObject *given) {
 
 // ---- trajectories
 
-/// A trajectory that begins farther than this from its trajectory_start is told of, as the tool does.
-#define START_TOLERANCE 0.01
-
 /// A trajectory, and what its file says up to the point at hand: the start and the points before.
 typedef struct trajectory_walk {
-    module_state *state;
-    const char *path;
     const ovoid_trajectory *trajectory;
     PyObject *points, *last; ///< a list of dicts, and a dict
 } trajectory_walk;
@@ -63,45 +58,10 @@ static PyObject *make_time(const void *trajectory, size_t i) {
     return PyFloat_FromDouble(ovoid_trajectory_get_time(trajectory, i));
 }
 
-// Tells of a first point that is elsewhere than the state in which the trajectory is said to begin.
-static int compare_start(const trajectory_walk *w, const ovoid_joint_position *point, size_t count) {
-    for (size_t i = 0; i < count; i++) {
-        PyObject *start = PyDict_GetItemString(w->last, point[i].joint);
-        if (!start || fabs(point[i].position - PyFloat_AsDouble(start)) <= START_TOLERANCE) continue;
-        PyObject *first = PyFloat_FromDouble(point[i].position);
-        PyObject *text = first ? PyUnicode_FromFormat("%s: %s is %R in trajectory_start, %R in the first point: the "
-                                                      "way between is not checked",
-                                                      w->path, point[i].joint, start, first)
-                               : NULL;
-        int failed = !text || PyErr_WarnFormat(PyExc_UserWarning, 1, "%U", text);
-        Py_XDECREF(text);
-        Py_XDECREF(first);
-        return failed ? -1 : 0;
-    }
-    return 0;
-}
-
-// Paths in time go forwards, as the tool wants them.
-static int check_time(const trajectory_walk *w, size_t i) {
-    if (!i || isnan(ovoid_trajectory_get_time(w->trajectory, i)) ||
-        ovoid_trajectory_get_time(w->trajectory, i) > ovoid_trajectory_get_time(w->trajectory, i - 1))
-        return 0;
-    PyObject *time = make_time(w->trajectory, i), *before = time ? make_time(w->trajectory, i - 1) : NULL;
-    Py_ssize_t line = (Py_ssize_t)ovoid_trajectory_get_line(w->trajectory, i);
-    if (before)
-        raise_code(w->state, OVOID_ERROR_FORMAT, line,
-                   "%s:%zd: point %zu: its time, %R s, is not after that of the point before, %R s", w->path, line, i,
-                   time, before);
-    Py_XDECREF(before);
-    Py_XDECREF(time);
-    return -1;
-}
-
 // A point names all joints that the start, a point before or itself names.
 static int add_point(trajectory_walk *w, size_t i) {
     size_t count;
     const ovoid_joint_position *point = ovoid_trajectory_get_point(w->trajectory, i, &count);
-    if (check_time(w, i) || (!i && compare_start(w, point, count))) return -1;
     PyObject *own = make_positions(point, count), *whole = own ? PyDict_Copy(w->last) : NULL;
     int failed = !whole || PyDict_Update(whole, own) || PyList_Append(w->points, whole);
     Py_XDECREF(own);
@@ -114,11 +74,11 @@ static int add_point(trajectory_walk *w, size_t i) {
     return 0;
 }
 
-static PyObject *make_trajectory(module_state *state, const char *path, const ovoid_trajectory *trajectory) {
+static PyObject *make_trajectory(module_state *state, const ovoid_trajectory *trajectory) {
     size_t count, points = ovoid_trajectory_get_count(trajectory);
     const ovoid_joint_position *positions = ovoid_trajectory_get_start(trajectory, &count);
     PyObject *start = make_positions(positions, count), *made = NULL;
-    trajectory_walk walk = {state, path, trajectory, start ? PyList_New(0) : NULL, Py_XNewRef(start)};
+    trajectory_walk walk = {trajectory, start ? PyList_New(0) : NULL, Py_XNewRef(start)};
     int failed = !walk.points;
     for (size_t i = 0; i < points && !failed; i++) failed = add_point(&walk, i);
     if (!failed)
@@ -140,8 +100,7 @@ static PyObject *read_trajectory(PyObject *module, PyObject *given) {
     ovoid_robot_read_options o = {.note = notes_gather, .context = &told};
     ovoid_trajectory *trajectory = ovoid_trajectory_read(PyBytes_AsString(path), &o, &error);
     module_state *state = state_of_module(module);
-    if (!notes_tell(&told))
-        made = trajectory ? make_trajectory(state, PyBytes_AsString(path), trajectory) : raise_error(state, &error);
+    if (!notes_tell(&told)) made = trajectory ? make_trajectory(state, trajectory) : raise_error(state, &error);
     ovoid_trajectory_destroy(trajectory);
     Py_DECREF(path);
     return made;

@@ -188,7 +188,7 @@ export class Track {
     this.legend.replaceChildren(
       ...this.#listVerdicts().flatMap(([kind, text]) => [element('span', { className: `key ${kind}`, textContent: text }), ' ']),
       ...(this.path ? [this.isEdges ? '– the edges stand one after another. ' : '– s = 0.5 is halfway from state 0 to state 1. '] : []),
-      ...(this.path?.clearance ? ['Curve: the distance of the nearest pair, at samples. Rows: the steps of the proof', pair ? ` for ${pair.a.name} – ${pair.b.name}` : '', ': '] : []),
+      ...(this.path?.clearance ? [`Curve: the distance of the nearest pair, at samples${this.model.data.margin > 0 ? '; dashed: the margin' : ''}. Rows: the steps of the proof`, pair ? ` for ${pair.a.name} – ${pair.b.name}` : '', ': '] : []),
       ...[...kinds].flatMap((kind) => [element('span', { className: `key ${kind}`, textContent: KINDS[kind] }), ' ']),
     );
     this.#listSteps();

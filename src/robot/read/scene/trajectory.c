@@ -32,6 +32,10 @@ typedef struct trajectory_reader {
 
 static const ovoid_robot_read_options no_options;
 
+/// A trajectory that begins farther than this from its trajectory_start, in radians or metres, is told of: MoveIt's
+/// default of allowed_start_tolerance.
+static const double start_tolerance = 0.01;
+
 // ---- points
 
 // A duration in seconds: {secs, nsecs}, {sec, nanosec}, or a number; NULL: not given.
@@ -258,6 +262,40 @@ static ovoid_code join_trajectories(trajectory_reader *t) {
     return code;
 }
 
+// ---- what all faces want of a trajectory
+
+// Times rise: a path in time goes forwards.
+static ovoid_code check_times(const trajectory_reader *t) {
+    const trajectory_point *points = t->out->points;
+    for (size_t i = 1; i < t->out->count && t->out->has_times; i++) {
+        if (points[i].time > points[i - 1].time) continue;
+        return message_fail(&t->message, &(yaml_value){.line = points[i].line}, OVOID_ERROR_FORMAT,
+                            "point %zu: its time, %.9g s, is not after that of the point before, %.9g s", i,
+                            points[i].time, points[i - 1].time);
+    }
+    return OVOID_OK;
+}
+
+// Tells of the first joint that is elsewhere in the first point than in the state in which the trajectory is said to
+// begin.
+static ovoid_code compare_start(trajectory_reader *t) {
+    const position_list *start = &t->out->start, *first = &t->out->points[0].positions;
+    known_joints known = {.names.entries = pool_get(&t->message.scratch, start->count, sizeof *known.names.entries)};
+    if (!known.names.entries) return io_fail_memory(t->message.error, t->message.path);
+    add_names(&known, start);
+    (void)name_index_sort(&known.names);
+    for (size_t i = 0; i < first->count; i++) {
+        const ovoid_joint_position *joint = &first->items[i];
+        uint32_t number = name_index_find(&known.names, joint->joint);
+        if (number == UINT32_MAX || fabs(joint->position - start->items[number].position) <= start_tolerance) continue;
+        message_note(&t->message, &(yaml_value){.line = t->out->points[0].line},
+                     "%.60s is %.9g in trajectory_start, %.9g in the first point: the way between is not checked",
+                     joint->joint, start->items[number].position, joint->position);
+        break;
+    }
+    return OVOID_OK;
+}
+
 // Without times where none is given, or all are 0: the path was not given a speed.
 static void settle_times(ovoid_trajectory *o) {
     for (size_t i = 0; i < o->count; i++) o->has_times |= o->points[i].time != 0;
@@ -282,6 +320,8 @@ ovoid_trajectory *ovoid_trajectory_read(const char *path, const ovoid_robot_read
         code = message_fail(&t.message, root, OVOID_ERROR_EMPTY, "the trajectory has no points");
     settle_times(trajectory);
     if (!code) code = join_trajectories(&t);
+    if (!code) code = check_times(&t);
+    if (!code) code = compare_start(&t);
     pool_clear(&t.message.scratch);
     if (!code) return trajectory;
     ovoid_trajectory_destroy(trajectory);
