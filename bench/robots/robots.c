@@ -64,6 +64,7 @@ static void report(robots_run *run, rows *all, double obstacles) {
     tallies_report(&run->free_states, all, make_title(m, "random states, free"), "ns", obstacles);
     tallies_report(&run->hit_states, all, make_title(m, "random states, hits"), "ns", obstacles);
     tallies_report(&run->along, all, make_title(m, "states along free edges"), "ns", obstacles);
+    tallies_report(&run->covers, all, make_title(m, "covers of a cell, made by its first edge"), "us", obstacles);
     for (int k = 0; k < 3; k++) {
         tallies_report(&run->edges[k], all, make_title(m, edges[0][k]), "us", obstacles);
         tallies_report(&run->hit_edges[k], all, make_title(m, edges[1][k]), "us", obstacles);

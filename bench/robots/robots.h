@@ -122,6 +122,7 @@ typedef struct robots_run {
     machine *machine;
     const robots_plan *plan;
     tallies free_states, hit_states, along, monitor;
+    tallies covers;                 ///< what the first edge of a cell costs more than the same again
     tallies edges[3], hit_edges[3]; ///< by length
     double wrong, judged;           ///< of ovoid's answers
     double open;                    ///< states whose truth is open

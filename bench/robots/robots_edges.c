@@ -160,10 +160,12 @@ void robots_run_edges(robots_run *run, robots_scene *s, rival *rivals, uint32_t 
     double *q = malloc(sizeof *q * 3 * (m->variable_count + 1));
     ovoid_pose *links = malloc(sizeof *links * m->link_count);
     edge e = {.q = q};
-    // The first search allocates the checker's memory for paths.
-    if (q && links && draw_edge(run, s, &e, 0.1))
-        (void)ovoid_robot_path_find_hit(s->checker, &(ovoid_robot_path_query){&(ovoid_robot_path){q, 2}, NULL},
-                                        &e.answer, NULL);
+    // The first search of a checker allocates its memory for paths, and the first by covers makes them.
+    if (q && links && draw_edge(run, s, &e, 0.1)) {
+        (void)ask(s, &e, 0, &e.answer);
+        double first = ask(s, &e, 1, &e.answer), second = ask(s, &e, 1, &e.answer);
+        if (second >= 0) tally_add(tallies_get(&run->covers, "ovoid"), first - second);
+    }
     for (uint32_t i = 0; q && links && i < 3 * run->plan->edges; i++) {
         uint32_t length = i % 3;
         if (!draw_edge(run, s, &e, lengths[length])) break;
