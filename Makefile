@@ -91,7 +91,7 @@ soak-solid: ## solids before the exact judge and beside brute force, a million a
 	@$(call build,build,test_judge_solid)
 	@$(BUILD)/tests/test_judge_solid --answers 1e6 --seed $$(date +%s)
 
-soak-robot: ## states and edges of robots before a judge in long double, 10^7 and 10^5 of each kind, some hours
+soak-robot: ## states and edges of robots before a judge in long double, 10^7 and 10^5 of each kind, half an hour
 	@$(call build,build,test_robot_judge)
 	@$(BUILD)/tests/test_robot_judge --states 1e7 --edges 1e5 --seed $$(date +%s)
 
