@@ -1,4 +1,4 @@
-// The joints that move are those of a group; without one, all that a planner can move.
+// The joints that move are those of a group, or are named; without either, all that a planner can move.
 #include "plan/ends.h"
 
 #include "base/message.h"
@@ -58,12 +58,50 @@ static int add_group_of_request(const cli_cell *cell, const char *path, plan_end
     return code;
 }
 
+static int is_moving(const plan_ends *ends, size_t variable) {
+    for (size_t i = 0; i < ends->moving_count; i++)
+        if (ends->moving[i] == variable) return 1;
+    return 0;
+}
+
+/// The group or the joint whose name is nearest to this word; NULL: none is near.
+static const char *find_similar(const cli_cell *cell, const char *word) {
+    enum { WORDS_MAX = 256 };
+    const char *words[WORDS_MAX];
+    size_t count = 0, groups = ovoid_robot_file_get_group_count(cell->robot.file);
+    for (size_t i = 0; i < groups && count < WORDS_MAX; i++)
+        words[count++] = ovoid_robot_file_get_group(cell->robot.file, i).name;
+    for (size_t i = 0; i < cell->description.joint_count && count < WORDS_MAX; i++)
+        words[count++] = cell->description.joints[i].name;
+    return args_find_similar(word, words, count);
+}
+
+/// Adds the joints of --moving: a group, or names with commas between them. 0, or an exit code after a message.
+static int add_named(const cli_command *command, const char *names, const cli_cell *cell, plan_ends *ends) {
+    if (add_group(cell, names, ends)) return 0;
+    char *text = strdup(names), *rest = NULL;
+    int code = text ? 0 : (message_error("out of memory"), EXIT_INPUT);
+    for (char *word = text ? strtok_r(text, ",", &rest) : NULL; word && !code; word = strtok_r(NULL, ",", &rest)) {
+        uint32_t joint = ovoid_robot_find_joint(cell->robot.robot, word);
+        const char *similar = joint == OVOID_ROBOT_NONE ? find_similar(cell, word) : NULL;
+        if (joint == OVOID_ROBOT_NONE)
+            code = args_complain(command, "%s: --moving %s: neither a group of the SRDF nor a joint is named %s%s%s%s",
+                                 command->name, names, word, similar ? "; did you mean " : "", similar ? similar : "",
+                                 similar ? "?" : "");
+        else if (cell->description.joints[joint].mimic != OVOID_ROBOT_NONE)
+            code = args_complain(command, "%s: --moving %s: %s follows another joint", command->name, names, word);
+        else if (!is_moving(ends, ovoid_robot_get_joint_variable(cell->robot.robot, joint)))
+            add_joint(cell, joint, ends);
+    }
+    free(text);
+    return code;
+}
+
 static int find_moving(const cli_command *command, const plan_settings *s, const cli_cell *cell, plan_ends *ends) {
     ends->moving = malloc((ovoid_robot_get_variable_count(cell->robot.robot) + 1) * sizeof *ends->moving);
     if (!ends->moving) return message_error("out of memory"), EXIT_INPUT;
-    if (s->moving && !add_group(cell, s->moving, ends))
-        return args_complain(command, "%s: --moving %s: the SRDF has no such group", command->name, s->moving);
-    int code = s->moving ? 0 : add_group_of_request(cell, s->states.request, ends);
+    int code =
+        s->moving ? add_named(command, s->moving, cell, ends) : add_group_of_request(cell, s->states.request, ends);
     if (code || ends->moving_count) return code;
     message_error("no joint moves: a group without joints that a planner can move");
     return EXIT_INPUT;
@@ -71,20 +109,15 @@ static int find_moving(const cli_command *command, const plan_settings *s, const
 
 // ---- the states
 
-static int is_moving(const plan_ends *ends, size_t variable) {
-    for (size_t i = 0; i < ends->moving_count; i++)
-        if (ends->moving[i] == variable) return 1;
-    return 0;
-}
-
 /// A goal is where the start is in all that stands still. 0, or EXIT_INPUT after a message.
 static int check_still(const cli_cell *cell, const plan_ends *ends, const double *start, const double *goal) {
     char name[CELL_SIDE_ROOM];
     for (size_t i = 0; i < ovoid_robot_get_variable_count(cell->robot.robot); i++) {
         if (start[i] == goal[i] || is_moving(ends, i)) continue;
         cell_format_variable(name, cell, i);
-        message_error("the goal is %.9g in %s, the start %.9g, and the planner does not move it: --moving GROUP",
-                      goal[i], name, start[i]);
+        message_error(
+            "the goal is %.9g in %s, the start %.9g, and the planner does not move it: --moving tells what moves",
+            goal[i], name, start[i]);
         return EXIT_INPUT;
     }
     return 0;
@@ -116,7 +149,7 @@ static void report_end(const cli_cell *cell, size_t i, const ovoid_robot_answer 
     else
         message_error("the start: %s", why ? why : "out of memory");
     free(why);
-    if (answer->status == OVOID_ROBOT_HIT) cell_tell_links(cell, &answer->a, &answer->b);
+    if (cell_has_pair(answer)) cell_tell_links(cell, &answer->a, &answer->b);
     if (cell_is_outside(answer)) cell_tell_outside();
 }
 

@@ -38,6 +38,9 @@ int tally_add(tally *t, const ovoid_robot_answer *answer) {
     t->statuses[answer->status]++;
     t->empty += answer->status == OVOID_ROBOT_UNDECIDED && answer->code == OVOID_ERROR_EMPTY;
     t->outside += (size_t)cell_is_outside(answer);
+    int is_of_links =
+        cell_has_pair(answer) && answer->a.element != OVOID_ROBOT_NONE && answer->b.element != OVOID_ROBOT_NONE;
+    if (is_of_links && !t->links.count) t->links = (tally_pair){answer->a, answer->b, 1};
     if (answer->status != OVOID_ROBOT_HIT) return 1;
     const tally_pair pair = {answer->a, answer->b, 0};
     size_t at = find_place(t, &pair);
@@ -73,11 +76,7 @@ static void report_pairs(tally *t, const cli_cell *cell) {
         message_note("  %s, %s: %zu", a, b, t->pairs[i].count);
     }
     if (t->pair_count > REPORTED_MAX) message_note("  and %zu more pairs", t->pair_count - REPORTED_MAX);
-    for (size_t i = 0; i < t->pair_count; i++)
-        if (t->pairs[i].b.element != OVOID_ROBOT_NONE) {
-            cell_tell_links(cell, &t->pairs[i].a, &t->pairs[i].b);
-            break;
-        }
+    if (t->links.count) cell_tell_links(cell, &t->links.a, &t->links.b);
 }
 
 void tally_report(tally *t, const cli_cell *cell, double seconds) {

@@ -15,6 +15,7 @@ typedef struct tally {
     size_t statuses[4]; ///< by ovoid_robot_status
     size_t empty;       ///< of the undecided, those of which nothing is compared
     size_t outside;     ///< of the refused, those outside their limits
+    tally_pair links;   ///< the first two links that touch or may touch; count 0: none do
     tally_pair *pairs;
     size_t pair_count, capacity;
 } tally;

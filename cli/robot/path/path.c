@@ -194,7 +194,8 @@ static int run_paths(const settings *s, path_run *run) {
     if (code == EXIT_INPUT || code == EXIT_PIPE) return code;
     int drawn = draw(s, run);
     report_counts(s, &counts, states, seconds);
-    if (!s->edges && r->answer.status == OVOID_ROBOT_HIT) cell_tell_links(r->cell, &r->answer.hit.a, &r->answer.hit.b);
+    if (!s->edges && r->answer.status != OVOID_ROBOT_FREE && cell_has_pair(&r->answer.hit))
+        cell_tell_links(r->cell, &r->answer.hit.a, &r->answer.hit.b);
     return drawn ? drawn : code;
 }
 

@@ -17,9 +17,10 @@ static const cli_option options[] = {
     STATES_OPTIONS(plan_settings),
     CELL_OPTIONS(plan_settings),
     ATTACH_OPTION(plan_settings),
-    {"moving", 0, OPTION_TEXT, offsetof(plan_settings, moving), "GROUP", NULL,
-     "the joints of this group of the SRDF move, all others stand still (default: the group of the request, where the "
-     "SRDF has it; else all joints but floating ones and lengths without limits)"},
+    {"moving", 0, OPTION_TEXT, offsetof(plan_settings, moving), "WHAT", NULL,
+     "the joints of this group of the SRDF move, or the joints \"NAME,...\", all others stand still (default: the "
+     "group "
+     "of the request, where the SRDF has it; else all joints but floating ones and lengths without limits)"},
     {"planner", 0, OPTION_CHOICE, offsetof(plan_settings, planner), "NAME", "rrtconnect|biest",
      "the planner of OMPL: rrtconnect or biest (default: rrtconnect)"},
     {"time", 0, OPTION_POSITIVE, offsetof(plan_settings, seconds), "S", NULL,
