@@ -220,7 +220,7 @@ export class View {
   /** The camera on a ball, from where it looks now. */
   fit(ball, direction) {
     const isAll = !ball, { center, radius } = ball ?? this.model.roomBall;
-    const from = direction ?? (this.isFit ? this.camera.position.clone().sub(this.controls.target) : new Vector3(1, -1.6, 0.9));
+    const from = direction ?? (this.isFit ? this.camera.position.clone().sub(this.controls.target) : this.#findDirection());
     const target = new Vector3(...center), distance = isAll ? this.#measureDistance(target, from.normalize()) : this.#halfAngles.reduce((most, half) => Math.max(most, (radius * 1.15) / Math.sin(half)), 0);
     this.flyTo(target.clone().addScaledVector(from.normalize(), distance), target, !this.isFit);
     this.isFit = true;
@@ -230,6 +230,18 @@ export class View {
   fitAnew() {
     this.isFit = false;
     this.fit();
+  }
+
+  // From where the picture is first seen: from the front right, or where obstacles would hide a robot, from its side of them.
+  #findDirection() {
+    const { bodies } = this.model, middle = new Vector3(), first = new Vector3(1, -1.6, 0.9), links = bodies.filter((b) => b.link !== undefined);
+    if (!links.length || links.length === bodies.length) return first;
+    for (const body of bodies) middle.addScaledVector(new Vector3(...body.center), body.link === undefined ? -1 / (bodies.length - links.length) : 1 / links.length);
+    middle.z = 0;
+    if (middle.length() < 0.2 * this.model.roomBall.radius) return first;
+    const rate = (d) => d.dot(middle) / (d.length() * middle.length());
+    const others = [[-1, -1.6], [1, 1.6], [-1, 1.6]].map(([x, y]) => new Vector3(x, y, 0.9));
+    return others.reduce((best, d) => (rate(d) > rate(best) + 0.1 ? d : best), first);
   }
 
   // Half of the angles that the picture is wide and high.
