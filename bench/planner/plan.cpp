@@ -120,7 +120,8 @@ double find_depth(ovoid::robot_checker &checker, const std::vector<double> &stat
     return deepest;
 }
 
-/// Does a state hit that OMPL's discrete motion validator looks at along this path?
+/// Does a state hit that OMPL's discrete motion validator would look at along this path? It need not have: shortening
+/// keeps parts of motions, whose samples are elsewhere, without another look.
 bool is_sample_hit(ovoid::robot_checker &checker, const ovoid::robot_space &space, const og::PathGeometric &path) {
     std::vector<double> q(space.robot().variable_count());
     ob::ScopedState<ovoid::robot_space> at(path.getSpaceInformation());

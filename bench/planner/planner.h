@@ -1,7 +1,7 @@
 // bench_planner: planners of OMPL on the planning problems of MotionBenchMaker, with ovoid's proofs and with states
 // sampled by peers, by the same seeds. Every path is then proven or refuted by ovoid. Paths that a sampling peer calls
-// free and that hit are counted in two groups: a state that the peer looked at hits, or only states between them do.
-// Times are processor time of the thread, so that other work on the machine disturbs them less.
+// free and that hit are counted in two groups: a state hits at which OMPL would sample the final path, or only states
+// between these do. Times are processor time of the thread, so that other work on the machine disturbs them less.
 #ifndef OVOID_BENCH_PLANNER_PLANNER_H
 #define OVOID_BENCH_PLANNER_PLANNER_H
 
