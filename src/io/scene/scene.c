@@ -166,7 +166,8 @@ static ovoid_code read_root(scene_reader *r, json_t *root) {
     if (!scene_has_only(root, words, &unknown)) {
         const json_step step = {unknown, 0};
         where at = {r->path, json_find_line(r->file, &step, 1), -1};
-        return io_fail(r->error, OVOID_ERROR_FORMAT, at, "\"%.60s\" is not a key of scenes", unknown);
+        return io_fail(r->error, OVOID_ERROR_FORMAT, at,
+                       "\"%.60s\" is not a key of scenes, which have \"objects\", \"unit\" and \"ignore\"", unknown);
     }
     ovoid_code code = read_unit(r, json_object_get(root, "unit"));
     if (!code) code = read_objects(r, json_object_get(root, "objects"));
