@@ -452,7 +452,8 @@ static void test_far_start(void) {
         const char *text;
         size_t notes;
     } starts[] = {{"[a, b], position: [1.25, 2]", 1}, {"[b, a], position: [7, 1.25]", 1}, {"[a], position: [1.5]", 0},
-                  {"[a], position: [1.4901]", 0},     {"[a], position: [1.4899]", 1},     {"[c], position: [9]", 0}};
+                  {"[a], position: [1.4901]", 0},     {"[a], position: [1.4899]", 1},     {"[c], position: [9]", 0},
+                  {"[a], position: [1.75]", 1}};
     for (size_t i = 0; i < sizeof starts / sizeof *starts; i++) {
         char text[300];
         snprintf(text, sizeof text,
