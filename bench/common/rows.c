@@ -30,8 +30,9 @@ int rows_write_csv(const rows *all, const char *path) {
                   get_build());
     for (uint32_t i = 0; i < all->count; i++) {
         const row *r = &all->items[i];
-        (void)fprintf(file, "\"%s\",\"%s\",%s,%.0f,%s,%.6g,%.6g,%.6g,%.6g,%.6g,%.0f,%.0f\n", r->chart, r->line, r->x_name,
-                      r->x, r->y_name, r->y.median, r->y.low, r->y.high, r->y.least, r->y.mean, r->judged, r->wrong);
+        (void)fprintf(file, "\"%s\",\"%s\",%s,%.0f,%s,%.6g,%.6g,%.6g,%.6g,%.6g,%.0f,%.0f\n", r->chart, r->line,
+                      r->x_name, r->x, r->y_name, r->y.median, r->y.low, r->y.high, r->y.least, r->y.mean, r->judged,
+                      r->wrong);
     }
     return fclose(file) == 0;
 }
