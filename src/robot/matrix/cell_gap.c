@@ -53,15 +53,18 @@ static void add_turn(const cell_gap *g, const item_link *link, chain_motion *m) 
     m->d3 = (m->d3 + h * (3 * m->d2 + h * (3 * m->d1 + h * r))) * UP;
     m->d2 = (m->d2 + h * (2 * m->d1 + h * r)) * UP;
     m->d1 = (m->d1 + h * r) * UP;
-    // The second order of rounding is that of its first.
-    m->slack += h * (2 * error + 0x1p-45 * (item->far + vec3_sum_abs(position) + vec3_sum_abs(t->from)));
+    // What the term of the first order is off by. A term of the second order, of this joint and itself or one below it,
+    // is off by no more than this joint's half way times what the other one's term of the first order is off by.
+    double first = h * (2 * error + 0x1p-45 * (item->far + vec3_sum_abs(position) + vec3_sum_abs(t->from)));
+    m->rounded = (m->rounded + first) * UP;
+    m->slack = (m->slack + (first + h * m->rounded)) * UP;
 }
 
 static int sum_chain(const cell_gap *g, uint32_t item, uint32_t count, chain_motion *m) {
     const path_work *w = g->w;
     const item_link *links = w->links + w->first[item];
     m->item = item, m->links = count, m->count = 0;
-    m->d1 = m->d2 = m->d3 = m->sliding = m->slack = 0;
+    m->d1 = m->d2 = m->d3 = m->sliding = m->rounded = m->slack = 0;
     for (uint32_t i = 0; i < count; i++) {
         const step_speed *v = &w->speeds[links[i].step];
         if (v->turn > 0) {

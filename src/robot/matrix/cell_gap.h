@@ -20,7 +20,8 @@ typedef struct chain_motion {
     uint32_t item, links, count;      ///< count: of turns
     double d1, d2, d3;                ///< bounds of the derivatives of a vertex' place
     double sliding; ///< what joints that slide move: a slide only adds a vector, which those above turn
-    double slack;   ///< of rounding
+    double rounded; ///< what rounding does to the terms of the first order
+    double slack;   ///< what it does to all of them
 } chain_motion;
 
 /// A pair of items in a cell.
