@@ -54,7 +54,7 @@ tests_of() {
     io) echo "test_io_numbers test_io_json test_io_convexity test_io_motion test_io_scene test_io_pairs test_io_mesh test_io_limits test_io_results test_io_solid" ;;
     robot_read) echo "test_robot_urdf test_robot_srdf test_robot_packages test_robot_scenes test_robot_place test_robot_known" ;;
     robot_solid) echo "test_robot_solid test_robot_urdf test_robot_scenes test_cli.sh:robot_solid" ;;
-    robot_cover) echo "test_robot_cover test_robot_path" ;;
+    robot_cover) echo "test_robot_cover test_robot_edges test_robot_path test_robot_solid" ;;
     robot_compare) echo "test_robot_compare" ;;
     robot_watch) echo "test_robot_watch" ;;
     ompl) echo "test_hpp_ompl" ;;

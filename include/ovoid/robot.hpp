@@ -196,6 +196,19 @@ class robot_checker
         call(ovoid_robot_path_find_hit, &query, &found);
         return found;
     }
+    /**
+     * Many edges, each from a state to the next, two states after another; count: of edges. Throws ARGUMENT (also: the
+     * options have room for steps), MEMORY.
+     */
+    std::vector<ovoid_robot_path_answer> find_hit_batch(span<const double> states, std::size_t count,
+                                                        const ovoid_robot_path_options &o = robot_path_options()) {
+        std::vector<ovoid_robot_path_answer> answers(count);
+        const ovoid_robot_edge_batch batch = {states.data(), count, &o, answers.data()};
+        ovoid_robot_checker *self = get();
+        ovoid_error e;
+        detail::require(ovoid_robot_path_find_hit_batch(&self, 1, &batch, &e), e);
+        return answers;
+    }
     /** The smallest clearance of a path of `count` states, as a bracket. Throws ARGUMENT, MEMORY. */
     ovoid_robot_clearance compute_clearance(span<const double> states, std::size_t count,
                                             const ovoid_robot_path_options &o = robot_path_options()) {

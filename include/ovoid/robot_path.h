@@ -64,7 +64,8 @@ typedef struct ovoid_robot_path_options {
     int any_hit; /**< 1: any hit ends the search: some states are checked before anything is proven. Then hit_at need
                     not be the first hit, and free_until is what was proven so far, often 0. The answer whether the path
                     is free is the same as without it, and sooner if it is not. Without `steps`, covers prove most of
-                    it: sooner in both cases, if the bodies move far (docs/robot-path.md) */
+                    it: sooner in both cases, if the bodies move far (docs/robot-path.md), and the bracket of a hit may
+                    be as wide as that of ovoid_robot_collide */
 } ovoid_robot_path_options;
 
 /** A query of a path. */
@@ -84,7 +85,7 @@ typedef struct ovoid_robot_path_answer {
         refused; /**< REFUSED: the number of the refused state, or of the state at which the refused segment begins */
     ovoid_robot_answer
         hit; /**< HIT: of the state at hit_at; UNDECIDED: the pair, and its bracket where it was last measured */
-    uint32_t states;   /**< states checked one by one; covers check none */
+    uint32_t states;   /**< states checked one by one; of covers only one that hits counts */
     size_t step_count; /**< steps that prove free_until; if more than the capacity, the others were not written. With
                           any_hit and without `steps`: 0, because covers write none */
 } ovoid_robot_path_answer;
@@ -99,6 +100,25 @@ typedef struct ovoid_robot_path_answer {
  */
 OVOID_API ovoid_code ovoid_robot_path_find_hit(ovoid_robot_checker *checker, const ovoid_robot_path_query *query,
                                                ovoid_robot_path_answer *answer, ovoid_error *error);
+
+/** Edges: each is a path of two states. */
+typedef struct ovoid_robot_edge_batch {
+    const double *states; /**< the two states of edge i from 2 i * variable count on; borrowed */
+    size_t count;
+    const ovoid_robot_path_options *options; /**< NULL: the default. No steps are written */
+    ovoid_robot_path_answer *answers;        /**< count */
+} ovoid_robot_edge_batch;
+
+/**
+ * Checks many edges, in blocks of OVOID_ROBOT_BLOCK, on as many threads as there are checkers (of one cell, each given
+ * once), the caller's included. Each edge gets the status that ovoid_robot_path_find_hit gives to it alone. With
+ * any_hit several short edges are proven side by side, which is sooner. The answers do not depend on the number of
+ * threads. Edges that are not looked at because the watch has stopped the call are UNDECIDED. Errors: ARGUMENT
+ * (options, also steps; no checker), MEMORY; then all answers are UNDECIDED. LIMIT: no thread could be started; the
+ * others did the work, and all answers are written.
+ */
+OVOID_API ovoid_code ovoid_robot_path_find_hit_batch(ovoid_robot_checker *const *checkers, size_t checker_count,
+                                                     const ovoid_robot_edge_batch *batch, ovoid_error *error);
 
 /** What an answer to a path is verified with. */
 typedef struct ovoid_robot_path_basis {

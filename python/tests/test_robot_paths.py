@@ -46,6 +46,58 @@ def rows(records):
 
 
 @unittest.skipUnless(ovoid.has_robot, "built without libovoid_robot")
+class Edges(unittest.TestCase):
+    """Edges in batches. Truth: each edge alone, with its proof; refusals by name."""
+
+    def setUp(self):
+        self.cell = make_cell()
+        self.begins = [[2 * math.sin(1.7 * i), 2 * math.sin(2.3 * i)] for i in range(300)]
+        self.ends = [[(0.8 - 0.4 * (i % 4)) * begin[0], begin[1] - 0.3 * (i % 3)] for i, begin in enumerate(self.begins)]
+        self.begins[7][0] = 4.0
+
+    def check(self, **how):
+        found, times = self.cell.find_hit_batch(self.begins, self.ends, **how)
+        times = memoryview(times).tolist()
+        counts = [0] * 4
+        for begin, end, row, (free_until, hit_at) in zip(self.begins, self.ends, rows(found), times):
+            alone = self.cell.find_hit([begin, end])
+            self.assertEqual(row["status"], alone.status)
+            counts[row["status"]] += 1
+            if alone.status == ovoid.RobotStatus.FREE:
+                self.assertEqual((free_until, hit_at), (1, math.inf))
+            elif alone.status == ovoid.RobotStatus.HIT:
+                ovoid.verify(alone)
+                self.assertTrue(hit_at >= alone.free_until and row["upper"] <= 0 and row["link_a"] in (1, 2))
+        self.assertTrue(counts[ovoid.RobotStatus.FREE] > 100 and counts[ovoid.RobotStatus.HIT] > 30, counts)
+        self.assertEqual((counts[ovoid.RobotStatus.REFUSED], rows(found)[7]["variable"]), (1, 0))
+        return found, times
+
+    def test_verdicts(self):
+        found, times = self.check(any_hit=True)
+        other, again = self.cell.find_hit_batch(self.begins, self.ends, any_hit=True, threads=3)
+        self.assertEqual(rows(found), rows(other))
+        self.assertEqual(times, memoryview(again).tolist())
+        is_named = [name is not None for name in self.cell.pair_names(found)]
+        self.assertEqual(is_named, [row["status"] == ovoid.RobotStatus.HIT for row in rows(found)])
+
+    def test_first_hits(self):
+        found, times = self.check()
+        for begin, end, (free_until, hit_at) in list(zip(self.begins, self.ends, times))[:50]:
+            alone = self.cell.find_hit([begin, end])
+            self.assertAlmostEqual(free_until, alone.free_until, delta=1e-5)
+
+    def test_refused(self):
+        seen = []
+        self.cell.find_hit_batch(self.begins, self.ends, any_hit=True, progress=lambda *at: seen.append(at))
+        self.assertEqual(seen[-1], (300, 300))
+        for begins, how in ((self.begins[1:], {}), ("x", {}), ([[1.0]] * 300, {}), (self.begins, {"threads": 0}),
+                            (self.begins, {"margin": math.nan}), (self.begins, {"tolerance": -1}), (self.begins, {"progress": 3})):
+            with self.assertRaises((TypeError, ovoid.Error)):
+                self.cell.find_hit_batch(begins, self.ends, **how)
+        self.assertEqual([len(x) for x in self.cell.find_hit_batch([], [])], [0, 0])
+
+
+@unittest.skipUnless(ovoid.has_robot, "built without libovoid_robot")
 class Clearances(unittest.TestCase):
     def test_closed_form(self):
         """The arm straight, from an angle to a smaller one: the ball is nearest at the end, r sin(angle) less both radii."""

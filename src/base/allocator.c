@@ -31,7 +31,7 @@ ovoid_allocator allocator_make(const ovoid_allocator *given) {
 }
 
 void *allocator_allocate(const ovoid_allocator *allocator, size_t count, size_t size) {
-    if (size && count > SIZE_MAX / size) return NULL;
+    if (size && count > SIZE_MAX / 2 / size) return NULL;
     size_t bytes = count * size;
     return allocator->allocate(allocator->context, bytes ? bytes : 1);
 }

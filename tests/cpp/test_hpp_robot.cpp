@@ -57,6 +57,11 @@ int main() {
     const auto path = checker.find_hit({q.data(), 2}, 2, wanted);
     CHECK(path.status == OVOID_ROBOT_FREE && path.free_until == 1 && path.step_count > 0 && path.step_count <= 64);
     ovoid::verify_robot_path(cell, {q.data(), 2}, 2, wanted, path, {steps, path.step_count});
+    wanted.steps = nullptr, wanted.capacity = 0, wanted.any_hit = 1;
+    const double edges[4] = {q[0], q[0], q[0], q[1]};
+    const auto found = checker.find_hit_batch({edges, 4}, 2, wanted);
+    CHECK(found.size() == 2 && found[0].status == OVOID_ROBOT_FREE && found[0].free_until == 1);
+    CHECK_EQ(found[1].status, checker.find_hit({edges + 2, 2}, 2).status);
     const auto clearance = checker.compute_clearance({q.data(), 2}, 2);
     CHECK(clearance.status == OVOID_ROBOT_FREE && clearance.lower > 0 && clearance.lower <= clearance.upper);
     cell.set_padding(1, 2);

@@ -120,23 +120,33 @@ typedef struct trial {
     machine m;
     path_work w;
     path_cover c;
-    uint8_t *masks, *left;
+    uint8_t *masks;
+    double ends[2][2][3 * JOINTS]; // of two segments: first and last state
     cover_lanes lanes;
 } trial;
 
-static void set_segment(trial *t, const double *q0, const double *q1) {
+static void add_segment(trial *t, const double *q0, const double *q1) {
+    CHECK_EQ(path_set_segment(&t->w, q0, q1, INFINITY, &error), OVOID_OK);
+    path_cover_add(&t->c, q0, q1, COVER8);
+}
+
+static void begin_segments(trial *t) {
     const ovoid_robot_cell *cell = t->m.cell;
     size_t groups = cell->boxes.count, count = cell->items.count * groups + (cell->pairs.count + 7) / 8 + 1;
     if (!t->masks) t->masks = malloc(count);
-    if (!t->left) t->left = malloc(count);
     memset(t->masks, 0xff, count);
-    CHECK_EQ(path_set_segment(&t->w, q0, q1, INFINITY, &error), OVOID_OK);
-    path_cover_set_segment(&t->c, &(cover_segment){.q0 = q0,
-                                                   .q1 = q1,
-                                                   .queried = t->masks,
-                                                   .left = t->left,
-                                                   .mask_groups = (uint32_t)groups,
-                                                   .mask_count = count});
+    path_cover_begin(&t->c, &(cover_query){.queried = t->masks, .mask_groups = (uint32_t)groups});
+}
+
+// The machine's own segment, and one along which other joints move, or the same ones by less or more.
+static void make_ends(uint64_t *s, trial *t) {
+    size_t count = ovoid_robot_get_variable_count(t->m.r);
+    for (int k = 0; k < 2; k++) memcpy(t->ends[0][k], t->m.q[k], count * sizeof(double));
+    for (size_t i = 0; i < count; i++) {
+        double change = t->m.q[1][i] - t->m.q[0][i];
+        t->ends[1][0][i] = t->m.q[1][i];
+        t->ends[1][1][i] = t->m.q[1][i] + (random_below(s, 3) ? random_uniform(s, -2, 2) * change : 0);
+    }
 }
 
 static void open_trial(uint64_t *s, trial *t) {
@@ -144,26 +154,33 @@ static void open_trial(uint64_t *s, trial *t) {
     ovoid_allocator memory = t->m.cell->allocator;
     CHECK_EQ(path_work_create(&t->w, t->m.cell, &memory, &error), OVOID_OK);
     CHECK(path_cover_create(&t->c, &t->w));
+    make_ends(s, t);
     // Eighths of an interval, of the whole segment or of a part of it that a wrist of many turns turns little in.
     double parts = (double)(1u << random_below(s, 9)), begin = random_below(s, (uint32_t)parts) / parts;
+    int has_two = random_below(s, 2) == 0;
     for (int k = 0; k < COVER8; k++) {
         t->lanes.begin[k] = begin + k / (COVER8 * parts);
         t->lanes.end[k] = begin + (k + 1) / (COVER8 * parts);
+        t->lanes.segment[k] = (uint8_t)(has_two && random_below(s, 2));
     }
     t->lanes.used = 0xff;
     // Along another segment everything moved.
     double other[3 * JOINTS];
     for (size_t i = 0; i < ovoid_robot_get_variable_count(t->m.r); i++)
         other[i] = t->m.q[0][i] + random_uniform(s, 1, 2);
-    set_segment(t, t->m.q[0], other);
-    cover_open_block(&t->c, &t->lanes);
-    set_segment(t, t->m.q[0], t->m.q[1]);
+    const cover_lanes before = {{0}, {1, 1, 1, 1, 1, 1, 1, 1}, {0}, 0xff};
+    begin_segments(t);
+    add_segment(t, t->m.q[0], other);
+    path_cover_set(&t->c);
+    cover_open_block(&t->c, &before);
+    begin_segments(t);
+    for (int k = 0; k <= has_two; k++) add_segment(t, t->ends[k][0], t->ends[k][1]);
+    path_cover_set(&t->c);
     cover_open_block(&t->c, &t->lanes);
 }
 
 static void close_trial(trial *t) {
     free(t->masks);
-    free(t->left);
     path_cover_destroy(&t->c);
     path_work_destroy(&t->w);
     destroy_machine(&t->m);
@@ -175,11 +192,11 @@ static real get_time(const trial *t, int lane, real time) {
            time * (t->lanes.end[lane] - (real)t->lanes.begin[lane]) / 2;
 }
 
-static void place_links(const trial *t, real at, frame *links) {
-    real q[3 * JOINTS];
+// The state of a lane's segment there.
+static void find_state(const trial *t, int lane, real time, real *q) {
+    const double(*ends)[3 * JOINTS] = t->ends[t->lanes.segment[lane]];
     for (size_t i = 0; i < ovoid_robot_get_variable_count(t->m.r); i++)
-        q[i] = t->m.q[0][i] + at * ((real)t->m.q[1][i] - t->m.q[0][i]);
-    place(t->m.r, q, links);
+        q[i] = ends[0][i] + get_time(t, lane, time) * ((real)ends[1][i] - ends[0][i]);
 }
 
 static real3 look_from(const frame *f, real3 x) {
@@ -191,8 +208,10 @@ static real3 look_from(const frame *f, real3 x) {
 
 // A centre of an item at a time of a lane, in the world; `from`: in the frame of that item's link.
 static real3 find_center(const trial *t, uint32_t item, vec3 center, const uint32_t *from, int lane, real time) {
+    real q[3 * JOINTS];
     frame links[JOINTS + 1];
-    place_links(t, get_time(t, lane, time), links);
+    find_state(t, lane, time, q);
+    place(t->m.r, q, links);
     real3 x = apply(&links[t->c.items[item].link], widen(center));
     return from ? look_from(&links[t->c.items[*from].link], x) : x;
 }
@@ -381,9 +400,10 @@ static void check_hull(uint64_t *s, trial *t, uint32_t pair, int is_from_b) {
         least[lane] = INFINITY;
         for (int k = -SAMPLES; k <= SAMPLES; k += 4) {
             real3 in_a[VERTICES], in_b[VERTICES];
-            real at = get_time(t, lane, (real)k / SAMPLES), most = -INFINITY;
-            place_vertices(&t->m, &cell_items(t->m.cell)[from], at, a->link, in_a);
-            place_vertices(&t->m, &cell_items(t->m.cell)[item], at, a->link, in_b);
+            real q[3 * JOINTS], most = -INFINITY;
+            find_state(t, lane, (real)k / SAMPLES, q);
+            place_in_state(&t->m, &cell_items(t->m.cell)[from], q, a->link, in_a);
+            place_in_state(&t->m, &cell_items(t->m.cell)[item], q, a->link, in_b);
             for (int i = 0; i < VERTICES; i++) most = fmaxl(most, dot3(widen(normal), in_a[i]));
             for (int i = 0; i < VERTICES; i++) least[lane] = fminl(least[lane], dot3(widen(normal), in_b[i]) - most);
         }
@@ -405,7 +425,7 @@ static void test_bounds(int rounds) {
     uint64_t s = 77;
     for (int i = 0; i < TRIALS * rounds; i++) {
         check_seed = (uint64_t)i;
-        trial t = {.left = NULL};
+        trial t = {.masks = NULL};
         open_trial(&s, &t);
         uint32_t item = random_below(&s, (uint32_t)t.m.cell->items.count);
         check_world(&s, &t, item);
@@ -469,7 +489,7 @@ static void test_lanes(void) {
     long mixed = 0;
     for (int i = 0; i < TRIALS; i++) {
         check_seed = (uint64_t)i;
-        trial t = {.left = NULL};
+        trial t = {.masks = NULL};
         open_trial(&s, &t);
         double reach[COVER8];
         for (int k = 0; k < COVER8; k++) reach[k] = t.m.scale * random_uniform(&s, 0, 2);

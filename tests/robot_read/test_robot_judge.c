@@ -15,7 +15,7 @@
 #include "ovoid/ovoid.h"
 #include "ovoid/robot_path.h"
 
-enum { BODIES = 96, VERTICES = 512, OBSTACLES = 10, SHAPES = 5, SAMPLES = 64, BATCH = 64, TREES = 12 };
+enum { BODIES = 96, VERTICES = 512, OBSTACLES = 10, SHAPES = 5, SAMPLES = 64, BATCH = 64, EDGE_BATCH = 8, TREES = 12 };
 static const real slack = 1e-15L, near_touch = 1e-9L;
 
 typedef enum truth { APART, MEETS, OPEN } truth;
@@ -362,23 +362,35 @@ static void check_free(uint64_t *random, const setup *s, const double *edge, rea
     }
 }
 
+static void judge_edge(uint64_t *random, const setup *s, const double *edge, const ovoid_robot_path_answer *answer) {
+    if (answer->status == OVOID_ROBOT_FREE) {
+        edges_free++;
+        check_free(random, s, edge, 1);
+    } else if (answer->status == OVOID_ROBOT_HIT) {
+        real q[EXACT_VARIABLES];
+        edges_hit++;
+        find_state(s, edge, answer->hit_at, q);
+        check_hit(s, q, &answer->hit);
+        if (answer->free_until > 0) check_free(random, s, edge, answer->free_until);
+    } else {
+        undecided++;
+    }
+}
+
 static void check_edge(uint64_t *random, const setup *s, const double *edge, int any_hit) {
     ovoid_robot_path_options how = {.any_hit = any_hit};
     ovoid_robot_path path = {edge, 2};
     ovoid_robot_path_answer answer;
     CHECK_EQ(ovoid_robot_path_find_hit(s->checker, &(ovoid_robot_path_query){&path, &how}, &answer, &error), OVOID_OK);
-    if (answer.status == OVOID_ROBOT_FREE) {
-        edges_free++;
-        check_free(random, s, edge, 1);
-    } else if (answer.status == OVOID_ROBOT_HIT) {
-        real q[EXACT_VARIABLES];
-        edges_hit++;
-        find_state(s, edge, answer.hit_at, q);
-        check_hit(s, q, &answer.hit);
-        if (!any_hit && answer.free_until > 0) check_free(random, s, edge, answer.free_until);
-    } else {
-        undecided++;
-    }
+    judge_edge(random, s, edge, &answer);
+}
+
+static void check_edge_batch(uint64_t *random, const setup *s, const double *edges, size_t count) {
+    ovoid_robot_path_options how = {.any_hit = 1};
+    ovoid_robot_path_answer answers[EDGE_BATCH];
+    const ovoid_robot_edge_batch batch = {edges, count, &how, answers};
+    CHECK_EQ(ovoid_robot_path_find_hit_batch(&s->checker, 1, &batch, &error), OVOID_OK);
+    for (size_t i = 0; i < count; i++) judge_edge(random, s, edges + 2 * i * s->variables, &answers[i]);
 }
 
 /// From a state that is free, by a tenth of the limits or all of them; what floats stays.
@@ -400,12 +412,17 @@ static void make_edge(uint64_t *random, const setup *s, double *edge) {
 }
 
 static void check_robot(uint64_t *random, const setup *s, uint64_t states, uint64_t edges) {
-    static double edge[2 * EXACT_VARIABLES];
+    static double all[EDGE_BATCH * 2 * EXACT_VARIABLES];
     check_states(random, s, states);
-    for (uint64_t i = 0; i < edges; i++) {
-        make_edge(random, s, edge);
-        check_edge(random, s, edge, 1);
-        check_edge(random, s, edge, 0);
+    // Any hit one by one, and as many side by side.
+    for (uint64_t i = 0; i < edges; i += EDGE_BATCH) {
+        size_t count = edges - i < EDGE_BATCH ? (size_t)(edges - i) : EDGE_BATCH;
+        for (size_t k = 0; k < count; k++) make_edge(random, s, all + 2 * k * s->variables);
+        for (size_t k = 0; k < count; k++) check_edge(random, s, all + 2 * k * s->variables, 0);
+        if (i / EDGE_BATCH % 2)
+            for (size_t k = 0; k < count; k++) check_edge(random, s, all + 2 * k * s->variables, 1);
+        else
+            check_edge_batch(random, s, all, count);
     }
 }
 

@@ -276,6 +276,7 @@ static PyObject *nearest_batch(PyObject *object, PyObject *arguments, PyObject *
 // ---- proven paths: robot_path.c
 
 PyObject *find_hit(PyObject *object, PyObject *arguments, PyObject *keywords);
+PyObject *find_hit_batch(PyObject *object, PyObject *arguments, PyObject *keywords);
 
 #define NEAREST_SIGNATURE                                                                                              \
     "margin: float = 1e999, limit_slack: float = 0, without_self: bool = False, without_obstacles: bool = False"
@@ -315,5 +316,13 @@ PyMethodDef cell_queries[] = {
      ", tolerance: float = 0, most_states: int = 0, any_hit: bool = False) -> RobotPath\n--\n\nIs the path through "
      "states (n, variables), linear in between, free at all times? A RobotPath with its proof,\nwhich verify() checks. "
      "tolerance: of hit_at - free_until, 0: 2**-20; most_states: looked at, 0: 100 000. any_hit: the search ends with "
-     "any hit, which need not be the first."},
+     "any hit, which need not be the first; the pair's bracket may then be wide."},
+    {"find_hit_batch", METHOD_KEYWORDS(find_hit_batch), METH_VARARGS | METH_KEYWORDS,
+     "find_hit_batch(begins: StatesLike, ends: StatesLike, *, " ROBOT_QUERY_SIGNATURE
+     ", tolerance: float = 0, most_states: int = 0, any_hit: bool = False, threads: int = 1, progress: Progress | None "
+     "= None) -> tuple[Records, Floats]\n--\n\nIs each of many edges, from a state of begins (n, variables) to that of "
+     "ends, free at all times? n records as those of\ncollide_batch, with the edge's status and the pair of its hit; "
+     "and (n, 2) times: free_until, hit_at, as of find_hit.\nany_hit is sooner: short edges are proven side by side. "
+     "The "
+     "same bits on any number of threads. progress(done, total)\nis called now and then; Ctrl-C ends it."},
     {NULL, NULL, 0, NULL}};

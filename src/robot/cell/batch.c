@@ -1,5 +1,5 @@
-// Many states on several threads. A block of states is one thread's, and begins with nothing remembered, so answers do
-// not depend on who takes which block.
+// Many states or edges on several threads. A block of them is one thread's, and begins with nothing remembered, so
+// answers do not depend on who takes which block.
 #define _POSIX_C_SOURCE 200809L // signal sets
 
 #include "base/environment.h"
@@ -11,8 +11,8 @@
 
 // What all threads share.
 typedef struct batch_work {
-    const ovoid_robot_batch *batch;
-    atomic_size_t next; ///< the first state that nobody has taken
+    const checkers_job *job;
+    atomic_size_t next; ///< the first that nobody has taken
 } batch_work;
 
 // One thread and its checker.
@@ -25,10 +25,10 @@ typedef struct batch_worker {
 
 static void work_off(batch_work *w, ovoid_robot_checker *checker) {
     for (;;) {
-        size_t first = atomic_fetch_add(&w->next, OVOID_ROBOT_BLOCK);
-        if (first >= w->batch->count) return;
-        size_t end = w->batch->count - first < OVOID_ROBOT_BLOCK ? w->batch->count : first + OVOID_ROBOT_BLOCK;
-        collide_block(checker, w->batch, first, end);
+        size_t first = atomic_fetch_add(&w->next, OVOID_ROBOT_BLOCK), count = w->job->count;
+        if (first >= count) return;
+        size_t end = count - first < OVOID_ROBOT_BLOCK ? count : first + OVOID_ROBOT_BLOCK;
+        w->job->run(w->job->context, checker, first, end);
     }
 }
 
@@ -38,23 +38,21 @@ THREAD_MAIN(run_worker, context) {
     return THREAD_END;
 }
 
-static ovoid_code validate_checkers(ovoid_robot_checker *const *checkers, size_t count, const ovoid_robot_batch *batch,
-                                    ovoid_error *error) {
+ovoid_code checkers_validate(ovoid_robot_checker *const *checkers, size_t count, ovoid_error *error) {
     if (!checkers || count == 0 || count > OVOID_WORLD_THREADS_MAX)
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "a batch needs 1 to %u checkers", OVOID_WORLD_THREADS_MAX);
-    ovoid_code code = batch->options ? query_options_validate(batch->options, error) : OVOID_OK;
+    ovoid_code code = OVOID_OK;
     for (size_t i = 0; code == OVOID_OK && i < count; i++) code = checker_renew(checkers[i], error);
     return code;
 }
 
-static ovoid_code validate_batch(ovoid_robot_checker *const *checkers, size_t count, const ovoid_robot_batch *batch,
-                                 ovoid_error *error) {
-    ovoid_code code = validate_checkers(checkers, count, batch, error);
-    if (code != OVOID_OK) return code;
-    batch_work work = {.batch = batch};
+ovoid_code checkers_run(ovoid_robot_checker *const *checkers, size_t count, const checkers_job *job,
+                        ovoid_error *error) {
+    ovoid_code code = OVOID_OK;
+    batch_work work = {.job = job};
     atomic_init(&work.next, 0);
     batch_worker workers[OVOID_WORLD_THREADS_MAX];
-    size_t blocks = batch->count / OVOID_ROBOT_BLOCK + 1, wanted = count < blocks ? count : blocks;
+    size_t blocks = job->count / OVOID_ROBOT_BLOCK + 1, wanted = count < blocks ? count : blocks;
     for (size_t i = 1; i < wanted; i++) {
         workers[i] = (batch_worker){.work = &work, .checker = checkers[i]};
         workers[i].is_started = thread_start(&workers[i].thread, run_worker, &workers[i]);
@@ -64,10 +62,22 @@ static ovoid_code validate_batch(ovoid_robot_checker *const *checkers, size_t co
     for (size_t i = 1; i < wanted; i++)
         if (workers[i].is_started) thread_join(workers[i].thread);
     if (code == OVOID_OK) return code;
-    return error_set(error, code, -1, "not all threads of the batch could be started; all states are answered");
+    return error_set(error, code, -1, "not all threads of the batch could be started; all of it is answered");
+}
+
+static void run_states(void *context, ovoid_robot_checker *checker, size_t first, size_t end) {
+    collide_block(checker, context, first, end);
+}
+
+static ovoid_code run_batch(ovoid_robot_checker *const *checkers, size_t count, const ovoid_robot_batch *batch,
+                            ovoid_error *error) {
+    ovoid_code code = checkers_validate(checkers, count, error);
+    if (code == OVOID_OK && batch->options) code = query_options_validate(batch->options, error);
+    if (code != OVOID_OK) return code;
+    return checkers_run(checkers, count, &(checkers_job){run_states, (void *)(uintptr_t)batch, batch->count}, error);
 }
 
 ovoid_code ovoid_robot_collide_batch(ovoid_robot_checker *const *checkers, size_t checker_count,
                                      const ovoid_robot_batch *batch, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, checkers, validate_batch(checkers, checker_count, batch, error));
+    ENVIRONMENT_RETURN(ovoid_code, checkers, run_batch(checkers, checker_count, batch, error));
 }

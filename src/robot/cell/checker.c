@@ -63,25 +63,17 @@ static void release_all(ovoid_robot_checker *checker) {
         (ovoid_robot_checker){.cell = checker->cell, .allocator = checker->allocator, .kernels = checker->kernels};
 }
 
-// The next 64-byte boundary after an array; 0 where the sizes overflow.
-static size_t end_array(size_t begin, size_t count, size_t size) {
-    return count > (SIZE_MAX / 2 - begin) / size ? 0 : (begin + count * size + 63) / 64 * 64;
-}
-
 // All arrays in one block, cleared. 0 without memory.
 static int make_arrays(ovoid_robot_checker *checker, const size_t counts[ARRAY_COUNTS]) {
     size_t total = 0;
-    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
-        size_t count = counts[arrays[i].count];
-        total = end_array(total, count, arrays[i].size);
-        if (!total && count) return 0;
-    }
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
+        total = allocator_end_array(total, counts[arrays[i].count], arrays[i].size);
     char *at = checker->block = allocator_allocate(&checker->allocator, total, 1);
     if (!at) return 0;
     memset(at, 0, total);
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
         memcpy((char *)checker + arrays[i].pointer, &at, sizeof at);
-        at += end_array(0, counts[arrays[i].count], arrays[i].size);
+        at += allocator_end_array(0, counts[arrays[i].count], arrays[i].size);
     }
     return 1;
 }
@@ -303,14 +295,10 @@ static const inner_balls *get_balls(ovoid_robot_checker *checker, uint32_t item)
 // How deep an item's balls come into a region, which rounding moves by parts of `size`; at most zero: none is shown to.
 static double compute_depth(ovoid_robot_checker *checker, uint32_t item, const inner_region *g, double radius,
                             double size) {
-    const shape_inside *in = cell_items(checker->cell)[item].inside;
     // Too little is known of a body that may be smaller than its shape.
     if (!(radius >= 0)) return 0;
-    double more = radius - CELL_SLACK * size * g->condition;
-    double deep = checker->kernels->balls_in_region(get_balls(checker, item), g, more);
-    if (!(deep > 0)) return 0;
-    double limit = (in->most + more) * g->scale + g->offset;
-    return 0.499 * min2(deep / (limit * g->scale), in->least + more);
+    const placed_balls balls = {cell_items(checker->cell)[item].inside, get_balls(checker, item)};
+    return placed_balls_find_region_depth(checker->kernels, balls, g, radius - CELL_SLACK * size * g->condition);
 }
 
 static double get_size(ovoid_robot_checker *checker, uint32_t item) {
@@ -320,12 +308,11 @@ static double get_size(ovoid_robot_checker *checker, uint32_t item) {
 
 // How deep the balls of two items come into one another.
 static double compute_balls_depth(ovoid_robot_checker *checker, item_pair both) {
-    const shape_inside *a = cell_items(checker->cell)[both.a].inside, *b = cell_items(checker->cell)[both.b].inside;
+    const placed_balls a = {cell_items(checker->cell)[both.a].inside, get_balls(checker, both.a)};
+    const placed_balls b = {cell_items(checker->cell)[both.b].inside, get_balls(checker, both.b)};
     oriented_box box = place_box(checker, both.b);
-    // Balls that do not come into the box around the other body meet none of its balls.
     const inner_region around = {mat3_transpose(box.rotation), box.center, box.half, 1, box.radius, 1};
-    double deep = checker->kernels->balls_in_balls(get_balls(checker, both.a), &around, get_balls(checker, both.b));
-    return deep > 0 ? 0.499 * deep / (a->most + b->most) : 0;
+    return placed_balls_find_depth(checker->kernels, a, &around, b);
 }
 
 int checker_prove_overlap(ovoid_robot_checker *checker, pair_name name, double *lower, double *upper) {

@@ -184,6 +184,18 @@ static inline uint32_t checker_get_last_number(const ovoid_robot_checker *checke
 /// The states of a batch from `first` to before `end`, by a checker that has forgotten all and fits its cell.
 void collide_block(ovoid_robot_checker *checker, const ovoid_robot_batch *batch, size_t first, size_t end);
 
+/// OK where there are checkers, made to fit their cells.
+ovoid_code checkers_validate(ovoid_robot_checker *const *checkers, size_t count, ovoid_error *error);
+/// Many of a kind, in blocks; `run` does those from `first` to before `end` with a checker, which it makes forget all.
+typedef struct checkers_job {
+    void (*run)(void *context, ovoid_robot_checker *checker, size_t first, size_t end);
+    void *context;
+    size_t count;
+} checkers_job;
+/// Each checker takes blocks on a thread of its own. LIMIT: not all of these could be started; all is done.
+ovoid_code checkers_run(ovoid_robot_checker *const *checkers, size_t count, const checkers_job *job,
+                        ovoid_error *error);
+
 /// What the pair's last query proved, or NULL. Of two links the normal is kept in the frame of the first, with which it
 /// turns: what parted them often still does. A proof is measured again, so any normal is safe.
 static inline const ovoid_proof *pair_get_earlier(const ovoid_robot_checker *checker, const checker_pair *p) {

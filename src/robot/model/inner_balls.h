@@ -45,4 +45,27 @@ static inline inner_region inner_region_place(const inner_region *own, const mat
     return g;
 }
 
+/// A body, and its balls in the world.
+typedef struct placed_balls {
+    const shape_inside *of;
+    const inner_balls *world;
+} placed_balls;
+
+/// How deep a body's balls, each enlarged by `more`, come into a region; at most zero: none is shown to.
+static inline double placed_balls_find_region_depth(const robot8_kernels *kernels, placed_balls a,
+                                                    const inner_region *g, double more) {
+    double deep = kernels->balls_in_region(a.world, g, more);
+    if (!(deep > 0)) return 0;
+    double limit = (a.of->most + more) * g->scale + g->offset;
+    return 0.499 * min2(deep / (limit * g->scale), a.of->least + more);
+}
+
+/// How deep the balls of two bodies come into one another. around: a region that holds those of b; balls that do not
+/// come into it meet none of them.
+static inline double placed_balls_find_depth(const robot8_kernels *kernels, placed_balls a, const inner_region *around,
+                                             placed_balls b) {
+    double deep = kernels->balls_in_balls(a.world, around, b.world);
+    return deep > 0 ? 0.499 * deep / (a.of->most + b.of->most) : 0;
+}
+
 #endif

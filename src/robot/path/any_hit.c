@@ -25,26 +25,6 @@ static double get_place(uint32_t i) {
     return place;
 }
 
-int path_is_pair_hit_at(const path_any_hit *search, double t, uint32_t number, ovoid_robot_answer *hit) {
-    path_work *w = search->w;
-    pair_parts of = pair_take_apart(w->cell, number);
-    path_compute_frames(w, search->q0, search->q1, t, &search->state);
-    path_set_item(w, &search->state, of.item, 0);
-    if (of.part == OVOID_ROBOT_NONE) path_set_item(w, &search->state, of.other, 0);
-    path_pair p = path_make_pair(w, number, search->state.frames);
-    const checker_pair known = {.error = p.error + p.motion.rounded, .padding = p.padding};
-    double margin = search->options->margin;
-    ovoid_answer answer = {.upper = INFINITY};
-    if (!sides_have_solid(&p.solids))
-        answer = ovoid_within(&p.pair, add_up(margin, known.padding, known.error), NULL, NULL);
-    // Touching by less than the errors: the depth may be more than them.
-    if (!(upper_outward(&known, answer.upper) <= margin)) answer = path_ask_exactly(&p, &known);
-    double upper = upper_outward(&known, answer.upper);
-    *hit = (ovoid_robot_answer){
-        .status = OVOID_ROBOT_HIT, .a = *p.a, .b = *p.b, .lower = lower_outward(&known, answer.lower), .upper = upper};
-    return upper <= margin;
-}
-
 int path_is_any_hit_at(const path_any_hit *search, double t, ovoid_robot_answer *hit) {
     const ovoid_robot *r = search->w->cell->robot;
     ovoid_robot_query_options options = *search->options;
@@ -53,8 +33,11 @@ int path_is_any_hit_at(const path_any_hit *search, double t, ovoid_robot_answer 
     options.limit_slack = INFINITY;
     for (uint32_t k = 0; k < r->variable_count; k++)
         search->w->state[k] = t == 1 ? search->q1[k] : search->q0[k] + t * (search->q1[k] - search->q0[k]);
-    return collide_state(search->checker, search->w->state, &options, &answer) && answer.status == OVOID_ROBOT_HIT &&
-           path_is_pair_hit_at(search, t, checker_get_last_number(search->checker), hit);
+    if (!collide_state(search->checker, search->w->state, &options, &answer) || answer.status != OVOID_ROBOT_HIT)
+        return 0;
+    const path_place place = {0, search->q0, search->q1, t};
+    *hit = path_ask_hit(search->w, &place, checker_get_last_number(search->checker), &search->state);
+    return hit->upper <= search->options->margin;
 }
 
 double path_find_any_hit(const path_any_hit *search, uint32_t *states, ovoid_robot_answer *hit) {

@@ -217,7 +217,7 @@ static double find_gap(const path_cover *c, uint32_t item, uint32_t part, const 
 
 static void set_gaps(path_cover *c) {
     path_work *w = c->w;
-    path_compute_frames(w, c->q0, c->q1, 0, &c->state);
+    path_compute_frames(w, c->segments[0].q0, c->segments[0].q1, 0, &c->state);
     for (uint32_t i = 0; i < w->cell->items.count; i++) {
         c->gaps[i] = -1;
         if (w->first[i] < w->first[i + 1]) continue;
@@ -237,15 +237,14 @@ void cover_renew_boxes(path_cover *c) {
 
 // ---- memory
 
-static size_t round_up(size_t size) { return (size + 63) / 64 * 64; }
-
 static size_t count_vertices(const ovoid_robot_cell *cell) {
     size_t count = 0;
     for (size_t i = 0; i < cell->items.count; i++) count += cell_items(cell)[i].shape->vertex_count;
     return count;
 }
 
-// The arrays, each at the next multiple of 64 bytes: placed from `at` where that is not NULL. How many bytes they take.
+// The arrays, each at the next multiple of 64 bytes: placed from `at` where that is not NULL. How many bytes they take;
+// SIZE_MAX: more than there are.
 static size_t place_arrays(path_cover *c, char *at) {
     const ovoid_robot_cell *cell = c->w->cell;
     size_t items = cell->items.count, parts = cell->parts.count, pairs = cell->pairs.count, frames = cell->frame_count;
@@ -258,6 +257,8 @@ static size_t place_arrays(path_cover *c, char *at) {
                   {(void **)&c->levers, links, sizeof *c->levers},
                   {(void **)&c->slides, steps, sizeof *c->slides},
                   {(void **)&c->slacks, 2 * steps, sizeof *c->slacks},
+                  {(void **)&c->sums, frames, sizeof *c->sums},
+                  {(void **)&c->shares, steps, sizeof *c->shares},
                   {(void **)&c->gaps, items, sizeof *c->gaps},
                   {(void **)&c->groups, GROUPS_MOST, sizeof *c->groups},
                   {(void **)&c->boxes, parts, sizeof *c->boxes},
@@ -273,10 +274,14 @@ static size_t place_arrays(path_cover *c, char *at) {
                   {(void **)&c->vertices, 3 * count_vertices(cell), sizeof *c->vertices},
                   {(void **)&c->normals, numbers, sizeof *c->normals},
                   {(void **)&c->proofs, numbers, sizeof *c->proofs},
+                  {(void **)&c->hit_counts, numbers, 1},
                   {(void **)&c->world, 1, sizeof *c->world},
                   {(void **)&c->still, 1, sizeof *c->still},
                   {(void **)&c->rests, pairs, sizeof *c->rests},
+                  {(void **)&c->speeds, steps, sizeof *c->speeds},
                   {(void **)&c->rates, cell->steps.count, sizeof *c->rates},
+                  {(void **)&c->segments[0].rates, COVER_SEGMENTS * cell->steps.count, sizeof(step_rate)},
+                  {(void **)&c->segments[0].left, COVER_SEGMENTS * c->mask_count, 1},
                   {(void **)&c->is_moving, frames, sizeof *c->is_moving},
                   {(void **)&c->values8, cell->robot->value_count, sizeof *c->values8},
                   {(void **)&c->frames8, cell->robot->link_count, sizeof *c->frames8},
@@ -295,7 +300,7 @@ static size_t place_arrays(path_cover *c, char *at) {
     size_t total = 0;
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
         if (at) *arrays[i].to = at + total;
-        total += round_up(arrays[i].count * arrays[i].size);
+        total = allocator_end_array(total, arrays[i].count, arrays[i].size);
     }
     return total;
 }
@@ -308,13 +313,19 @@ static void set_world(frame8 *f) {
 }
 
 int path_cover_create(path_cover *c, path_work *w) {
-    *c = (path_cover){.w = w, .kernels = robot8_get_kernels(), .moved = w->cell->moved - 1};
+    const ovoid_robot_cell *cell = w->cell;
+    *c = (path_cover){.w = w, .kernels = robot8_get_kernels(), .moved = cell->moved - 1};
+    c->mask_count = cell->items.count * cell->boxes.count + (cell->pairs.count + ROBOT8 - 1) / ROBOT8;
     size_t total = place_arrays(c, NULL);
     c->block = allocator_allocate(&w->allocator, total, 1);
     uint32_t *maker = allocator_allocate(&w->allocator, w->cell->frame_count, sizeof *maker);
     if (c->block && maker) {
         memset(c->block, 0, total);
         (void)place_arrays(c, c->block);
+        for (uint32_t i = 1; i < COVER_SEGMENTS; i++) {
+            c->segments[i].rates = c->segments[0].rates + i * cell->steps.count;
+            c->segments[i].left = c->segments[0].left + i * c->mask_count;
+        }
         c->state = path_place_state(w->cell, c->state_memory);
         set_world(&c->frames8[w->cell->robot->root]);
         set_world(c->world);

@@ -11,6 +11,8 @@
 #include "base/compiler.h"
 #include "ovoid/query.h"
 
+#include <string.h>
+
 enum { VERTICES_MOST = 1024 };
 
 // An open pair: an item that is seen from another one, or from an obstacle.
@@ -25,7 +27,7 @@ static hull_pair make_pair(path_cover *c, uint32_t number) {
     const ovoid_robot_cell *cell = c->w->cell;
     pair_parts of = pair_take_apart(cell, number);
     hull_pair p = {.number = number, .item = of.item, .other = OVOID_ROBOT_NONE, .part = of.part};
-    double margin = c->margin, radii;
+    double margin = c->query.margin, radii;
     if (of.part != OVOID_ROBOT_NONE) {
         const cell_part *part = &cell_parts(cell)[of.part];
         p.from = (moving8){c->world, c->still};
@@ -86,7 +88,7 @@ static unsigned find_near(const path_cover *c, const hull_pair *p, unsigned lane
     return c->kernels->near_hull(&hull, p->reach) & lanes;
 }
 
-static ovoid_pose get_pose(const path_cover *c, uint32_t item, unsigned lane) {
+ovoid_pose cover_get_pose(const path_cover *c, uint32_t item, unsigned lane) {
     const cell_item *it = &cell_items(c->w->cell)[item];
     const frame8 *f = &c->frames8[c->items[item].link];
     ovoid_pose link = {{f->column[0][lane], f->column[1][lane], f->column[2][lane]},
@@ -97,10 +99,10 @@ static ovoid_pose get_pose(const path_cover *c, uint32_t item, unsigned lane) {
 // The bodies in the middle of a lane: the one that is seen is the second.
 static ovoid_pair pose_pair(const path_cover *c, const hull_pair *p, unsigned lane) {
     const cell_item *items = cell_items(c->w->cell);
-    ovoid_pair pair = {.shape_b = items[p->item].shape, .pose_b = get_pose(c, p->item, lane)};
+    ovoid_pair pair = {.shape_b = items[p->item].shape, .pose_b = cover_get_pose(c, p->item, lane)};
     if (p->other != OVOID_ROBOT_NONE) {
         pair.shape_a = items[p->other].shape;
-        pair.pose_a = get_pose(c, p->other, lane);
+        pair.pose_a = cover_get_pose(c, p->other, lane);
     } else {
         pair.shape_a = cell_parts(c->w->cell)[p->part].shape;
         pair.pose_a = cell_parts(c->w->cell)[p->part].pose;
@@ -108,12 +110,15 @@ static ovoid_pair pose_pair(const path_cover *c, const hull_pair *p, unsigned la
     return pair;
 }
 
-static vec3 turn_back(const hull_pair *p, unsigned lane, vec3 world) {
-    const double(*m)[COVER8] = &p->from.frame->column[FRAME8_ROTATION];
-    mat3 rotation = {{m[0][lane], m[1][lane], m[2][lane]},
-                     {m[3][lane], m[4][lane], m[5][lane]},
-                     {m[6][lane], m[7][lane], m[8][lane]}};
-    return mat3_mul_transposed_vec3(rotation, world);
+static mat3 get_rotation(const frame8 *f, unsigned lane) {
+    const double(*m)[COVER8] = &f->column[FRAME8_ROTATION];
+    return (mat3){{m[0][lane], m[1][lane], m[2][lane]},
+                  {m[3][lane], m[4][lane], m[5][lane]},
+                  {m[6][lane], m[7][lane], m[8][lane]}};
+}
+
+mat3 cover_get_rotation(const path_cover *c, uint32_t item, unsigned lane) {
+    return get_rotation(&c->frames8[c->items[item].link], lane);
 }
 
 // An exact query in the middle of a lane. 1: it gave the pair a normal.
@@ -123,17 +128,16 @@ static int query_middle(path_cover *c, const hull_pair *p, unsigned lane) {
     const ovoid_options options = {.cap = 8 * p->reach[lane], .absolute_tolerance = 0.05 * p->reach[lane]};
     ovoid_answer answer = ovoid_distance(&pair, &options, &c->proofs[p->number]);
     c->proofs[p->number] = answer.proof;
-    if (answer.lower > c->margin) {
-        set_normal(c, p, turn_back(p, lane, answer.normal));
+    if (answer.lower > c->query.margin) {
+        set_normal(c, p, mat3_mul_transposed_vec3(get_rotation(p->from.frame, lane), answer.normal));
         return 1;
     }
     pair_parts of = pair_take_apart(c->w->cell, p->number);
     // The normal of an earlier query is for where the obstacle was then.
     if (p->part != OVOID_ROBOT_NONE) c->normals[p->number] = (cover_normal){{0, 0, 0}, 0};
     // A solid may be free where its hull is not: the search asks.
-    if (!path_has_solid(c->w, &of) && answer.upper <= p->reach[lane] &&
-        path_is_pair_hit_at(c->hits, c->middle[lane], p->number, &c->hit))
-        c->hit_at = c->middle[lane];
+    if (!path_has_solid(c->w, &of) && answer.upper <= p->reach[lane])
+        (void)cover_take_overlap(c, p->number, lane, -answer.upper);
     return 0;
 }
 
@@ -143,8 +147,7 @@ unsigned cover_test_known(path_cover *c, uint32_t number, unsigned lanes) {
     return find_near(c, &p, lanes);
 }
 
-// One in the middle of those that are set: deepest inside, if the pair meets.
-static unsigned choose_lane(unsigned lanes) {
+unsigned cover_choose_lane(unsigned lanes) {
     unsigned count = 0;
     for (unsigned rest = lanes; rest; rest &= rest - 1) count++;
     for (unsigned i = 0; i < count / 2; i++) lanes &= lanes - 1;
@@ -153,31 +156,52 @@ static unsigned choose_lane(unsigned lanes) {
 
 static unsigned test_hulls(path_cover *c, const cover_open *of) {
     hull_pair p = make_pair(c, of->number);
-    unsigned lanes = of->lanes, open = lanes & ~(1u << choose_lane(lanes));
+    unsigned lanes = of->lanes & c->wanted, open = lanes & ~(1u << cover_choose_lane(lanes));
     if (c->items[p.item].vertex_count > VERTICES_MOST) return lanes;
     // What was asked for a hit gave a normal.
     if (has_normal(c, of->number)) lanes = find_near(c, &p, lanes);
     for (open &= lanes; open;) {
-        unsigned lane = choose_lane(open);
+        unsigned lane = cover_choose_lane(open);
         if (query_middle(c, &p, lane)) lanes = find_near(c, &p, lanes);
-        if (c->hit_at < INFINITY) break;
+        lanes &= c->wanted;
         open &= lanes & ~(1u << lane);
     }
     return lanes;
 }
 
-void cover_find_hit(path_cover *c, const cover_list *list, uint32_t first) {
-    for (uint32_t i = first; i < list->count && !(c->hit_at < INFINITY); i++) {
+// The pair that has hit most often is asked first.
+static void move_likely_first(const path_cover *c, cover_list *list) {
+    uint32_t likely = 0;
+    for (uint32_t i = 1; i < list->count; i++)
+        if (c->hit_counts[list->items[i].number] > c->hit_counts[list->items[likely].number]) likely = i;
+    if (likely == 0) return;
+    cover_open open = list->items[likely];
+    memmove(list->items + 1, list->items, likely * sizeof *list->items);
+    list->items[0] = open;
+}
+
+static void count_hit(path_cover *c, uint32_t number) {
+    if (++c->hit_counts[number] < UINT8_MAX) return;
+    for (size_t i = 0; i < path_count_numbers(c->w->cell); i++) c->hit_counts[i] /= 2;
+}
+
+void cover_query_middles(path_cover *c, cover_list *list) {
+    move_likely_first(c, list);
+    for (uint32_t i = 0; i < list->count && c->wanted; i++) {
+        unsigned lanes = list->items[i].lanes & c->wanted, wanted = c->wanted;
+        if (!lanes) continue;
         hull_pair p = make_pair(c, list->items[i].number);
-        (void)query_middle(c, &p, choose_lane(list->items[i].lanes));
+        (void)query_middle(c, &p, cover_choose_lane(lanes));
+        if (c->wanted != wanted) count_hit(c, p.number);
     }
 }
 
 void cover_test_hulls(path_cover *c, cover_list *list) {
     uint32_t kept = 0;
-    for (uint32_t i = 0; i < list->count && !(c->hit_at < INFINITY); i++) {
+    for (uint32_t i = 0; i < list->count && c->wanted; i++) {
         cover_open open = list->items[i];
-        open.lanes = (uint8_t)test_hulls(c, &open);
+        open.lanes &= (uint8_t)c->wanted;
+        if (open.lanes) open.lanes = (uint8_t)test_hulls(c, &open);
         if (open.lanes) list->items[kept++] = open;
     }
     list->count = kept;

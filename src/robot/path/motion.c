@@ -16,12 +16,12 @@ typedef struct block_part {
 
 static int allocate_block(const path_work *w, void **block, const block_part *parts, size_t count) {
     size_t total = 0, at = 0;
-    for (size_t i = 0; i < count; i++) total += (parts[i].count * parts[i].size + 63) / 64 * 64;
-    *block = allocator_allocate(&w->allocator, total + 64, 1);
+    for (size_t i = 0; i < count; i++) total = allocator_end_array(total, parts[i].count, parts[i].size);
+    *block = allocator_allocate(&w->allocator, total, 1);
     if (!*block) return 0;
     for (size_t i = 0; i < count; i++) {
         *parts[i].to = (char *)*block + at;
-        at += (parts[i].count * parts[i].size + 63) / 64 * 64;
+        at = allocator_end_array(at, parts[i].count, parts[i].size);
     }
     return 1;
 }
@@ -129,7 +129,7 @@ void path_work_destroy(path_work *w) {
 
 // ---- a segment
 
-static void set_errors(path_work *w, double level) {
+void path_set_level(path_work *w, double level) {
     const ovoid_robot_cell *c = w->cell;
     step_list list = {c->robot, w->steps, w->joints, w->step_count};
     w->frame_errors[c->robot->root] = (frame_error){0, 0, 0};
@@ -198,7 +198,7 @@ ovoid_code path_set_segment(path_work *w, const double *q0, const double *q1, do
     if (code != OVOID_OK) return code;
     for (uint32_t i = 0; i < w->step_count; i++) set_speed(w, i, q0, q1);
     double level = robot_compute_level(r, max2(magnitude[0], magnitude[1]));
-    if (level != w->level) set_errors(w, level);
+    if (level != w->level) path_set_level(w, level);
     return OVOID_OK;
 }
 

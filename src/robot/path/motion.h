@@ -9,6 +9,9 @@
 typedef struct pair_parts {
     uint32_t item, other, part, pair; ///< part NONE: two items, pair among the cell's
 } pair_parts;
+static inline size_t path_count_numbers(const ovoid_robot_cell *c) {
+    return c->items.count * c->parts.count + c->pairs.count;
+}
 static inline pair_parts pair_take_apart(const ovoid_robot_cell *c, uint32_t number) {
     size_t parts = c->items.count * c->parts.count;
     if (number < parts)
@@ -70,6 +73,9 @@ void path_work_find_makers(const path_work *w, uint32_t *maker);
 
 /// The segment from q0 to q1: speeds and errors. The codes of a refused state, and ARGUMENT: a floating joint moves.
 ovoid_code path_set_segment(path_work *w, const double *q0, const double *q1, double limit_slack, ovoid_error *error);
+
+/// Errors of that level, as of a segment with larger numbers.
+void path_set_level(path_work *w, double level);
 
 /// The places of everything at one t: all frames, the axes of the steps that turn along the segment, a box around each
 /// item.
@@ -172,9 +178,7 @@ typedef struct path_any_hit {
     const double *q0, *q1;
     path_state state; ///< memory
 } path_any_hit;
-/// 1 where the pair of that number is within the margin at t of the exact path; *hit says how far it is apart.
-int path_is_pair_hit_at(const path_any_hit *search, double t, uint32_t number, ovoid_robot_answer *hit);
-/// 1 where the state at t hits; *hit says what.
+/// 1 where the state at t hits; *hit says what, as path_ask_hit has it.
 int path_is_any_hit_at(const path_any_hit *search, double t, ovoid_robot_answer *hit);
 /// The time of a hit, 0 to 1, or infinity: none was found. *states grows by the states looked at.
 double path_find_any_hit(const path_any_hit *search, uint32_t *states, ovoid_robot_answer *hit);

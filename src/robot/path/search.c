@@ -1,7 +1,7 @@
 // Is a path free? Intervals are halved, the earlier half first, until each pair of bodies is proven apart over each of
 // them, or the first hit is between two times that are near each other. What an interval dismisses its halves do not
 // look at again.
-#include "robot/path/cover.h"
+#include "robot/path/search.h"
 
 #include "base/compiler.h"
 #include "base/environment.h"
@@ -11,33 +11,6 @@
 #include <string.h>
 
 #define AHEAD 0x1p-5
-enum { LEVELS = 31 }; // so begin, end and middle of an interval are exact numbers
-
-// What is between the bits of the masks: eights of parts for each item, then eights of pairs of items.
-struct path_memory {
-    path_work w;
-    path_cover cover;
-    uint32_t groups;
-    size_t mask_count, state_size;
-    uint8_t *queried; // the masks of all pairs that are queried
-    uint8_t *masks;   // of each level
-    uint8_t *is_open; // of each item: it has open pairs
-    char *states;     // the middle's of each level, then those of the segment's ends, and of a state ahead
-};
-
-typedef struct path_search {
-    path_work *w;
-    path_memory *memory;
-    ovoid_robot_checker *checker;
-    const ovoid_robot_path_options *options;
-    ovoid_robot_path_answer *answer;
-    const double *q0, *q1;
-    double segment, margin, tolerance;
-    uint32_t states_most;
-    size_t set_segment; // the number of that which `w` is set to, and one; 0: none
-    int is_still;       // the segment's states are one
-} path_search;
-
 // ---- steps
 
 static void add_step(path_search *s, const path_span *span, uint32_t pair, ovoid_robot_step_kind kind, unsigned mask,
@@ -229,13 +202,6 @@ static open_count test_all(path_search *s, const path_span *span, uint8_t *masks
 
 // ---- intervals
 
-static path_state get_state(const path_search *s, uint32_t level) {
-    return path_place_state(s->w->cell, s->memory->states + level * s->memory->state_size);
-}
-static uint8_t *get_masks(const path_search *s, uint32_t level) {
-    return s->memory->masks + level * s->memory->mask_count;
-}
-
 // Places the items that have open pairs, and computes how they move.
 static void place_open(path_search *s, const uint8_t *masks, const path_state *state, double half) {
     const ovoid_robot_cell *c = s->w->cell;
@@ -264,7 +230,7 @@ static int is_hit_at(path_search *s, double t, const path_state *state, const ui
     at.answer = &answer;
     at.options = &(const ovoid_robot_path_options){.query = s->options->query};
     path_span span = {t, t, state, state, state};
-    uint8_t *masks = get_masks(s, LEVELS);
+    uint8_t *masks = search_get_masks(s, SEARCH_LEVELS);
     memcpy(masks, open, s->memory->mask_count);
     place_open(s, masks, state, 0);
     if (!test_all(&at, &span, masks).is_hit) return 0;
@@ -274,11 +240,11 @@ static int is_hit_at(path_search *s, double t, const path_state *state, const ui
 
 // Looks farther and farther ahead for a hit soon after `from`, as an allowance may hide the time at which bodies meet.
 static void look_ahead(path_search *s, double from) {
-    path_state state = get_state(s, LEVELS + 2);
+    path_state state = search_get_state(s, SEARCH_LEVELS + 2);
     for (double by = s->tolerance; by <= AHEAD && from + by <= 1; by *= 2) {
         s->answer->states++;
         path_compute_frames(s->w, s->q0, s->q1, from + by, &state);
-        if (!is_hit_at(s, from + by, &state, get_masks(s, 0))) continue;
+        if (!is_hit_at(s, from + by, &state, search_get_masks(s, 0))) continue;
         s->answer->hit_at = s->segment + (from + by);
         return;
     }
@@ -301,8 +267,7 @@ static void end_at(path_search *s, const path_span *span, const uint8_t *open, i
     if (a->status == OVOID_ROBOT_HIT) a->hit.status = OVOID_ROBOT_HIT;
 }
 
-// A hit was found, and is the answer; free is what was proven up to `begin`.
-static void end_with(path_search *s, double begin, double at, const ovoid_robot_answer *hit) {
+void search_end_with(path_search *s, double begin, double at, const ovoid_robot_answer *hit) {
     ovoid_robot_path_answer *a = s->answer;
     a->free_until = s->segment + begin;
     a->hit_at = s->segment + at;
@@ -315,7 +280,7 @@ static int visit(path_search *s, uint32_t level, double begin, double end, const
                  const path_state *at_end) {
     ovoid_robot_path_answer *a = s->answer;
     double middle = 0.5 * (begin + end);
-    path_state state = get_state(s, level);
+    path_state state = search_get_state(s, level);
     path_span span = {begin, end, at_begin, at_end, &state};
     if (a->states >= s->states_most || watch_is_stopped(&s->options->watch)) {
         a->free_until = s->segment + begin;
@@ -324,7 +289,7 @@ static int visit(path_search *s, uint32_t level, double begin, double end, const
     }
     a->states++;
     path_compute_frames(s->w, s->q0, s->q1, middle, &state);
-    uint8_t *masks = get_masks(s, level);
+    uint8_t *masks = search_get_masks(s, level);
     place_open(s, masks, &state, 0.5 * (end - begin));
     ovoid_robot_answer known = a->hit;
     open_count open = test_all(s, &span, masks);
@@ -333,7 +298,7 @@ static int visit(path_search *s, uint32_t level, double begin, double end, const
         return 1;
     }
     if (open.is_hit && s->options->any_hit) {
-        end_with(s, begin, middle, &a->hit);
+        search_end_with(s, begin, middle, &a->hit);
         return 0;
     }
     if (open.is_hit)
@@ -341,20 +306,19 @@ static int visit(path_search *s, uint32_t level, double begin, double end, const
     else if (a->hit_at < INFINITY)
         a->hit = known;
     int is_narrow = a->hit_at - (s->segment + begin) <= s->tolerance;
-    if (s->is_still || is_narrow || level + 1 == LEVELS) {
+    if (s->is_still || is_narrow || level + 1 == SEARCH_LEVELS) {
         end_at(s, &span, masks, open.is_hit);
         return 0;
     }
-    memcpy(get_masks(s, level + 1), masks, s->memory->mask_count);
+    memcpy(search_get_masks(s, level + 1), masks, s->memory->mask_count);
     if (!visit(s, level + 1, begin, middle, at_begin, &state) || open.is_hit) return 0;
-    memcpy(get_masks(s, level + 1), masks, s->memory->mask_count);
+    memcpy(search_get_masks(s, level + 1), masks, s->memory->mask_count);
     return visit(s, level + 1, middle, end, &state, at_end);
 }
 
 // ---- a path
 
-// The pairs that the options leave of all that are queried.
-static void open_all(const path_search *s, uint8_t *masks) {
+void search_open_all(const path_search *s, uint8_t *masks) {
     const ovoid_robot_query_options *o = &s->options->query;
     size_t parts = s->w->cell->items.count * s->memory->groups;
     memcpy(masks, s->memory->queried, s->memory->mask_count);
@@ -362,11 +326,10 @@ static void open_all(const path_search *s, uint8_t *masks) {
     if (o->without_self) memset(masks + parts, 0, s->memory->mask_count - parts);
 }
 
-static ovoid_code set_segment(path_search *s, size_t index, const ovoid_robot_path *path, ovoid_error *refused) {
-    size_t count = s->w->cell->robot->variable_count;
-    s->q0 = path->states + index * count;
-    s->q1 = index + 1 < path->count ? s->q0 + count : s->q0;
-    s->segment = (double)index;
+ovoid_code search_set_segment(path_search *s, size_t index, ovoid_error *refused) {
+    s->q0 = s->list.states + index * s->list.step;
+    s->q1 = s->q0 + s->list.length;
+    s->segment = s->list.are_edges ? 0 : (double)index;
     if (s->set_segment == index + 1) return OVOID_OK;
     s->set_segment = 0;
     ovoid_code code = path_set_segment(s->w, s->q0, s->q1, s->options->query.limit_slack, refused);
@@ -376,110 +339,76 @@ static ovoid_code set_segment(path_search *s, size_t index, const ovoid_robot_pa
 
 // 1 where a state of the path that was looked at hits; it is the answer. Segments from one that is refused on are not
 // looked at.
-static int find_any_hit(path_search *s, const ovoid_robot_path *path, size_t segments) {
+static int find_any_hit(path_search *s) {
     ovoid_error refused;
-    for (size_t i = 0; i < segments && !watch_is_stopped(&s->options->watch); i++) {
+    for (size_t i = 0; i < s->list.count && !watch_is_stopped(&s->options->watch); i++) {
         ovoid_robot_answer hit;
-        if (s->answer->states >= s->states_most || set_segment(s, i, path, &refused) != OVOID_OK) return 0;
-        path_any_hit search = {s->w, s->checker, &s->options->query, s->q0, s->q1, get_state(s, LEVELS + 2)};
+        if (s->answer->states >= s->states_most || search_set_segment(s, i, &refused) != OVOID_OK) return 0;
+        path_any_hit search = {s->w,  s->checker, &s->options->query,
+                               s->q0, s->q1,      search_get_state(s, SEARCH_LEVELS + 2)};
         double at = path_find_any_hit(&search, &s->answer->states, &hit);
         if (!(at < INFINITY)) continue;
         s->segment = 0;
-        end_with(s, 0, (double)i + at, &hit);
+        search_end_with(s, 0, (double)i + at, &hit);
+        s->is_settled = 1;
         return 1;
     }
     return 0;
 }
 
-static int refuse_segment(path_search *s, size_t index, ovoid_code code, const ovoid_error *refused) {
+void search_refuse(path_search *s, ovoid_code code, const ovoid_error *refused) {
     ovoid_robot_path_answer *a = s->answer;
     a->status = OVOID_ROBOT_REFUSED;
     a->hit.status = OVOID_ROBOT_REFUSED;
     a->hit.code = code;
     a->hit.variable = (uint32_t)refused->place;
-    a->refused = index;
-    return 0;
+    a->refused = (size_t)s->segment;
 }
 
-// Searches an interval of the segment for what is open at level 0.
-static int run_open(path_search *s, double begin, double end) {
-    path_state at_begin = get_state(s, LEVELS), at_end = get_state(s, LEVELS + 1);
+int search_run_open(path_search *s, double begin, double end) {
+    path_state at_begin = search_get_state(s, SEARCH_LEVELS), at_end = search_get_state(s, SEARCH_LEVELS + 1);
     s->is_still = path_is_still(s->w);
     path_compute_state(s->w, s->q0, s->q1, begin, &at_begin);
     path_compute_state(s->w, s->q0, s->q1, end, &at_end);
     return visit(s, 0, begin, end, &at_begin, &at_end);
 }
 
-static void end_segment(path_search *s, size_t index, const ovoid_robot_path *path) {
-    s->answer->free_until = index + 1 < path->count ? s->segment + 1 : s->segment;
-}
+void search_end_segment(path_search *s) { s->answer->free_until = s->segment + !s->list.is_state; }
 
-static int run_segment(path_search *s, size_t index, const ovoid_robot_path *path) {
+static int run_segment(path_search *s, size_t index) {
     ovoid_error refused;
-    ovoid_code code = set_segment(s, index, path, &refused);
-    if (code != OVOID_OK) return refuse_segment(s, index, code, &refused);
-    open_all(s, get_masks(s, 0));
-    if (!run_open(s, 0, 1)) return 0;
-    end_segment(s, index, path);
-    return 1;
-}
-
-// ---- a path by covers
-
-static int uses_covers(const ovoid_robot_path_options *o) { return o->any_hit && !o->steps; }
-
-// Covers first; what they leave is searched. 0: the path is not free, or not shown to be.
-static int run_covered(path_search *s, size_t index, const ovoid_robot_path *path) {
-    ovoid_error refused;
-    path_cover *cover = &s->memory->cover;
-    s->set_segment = 0;
-    ovoid_code code = set_segment(s, index, path, &refused);
-    if (code != OVOID_OK) return refuse_segment(s, index, code, &refused);
-    uint8_t *queried = get_masks(s, 0), *left = get_masks(s, 1);
-    open_all(s, queried);
-    path_any_hit hits = {s->w, s->checker, &s->options->query, s->q0, s->q1, get_state(s, LEVELS + 2)};
-    path_cover_set_segment(cover, &(cover_segment){.q0 = s->q0,
-                                                   .q1 = s->q1,
-                                                   .margin = s->margin,
-                                                   .queried = queried,
-                                                   .left = left,
-                                                   .mask_groups = s->memory->groups,
-                                                   .mask_count = s->memory->mask_count,
-                                                   .hits = &hits});
-    int is_free = path_cover_refine(cover, path_cover_look(cover));
-    if (cover->hit_at < INFINITY) {
-        s->answer->states++;
-        end_with(s, 0, cover->hit_at, &cover->hit);
+    ovoid_code code = search_set_segment(s, index, &refused);
+    if (code != OVOID_OK) {
+        search_refuse(s, code, &refused);
         return 0;
     }
-    if (!is_free) {
-        memcpy(queried, left, s->memory->mask_count);
-        if (!run_open(s, cover->begin, cover->end)) return 0;
-    }
-    end_segment(s, index, path);
+    search_open_all(s, search_get_masks(s, 0));
+    if (!search_run_open(s, 0, 1)) return 0;
+    search_end_segment(s);
     return 1;
 }
 
-// 1: the path was decided, and all but free_until of a hit is as without covers.
-static int run_all_covered(path_search *s, const ovoid_robot_path *path, size_t segments) {
-    for (size_t i = 0; i < segments; i++) {
-        if (watch_is_stopped(&s->options->watch) || s->answer->states >= s->states_most) return 0;
-        if (run_covered(s, i, path)) continue;
-        if (s->answer->status == OVOID_ROBOT_UNDECIDED) return 0;
-        break;
-    }
-    return 1;
+void search_run_all(path_search *s, int has_pairs) {
+    s->answer->status = OVOID_ROBOT_FREE;
+    s->set_segment = 0;
+    if (s->options->any_hit && has_pairs && find_any_hit(s)) return;
+    for (size_t i = 0; i < s->list.count; i++)
+        if (!run_segment(s, i)) return;
+    if (has_pairs) return;
+    s->answer->status = OVOID_ROBOT_UNDECIDED;
+    s->answer->free_until = 0;
+    s->answer->hit = answer_make_empty();
 }
 
-static ovoid_code validate_options(const ovoid_robot_path *path, const ovoid_robot_path_options *o,
-                                   ovoid_error *error) {
+static ovoid_code validate_options(const ovoid_robot_path_options *o, ovoid_error *error) {
     ovoid_code code = query_options_validate(&o->query, error);
-    if (code != OVOID_OK) return code;
-    if (!(o->tolerance >= 0))
-        return error_set(error, OVOID_ERROR_ARGUMENT, -1, "the tolerance of a path is a number of at least 0");
-    if (!path->states || path->count < 1 || path->count > OVOID_ROBOT_PATH_STATES_MAX)
-        return error_set(error, OVOID_ERROR_ARGUMENT, -1, "a path has 1 to 2^20 states, not %zu", path->count);
-    return OVOID_OK;
+    if (code != OVOID_OK || o->tolerance >= 0) return code;
+    return error_set(error, OVOID_ERROR_ARGUMENT, -1, "the tolerance of a path is a number of at least 0");
+}
+
+static ovoid_code validate_path(const ovoid_robot_path *path, ovoid_error *error) {
+    if (path->states && path->count >= 1 && path->count <= OVOID_ROBOT_PATH_STATES_MAX) return OVOID_OK;
+    return error_set(error, OVOID_ERROR_ARGUMENT, -1, "a path has 1 to 2^20 states, not %zu", path->count);
 }
 
 // ---- memory
@@ -507,9 +436,9 @@ static int allocate(path_memory *m, const ovoid_robot_cell *c) {
     m->groups = (uint32_t)c->boxes.count;
     m->mask_count = c->items.count * m->groups + (c->pairs.count + ROBOT8 - 1) / ROBOT8;
     m->state_size = path_get_state_size(c);
-    m->masks = allocator_allocate(&m->w.allocator, m->mask_count * (LEVELS + 2) + c->items.count + 1, 1);
-    m->states = allocator_allocate(&m->w.allocator, LEVELS + 3, m->state_size);
-    m->queried = m->masks ? m->masks + m->mask_count * (LEVELS + 1) : NULL;
+    m->masks = allocator_allocate(&m->w.allocator, m->mask_count * (SEARCH_LEVELS + 2) + c->items.count + 1, 1);
+    m->states = allocator_allocate(&m->w.allocator, SEARCH_LEVELS + 3, m->state_size);
+    m->queried = m->masks ? m->masks + m->mask_count * (SEARCH_LEVELS + 1) : NULL;
     m->is_open = m->masks ? m->queried + m->mask_count : NULL;
     if (m->masks) find_queried(m, c);
     return m->masks && m->states;
@@ -541,70 +470,131 @@ static ovoid_code get_cover(path_memory *m, ovoid_error *error) {
     return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for the balls around a robot");
 }
 
-// The answer's hit as its check finds it again. What is within rounding of the margin may be none then.
-static void settle_hit(path_search *s, const ovoid_robot_path *path) {
+void search_settle_hit(path_search *s, const ovoid_robot_path *path, size_t first) {
     ovoid_robot_path_answer *a = s->answer;
-    if (a->status != OVOID_ROBOT_HIT) return;
+    if (a->status != OVOID_ROBOT_HIT || s->is_settled) return;
     path_place place = path_find_place(s->w->cell, path, a->hit_at);
-    path_state state = get_state(s, LEVELS + 2);
+    path_state state = search_get_state(s, SEARCH_LEVELS + 2);
     ovoid_error refused;
     uint32_t number = path_find_number(s->w->cell, &a->hit.a, &a->hit.b);
-    if (number != OVOID_ROBOT_NONE && set_segment(s, place.segment, path, &refused) == OVOID_OK)
+    if (number != OVOID_ROBOT_NONE && search_set_segment(s, first + place.segment, &refused) == OVOID_OK)
         a->hit = path_ask_hit(s->w, &place, number, &state);
     if (a->hit.upper <= s->margin) return;
     a->status = a->hit.status = OVOID_ROBOT_UNDECIDED;
     a->hit_at = INFINITY;
 }
 
-static void search(path_search *s, const ovoid_robot_path *path) {
-    size_t segments = path->count > 1 ? path->count - 1 : 1;
-    const ovoid_robot_path_answer empty = *s->answer;
-    s->answer->status = OVOID_ROBOT_FREE;
-    int has_pairs = cell_has_pairs(s->w->cell, &s->options->query);
-    if (uses_covers(s->options) && has_pairs) {
-        if (run_all_covered(s, path, segments)) return;
-        const uint32_t checked = s->answer->states;
-        *s->answer = empty;
-        s->answer->states = checked;
-        s->answer->status = OVOID_ROBOT_FREE;
-        s->set_segment = 0;
-    }
-    if (s->options->any_hit && has_pairs && find_any_hit(s, path, segments)) return;
-    for (size_t i = 0; i < segments; i++)
-        if (!run_segment(s, i, path)) return;
-    if (has_pairs) return;
-    s->answer->status = OVOID_ROBOT_UNDECIDED;
-    s->answer->free_until = 0;
-    s->answer->hit = answer_make_empty();
+static ovoid_robot_path_answer make_answer(void) {
+    return (ovoid_robot_path_answer){.hit_at = INFINITY, .hit = {.lower = -INFINITY, .upper = INFINITY}};
 }
+
+// By covers, if these are asked for and decide the path; else without.
+static void run_path(path_search *s, const ovoid_robot_path *path) {
+    int has_pairs = cell_has_pairs(s->w->cell, &s->options->query);
+    if (!search_uses_covers(s->options) || !has_pairs || !covered_run_path(s)) {
+        uint32_t checked = s->answer->states;
+        *s->answer = make_answer();
+        s->answer->states = checked;
+        search_run_all(s, has_pairs);
+    }
+    search_settle_hit(s, path, 0);
+    // What covers prove has no steps; so that the count does not depend on what proved more, it is of those asked for.
+    if (search_uses_covers(s->options)) s->answer->step_count = 0;
+}
+
+static path_search make_search(ovoid_robot_checker *checker, const ovoid_robot_path_options *options) {
+    return (path_search){.w = &checker->path->w,
+                         .memory = checker->path,
+                         .checker = checker,
+                         .options = options,
+                         .margin = options->query.margin,
+                         .tolerance = options->tolerance > 0 ? options->tolerance : 0x1p-20,
+                         .states_most = options->states ? options->states : 100000};
+}
+
+static ovoid_code prepare(ovoid_robot_checker *checker, const ovoid_robot_path_options *options, ovoid_error *error) {
+    ovoid_code code = checker_renew(checker, error);
+    if (code == OVOID_OK) code = get_memory(checker, error);
+    if (code == OVOID_OK && search_uses_covers(options)) code = get_cover(checker->path, error);
+    return code;
+}
+
+static const ovoid_robot_path_options no_options;
 
 static ovoid_code find_hit(ovoid_robot_checker *checker, const ovoid_robot_path_query *query,
                            ovoid_robot_path_answer *answer, ovoid_error *error) {
-    static const ovoid_robot_path_options none;
     const ovoid_robot_path *path = query->path;
-    const ovoid_robot_path_options *options = query->options ? query->options : &none;
-    *answer = (ovoid_robot_path_answer){.hit_at = INFINITY, .hit = {.lower = -INFINITY, .upper = INFINITY}};
-    ovoid_code code = validate_options(path, options, error);
-    if (code == OVOID_OK) code = checker_renew(checker, error);
-    if (code == OVOID_OK) code = get_memory(checker, error);
-    if (code == OVOID_OK && uses_covers(options)) code = get_cover(checker->path, error);
+    const ovoid_robot_path_options *options = query->options ? query->options : &no_options;
+    *answer = make_answer();
+    ovoid_code code = validate_options(options, error);
+    if (code == OVOID_OK) code = validate_path(path, error);
+    if (code == OVOID_OK) code = prepare(checker, options, error);
     if (code != OVOID_OK) return code;
-    path_search s = {.w = &checker->path->w,
-                     .memory = checker->path,
-                     .checker = checker,
-                     .options = options,
-                     .answer = answer,
-                     .margin = options->query.margin,
-                     .tolerance = options->tolerance > 0 ? options->tolerance : 0x1p-20,
-                     .states_most = options->states ? options->states : 100000};
-    search(&s, path);
-    settle_hit(&s, path);
-    // What covers prove has no steps; so that the count does not depend on what proved more, it is of those asked for.
-    if (uses_covers(options)) answer->step_count = 0;
+    path_search s = make_search(checker, options);
+    size_t variables = checker->cell->robot->variable_count;
+    s.answer = answer;
+    s.list = (segment_list){.states = path->states, .count = 1, .is_state = 1};
+    if (path->count > 1)
+        s.list =
+            (segment_list){.states = path->states, .count = path->count - 1, .step = variables, .length = variables};
+    run_path(&s, path);
     return OVOID_OK;
 }
 
 ovoid_code ovoid_robot_path_find_hit(ovoid_robot_checker *checker, const ovoid_robot_path_query *query,
                                      ovoid_robot_path_answer *answer, ovoid_error *error) {
     ENVIRONMENT_RETURN(ovoid_code, checker, find_hit(checker, query, answer, error));
+}
+
+// ---- edges
+
+void search_run_edge(path_search *s, size_t index) {
+    const segment_list all = s->list;
+    const ovoid_robot_path path = {all.states + index * all.step, 2};
+    uint32_t checked = s->answer->states;
+    *s->answer = make_answer();
+    s->answer->states = checked;
+    s->list = (segment_list){.states = path.states, .count = 1, .length = all.length};
+    s->is_settled = 0;
+    search_run_all(s, cell_has_pairs(s->w->cell, &s->options->query));
+    search_settle_hit(s, &path, 0);
+    if (search_uses_covers(s->options)) s->answer->step_count = 0;
+    s->list = all;
+    s->set_segment = 0;
+}
+
+static void run_block(void *context, ovoid_robot_checker *checker, size_t first, size_t end) {
+    const ovoid_robot_edge_batch *batch = context;
+    const ovoid_robot_path_options *options = batch->options ? batch->options : &no_options;
+    size_t variables = checker->cell->robot->variable_count;
+    path_search s = make_search(checker, options);
+    s.list = (segment_list){
+        .states = batch->states, .count = batch->count, .step = 2 * variables, .length = variables, .are_edges = 1};
+    ovoid_robot_checker_reset(checker);
+    if (search_uses_covers(options) && cell_has_pairs(checker->cell, &options->query))
+        covered_run_edges(&s, first, end, batch->answers);
+    else
+        for (size_t i = first; i < end; i++) {
+            s.answer = &batch->answers[i];
+            search_run_edge(&s, i);
+        }
+}
+
+static ovoid_code find_hit_batch(ovoid_robot_checker *const *checkers, size_t count,
+                                 const ovoid_robot_edge_batch *batch, ovoid_error *error) {
+    const ovoid_robot_path_options *options = batch->options ? batch->options : &no_options;
+    for (size_t i = 0; i < batch->count; i++) batch->answers[i] = make_answer();
+    ovoid_code code = validate_options(options, error);
+    if (code == OVOID_OK && options->steps)
+        code =
+            error_set(error, OVOID_ERROR_ARGUMENT, -1, "a batch of edges writes no steps: ask for those of one path");
+    if (code == OVOID_OK) code = checkers_validate(checkers, count, error);
+    for (size_t i = 0; code == OVOID_OK && i < count; i++) code = prepare(checkers[i], options, error);
+    if (code != OVOID_OK) return code;
+    return checkers_run(checkers, count, &(checkers_job){run_block, (void *)(uintptr_t)batch, batch->count}, error);
+}
+
+ovoid_code ovoid_robot_path_find_hit_batch(ovoid_robot_checker *const *checkers, size_t checker_count,
+                                           const ovoid_robot_edge_batch *batch, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, checkers, find_hit_batch(checkers, checker_count, batch, error));
 }

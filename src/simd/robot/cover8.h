@@ -7,11 +7,12 @@
 
 enum { COVER8 = 8 };
 
-/// How fast the own values of a step go, and whether its child moves in the world.
-typedef struct step_rate {
-    double length[3], turn;
+/// How fast the own values of a step go, in each lane, and whether its child moves in the world in any.
+typedef struct step_rate8 {
+    _Alignas(64) double length[3][COVER8];
+    double turn[COVER8];
     int is_moving;
-} step_rate;
+} step_rate8;
 
 /// A frame's rates in the world: velocity and acceleration of its origin, angular velocity and acceleration, and the
 /// matrix B of a point's acceleration: B r for the point r from the origin, acceleration of the origin aside.
@@ -82,7 +83,7 @@ typedef struct moving_hull {
 /// Steps, parents before children, how fast each goes, and the frames that they made.
 typedef struct rate_chain {
     const struct chain_step *steps;
-    const step_rate *rates;
+    const step_rate8 *rates;
     const struct frame8 *frames;
     uint32_t count;
 } rate_chain;

@@ -22,7 +22,7 @@ LANES_INLINE lane9 get_matrix(const rate8 *r, int at) {
 }
 
 // The child of a step from its parent, whose rates are zero for the world.
-LANES_INLINE void compute_rate(const chain_step *s, const step_rate *own, const frame8 *frames, rate8 *rates, int at,
+LANES_INLINE void compute_rate(const chain_step *s, const step_rate8 *own, const frame8 *frames, rate8 *rates, int at,
                                lane half) {
     static const rate8 still;
     int is_root = s->parent == UINT32_MAX;
@@ -40,13 +40,13 @@ LANES_INLINE void compute_rate(const chain_step *s, const step_rate *own, const 
     for (uint32_t i = 0; i < lengths; i++) {
         lane3 along = spread3(s->along[i]);
         if (!is_root) along = lane9_mul3(get_rotation(&frames[s->parent], at), along);
-        lane3 slide = lane3_scale(along, lane_set(own->length[i]) * half);
+        lane3 slide = lane3_scale(along, get(own->length[i], at) * half);
         v = lane3_add(v, slide);
         a = lane3_add_scaled(a, cross3(turn, slide), lane_set(2));
     }
     if (s->kind == STEP_TURN || s->kind == STEP_PLANE) {
         lane3 axis = lane9_mul3(get_rotation(child, at), spread3(s->axis));
-        lane3 more = lane3_scale(axis, lane_set(own->turn) * half);
+        lane3 more = lane3_scale(axis, get(own->turn, at) * half);
         bend = lane3_add(bend, cross3(turn, more));
         turn = lane3_add(turn, more);
     }
