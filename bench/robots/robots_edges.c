@@ -85,6 +85,52 @@ static void prove(robots_run *run, robots_scene *s, edge *e, uint32_t length) {
     run->wrong += code != OVOID_OK || again.status != e->answer.status || any.status != e->answer.status;
 }
 
+/// Edges of a length that are free, or hit, to be asked at once.
+typedef struct edge_group {
+    double *q;
+    uint32_t count;
+    int is_hit;
+} edge_group;
+
+static void keep_edge(edge_group *g, const edge *e, uint32_t width) {
+    double *more = realloc(g->q, sizeof *more * 2 * width * (g->count + 1));
+    if (!more) return;
+    g->q = more;
+    memcpy(more + (size_t)2 * width * g->count++, e->q, sizeof *more * 2 * width);
+}
+
+/// Any hit of all edges of a group by one call, on one thread: each has an equal share of its time.
+static void prove_group(robots_run *run, robots_scene *s, const edge_group *g, tallies *to) {
+    ovoid_robot_path_answer *answers = calloc(g->count + 1, sizeof *answers);
+    const ovoid_robot_path_options options = {.any_hit = 1};
+    const ovoid_robot_edge_batch batch = {g->q, g->count, &options, answers};
+    ovoid_robot_status expected = g->is_hit ? OVOID_ROBOT_HIT : OVOID_ROBOT_FREE;
+    double start = get_own_seconds();
+    if (g->count && answers && ovoid_robot_path_find_hit_batch(&s->checker, 1, &batch, NULL) == OVOID_OK) {
+        double share = (get_own_seconds() - start) / g->count;
+        for (uint32_t i = 0; i < g->count; i++) {
+            tally_add(tallies_get(to, "ovoid, any hit, batch"), share * 1e6);
+            run->wrong += answers[i].status != expected;
+        }
+    }
+    free(answers);
+}
+
+/// Edges of a length in batches, those that hit apart from free ones; as many as a planner may have at hand.
+static void prove_batches(robots_run *run, robots_scene *s, edge *e, uint32_t length) {
+    enum { EDGES = 32 };
+    edge_group groups[2] = {{NULL, 0, 0}, {NULL, 0, 1}};
+    for (int i = 0; i < EDGES && draw_edge(run, s, e, lengths[length]); i++) {
+        if (ask(s, e, 0, &e->answer) < 0) break;
+        int is_hit = e->answer.status == OVOID_ROBOT_HIT;
+        if (is_hit || e->answer.status == OVOID_ROBOT_FREE) keep_edge(&groups[is_hit], e, run->machine->variable_count);
+    }
+    prove_group(run, s, &groups[0], &run->edges[length]);
+    prove_group(run, s, &groups[1], &run->hit_edges[length]);
+    free(groups[0].q);
+    free(groups[1].q);
+}
+
 static void place_sample(const machine *m, const edge *e, uint32_t i, double *q) {
     double t = (double)i / (e->samples - 1);
     for (uint32_t k = 0; k < m->variable_count; k++) q[k] = e->q[k] + t * (e->q[m->variable_count + k] - e->q[k]);
@@ -179,6 +225,7 @@ void robots_run_edges(robots_run *run, robots_scene *s, rival *rivals, uint32_t 
         for (uint32_t r = 0; r < count; r++)
             time_rival(run, &rivals[r], &e, work, links, tallies_get(lines, rivals[r].who->name));
     }
+    for (uint32_t length = 0; q && length < 3; length++) prove_batches(run, s, &e, length);
     free(q);
     free(links);
 }
