@@ -12,6 +12,7 @@
 #include "ovoid/decompose.h"
 #include "ovoid/ellipsoid.h"
 #include "ovoid/linear.h"
+#include "ovoid/manifold.h"
 #include "ovoid/motion.h"
 #include "ovoid/paper.h"
 #include "ovoid/polytope.h"

@@ -84,6 +84,9 @@ ovoid_code status_verify_internal(ovoid_verdict answer, double tolerance, ovoid_
 /// OVOID_OK if an answer is the refusal for that reason, and claims nothing.
 ovoid_code refusal_verify_internal(ovoid_verdict answer, ovoid_limit refused, ovoid_error *error);
 
+/// The upper bound of the signed distance that a cover shows of a pair; infinity where it shows none, or is NULL.
+double cover_measure_upper(const pair_frame *frame, const ovoid_cover *cover);
+
 /// Checks the lower bound alone: that the proof's normal shows it.
 ovoid_code lower_verify_internal(const ovoid_pair *pair, double lower, const ovoid_proof *proof, ovoid_error *error);
 

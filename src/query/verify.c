@@ -75,7 +75,7 @@ static double measure_upper_again(const measure *m, const ovoid_proof *p) {
     return fine_measure_hull(&m->fine, w, (int)p->count, m->fine.check);
 }
 
-static double measure_cover(const pair_frame *f, const ovoid_cover *cover) {
+double cover_measure_upper(const pair_frame *f, const ovoid_cover *cover) {
     vec3 w[OVOID_COVER_POINTS];
     if (!cover || cover->point_count > OVOID_COVER_POINTS || cover->triangle_count > 2 * OVOID_COVER_POINTS)
         return INFINITY;
@@ -102,7 +102,7 @@ static ovoid_code verify_upper(measure *m, const ovoid_answer *answer, const ovo
         break;
     }
     case OVOID_PROOF_INNER_POINTS: found = inner_points_compute_upper(f, p->inner_a, p->inner_b, f->check); break;
-    case OVOID_PROOF_COVER: found = measure_cover(f, cover); break;
+    case OVOID_PROOF_COVER: found = cover_measure_upper(f, cover); break;
     }
     if (p->kind == OVOID_PROOF_COVER && !cover) return refuse(error, "a depth without its cover", answer->upper, found);
     if (!(found <= answer->upper) && make_fine(m)) found = fmin(found, measure_upper_again(m, p));

@@ -5,6 +5,7 @@
 #include "base/environment.h"
 #include "base/error.h"
 #include "polytope/sphere.h"
+#include "shape/loops.h"
 #include "simd/support.h"
 
 #include <string.h>
@@ -31,6 +32,11 @@ block_offsets block_compute_offsets(block_counts c) {
     o.neighbor_starts = advance(&at, ((uint64_t)c.vertices + 1) * sizeof(uint32_t));
     o.neighbors = advance(&at, (uint64_t)c.neighbors * sizeof(uint32_t));
     o.cells = advance(&at, (uint64_t)c.cells * sizeof(simd_cell));
+    o.edge_tails = advance(&at, (uint64_t)c.neighbors * sizeof(uint32_t));
+    o.edge_facets = advance(&at, (uint64_t)c.neighbors * sizeof(uint32_t));
+    o.loop_starts = advance(&at, ((uint64_t)c.facets + 2) * sizeof(uint32_t));
+    o.loop_vertices = advance(&at, ((uint64_t)c.neighbors + 1) * sizeof(uint32_t));
+    o.loop_edges = advance(&at, ((uint64_t)c.neighbors + 1) * sizeof(uint32_t));
     o.size = at;
     return o;
 }
@@ -38,11 +44,21 @@ block_offsets block_compute_offsets(block_counts c) {
 // Clears the header and the padding between arrays, less than 64 bytes before each, so that equal shapes are equal
 // blocks.
 static void clear_padding(ovoid_shape *shape, const block_offsets *at) {
-    const uint64_t ends[] = {
-        at->y,         at->z,     at->vertices, at->planes, at->triangles, at->triangle_facets, at->neighbor_starts,
-        at->neighbors, at->cells, at->size};
+    const uint64_t ends[] = {at->y,
+                             at->z,
+                             at->vertices,
+                             at->planes,
+                             at->triangles,
+                             at->triangle_facets,
+                             at->neighbor_starts,
+                             at->neighbors,
+                             at->cells,
+                             at->edge_tails,
+                             at->edge_facets,
+                             at->loop_starts};
     memset(shape, 0, at->x);
     for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) memset((char *)shape + ends[i] - 64, 0, 64);
+    memset((char *)shape + at->loop_starts, 0, at->size - at->loop_starts);
 }
 
 ovoid_shape *block_create(block_counts counts, const ovoid_allocator *given, ovoid_error *error) {
@@ -87,6 +103,7 @@ void block_fill(ovoid_shape *shape, const ovoid_polytope *p) {
     shape->reach = shape->measures.sphere_radius;
     shape->first = (ovoid_vec3){p->vertices[0], p->vertices[1], p->vertices[2]};
     shape->extent = sphere_compute_radius(p->vertices, p->vertex_count, (ovoid_vec3){0, 0, 0});
+    loops_fill(shape, p);
     shape->box = parallelepiped_find(p->vertices, p->rank == 3 ? p->vertex_count : 0, shape->extent);
 }
 

@@ -17,7 +17,11 @@ typedef struct block_offsets {
     uint64_t neighbor_starts; ///< uint32, vertex_count + 1
     uint64_t neighbors;       ///< uint32, neighbor_count
     uint64_t cells;           ///< simd_cell, of the table of supports; none for bodies of few vertices
-    uint64_t size;            ///< of the whole block
+    // The boundaries of facets (loops.h), all uint32.
+    uint64_t edge_tails, edge_facets;   ///< neighbor_count each
+    uint64_t loop_starts;               ///< loop_count + 1
+    uint64_t loop_vertices, loop_edges; ///< neighbor_count + 1 each; 0 beyond the last loop
+    uint64_t size;                      ///< of the whole block
 } block_offsets;
 
 /// The counts that decide the layout.

@@ -1,0 +1,163 @@
+// Upper bounds of the signed distance that need no search.
+//
+// Theorem (frustum). Let K be the difference of the cores, B - A. Let F be a convex polygon in K, across n at n.x = -h,
+// that contains the foot of the origin: F = { o_e.x <= p_e } with all p_e >= 0, e its edges, o_e unit vectors across n.
+// Let c be a point and the ball of radius r around it in K, and s >= 0 with s |x| <= r for all x of F (measured from
+// the foot). Then T = c + s F is in K, and the hull of F and T is a frustum with parallel edges: it is the intersection
+// of -h <= n.x <= n.c and one half-space for each e, whose boundary passes at the distance
+//   (p_e n.c + q_e h) / sqrt((q_e - p_e)^2 + (n.c + h)^2),  q_e = o_e.c + s p_e,
+// from the origin. So the ball around the origin of the least of h, n.c and these distances is in K: the depth is at
+// least that. c is the difference of the centres of the inner ellipsoids, r the sum of their least radii.
+//
+// F is one of these. Facets: the difference of both patches. If these are tilted, so that it spans the heights from -h'
+// to -h, each of its points is moved toward c until it is at -h; it moves across n by at most
+//   tau = (h' - h) / (n.c + h') (|c| + reach),
+// so the polygon of all points that are deeper than tau inside of the difference's edges is in K. A facet and a vertex:
+// as above where one patch is a vertex. Edges: the parallelogram of both edges.
+//
+// Rounding: the computed corners are within `check` of points of the cores, and what is computed of them is off by a
+// few u of the size; p_e less both, and the result less both, is a bound of the exact depth.
+#include "manifold/manifold.h"
+
+#include "linear/rotation.h"
+
+// A frustum of which sides are added.
+typedef struct frustum {
+    double cx, cy, cz; ///< the point above
+    double h, s;       ///< as in the theorem
+    double inset;      ///< each p_e is less by this
+    double depth;      ///< the bound so far; negative: there is none
+} frustum;
+
+static void add_side(frustum *f, double ox, double oy, double p) {
+    p -= f->inset;
+    double q = (ox * f->cx + oy * f->cy) + f->s * p, rise = f->cz + f->h;
+    double above = p * f->cz + q * f->h;
+    double distance = above / sqrt((q - p) * (q - p) + rise * rise) * (1 - 16 * ROUNDING);
+    if (!(p >= 0)) distance = -1;
+    f->depth = min2(f->depth, distance);
+}
+
+// The largest of the distances of the other patch's corners from an edge, to its inner side; edges of no length are no
+// sides. sign: -1 for sides of B's edges.
+static void add_edges(frustum *f, const manifold_patch *p, const manifold_patch *other, double sign) {
+    for (uint32_t i = 0; i < p->count && p->count > 1; i++) {
+        double dx = p->x[i + 1] - p->x[i], dy = p->y[i + 1] - p->y[i], length = sqrt(dx * dx + dy * dy);
+        if (!(length > 0)) continue;
+        double ox = -dy / length, oy = dx / length, most = -INFINITY;
+        for (uint32_t k = 0; k < other->count; k++)
+            most = max2(most, ox * (other->x[k] - p->x[i]) + oy * (other->y[k] - p->y[i]));
+        add_side(f, sign * ox, sign * oy, most);
+    }
+}
+
+// The largest distance of a patch's corners from a place.
+static double get_reach(const manifold_patch *p, double x, double y) {
+    double most = 0;
+    for (uint32_t i = 0; i < p->count; i++) {
+        double dx = p->x[i] - x, dy = p->y[i] - y;
+        most = max2(most, dx * dx + dy * dy);
+    }
+    return sqrt(most);
+}
+
+typedef struct range {
+    double low, high;
+} range;
+static range get_range(const manifold_patch *p) {
+    range r = {p->z[0], p->z[0]};
+    for (uint32_t i = 1; i < p->count; i++) r.low = min2(r.low, p->z[i]), r.high = max2(r.high, p->z[i]);
+    return r;
+}
+
+// The point above and the radius of the ball around it.
+static double set_top(frustum *f, const manifold_frame *m) {
+    const ovoid_shape *a = m->pair->a, *b = m->pair->b;
+    vec3 p = a->inner.center, q = b->inner.center;
+    f->cx = vec3_dot(m->u_in_b, q) + m->tu - vec3_dot(m->u, p);
+    f->cy = vec3_dot(m->v_in_b, q) + m->tv - vec3_dot(m->v, p);
+    f->cz = vec3_dot(m->n_in_b, q) + m->tn - vec3_dot(m->n, p);
+    return a->inside.least + b->inside.least;
+}
+
+double patches_prove_depth(const manifold_frame *m, const manifold_patch *a, const manifold_patch *b) {
+    frustum f;
+    double radius = set_top(&f, m), pad = m->pair->check + 64 * ROUNDING * m->pair->size;
+    range za = get_range(a), zb = get_range(b);
+    double reach = get_reach(a, a->x[0], a->y[0]) + get_reach(b, a->x[0], a->y[0]), lowest = za.high - zb.low;
+    f.h = za.low - zb.high;
+    if (!(f.h > 0 && f.cz > 0) || (a->count < 3 && b->count < 3 && a->count + b->count < 4)) return 0;
+    f.inset = pad + (lowest - f.h) / (f.cz + lowest) * (sqrt(f.cx * f.cx + f.cy * f.cy) + reach);
+    f.s = reach > 0 ? min2(1, radius / (reach * (1 + 16 * ROUNDING))) : 1;
+    f.depth = min2(f.h, f.cz);
+    add_edges(&f, a, b, 1);
+    add_edges(&f, b, a, -1);
+    return f.depth - pad;
+}
+
+// ---- what an earlier search leaves ----
+
+// B's rotation in the frame of A, and the place of B's sphere.
+static vec3 get_place(const pair_frame *f) { return frame_b(f, f->b->center); }
+
+void memory_set_search(ovoid_manifold_memory *m, const ovoid_pair *pair, const pair_frame *f, double upper) {
+    ovoid_quat a = pair->pose_a.rotation, b = pair->pose_b.rotation;
+    if (!quat_is_plain(quat_norm_squared(a))) a = quat_scaled(a);
+    if (!quat_is_plain(quat_norm_squared(b))) b = quat_scaled(b);
+    double scale = 1 / sqrt(quat_norm_squared(a) * quat_norm_squared(b));
+    vec3 place = get_place(f);
+    m->searched = nextafterf((float)upper, INFINITY);
+    m->pose[0] = (float)((a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z) * scale);
+    m->pose[1] = (float)((a.w * b.x - a.x * b.w - a.y * b.z + a.z * b.y) * scale);
+    m->pose[2] = (float)((a.w * b.y + a.x * b.z - a.y * b.w - a.z * b.x) * scale);
+    m->pose[3] = (float)((a.w * b.z - a.x * b.y + a.y * b.x - a.z * b.w) * scale);
+    m->pose[4] = (float)place.x;
+    m->pose[5] = (float)place.y;
+    m->pose[6] = (float)place.z;
+    m->flags |= MANIFOLD_HAS_SEARCH;
+}
+
+// No point of B is farther from where it was than what its sphere's centre moved, and the sphere's radius times the
+// norm of the difference of the rotations. Of that the singular values are v, v and 0: its Frobenius norm is root 2 v.
+static double compute_motion(const ovoid_manifold_memory *m, const pair_frame *f) {
+    const ovoid_quat q = {(double)m->pose[0], (double)m->pose[1], (double)m->pose[2], (double)m->pose[3]};
+    double norm = quat_norm_squared(q);
+    if (!(norm > 0.5 && norm < 2)) return INFINITY;
+    mat3 r = quat_to_mat3(q);
+    vec3 d0 = vec3_sub(f->rotation.r0, r.r0), d1 = vec3_sub(f->rotation.r1, r.r1), d2 = vec3_sub(f->rotation.r2, r.r2);
+    double square = vec3_norm_squared(d0) + vec3_norm_squared(d1) + vec3_norm_squared(d2);
+    vec3 was = {(double)m->pose[4], (double)m->pose[5], (double)m->pose[6]};
+    return sqrt(square / 2) * f->b->reach + vec3_norm(vec3_sub(get_place(f), was));
+}
+
+double memory_compute_upper(const ovoid_manifold_memory *m, const pair_frame *f) {
+    if (!(m->flags & MANIFOLD_HAS_SEARCH) || !isfinite(m->searched)) return INFINITY;
+    // The pose at the search was rounded to floats: that is a motion too.
+    double rounded = 0x1p-22 * (f->b->reach + vec3_norm(get_place(f)));
+    double upper = (double)m->searched + compute_motion(m, f) + rounded + 2 * f->check;
+    return upper == upper ? upper : INFINITY;
+}
+
+// ---- the patches, then the features of the axis ----
+
+static uint32_t get_vertex_feature(uint32_t vertex) { return OVOID_MANIFOLD_VERTEX | vertex; }
+
+// A facet that makes the axis is across it, to rounding, and so are two edges that do; the vertex opposite is extreme.
+double manifold_prove_depth(const manifold_state *s, const manifold_axis *axis, double enough) {
+    double depth = patches_prove_depth(&s->frame, &s->a, &s->b);
+    if (depth >= enough) return depth;
+    manifold_patch a, b;
+    switch (axis->kind) {
+    case OVOID_MANIFOLD_FACE_A:
+        patch_make_b(&s->frame, get_vertex_feature(s->frame.low_b), &b);
+        return max2(depth, patches_prove_depth(&s->frame, &s->a, &b));
+    case OVOID_MANIFOLD_FACE_B:
+        patch_make_a(&s->frame, get_vertex_feature(s->frame.low_a), &a);
+        return max2(depth, patches_prove_depth(&s->frame, &a, &s->b));
+    case OVOID_MANIFOLD_EDGES:
+        patch_make_a(&s->frame, axis->a, &a);
+        patch_make_b(&s->frame, axis->b, &b);
+        return max2(depth, patches_prove_depth(&s->frame, &a, &b));
+    default: return depth;
+    }
+}

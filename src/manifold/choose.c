@@ -1,0 +1,140 @@
+// The features of a contact: after a search those that make its normal, and of each body the facet that is clipped.
+#include "manifold/manifold.h"
+
+// The edges that go out of a vertex.
+typedef struct edge_range {
+    uint32_t first, end;
+} edge_range;
+static edge_range get_edges(const ovoid_shape *s, uint32_t vertex) {
+    const uint32_t *starts = shape_neighbor_starts(s);
+    return (edge_range){starts[vertex], starts[vertex + 1]};
+}
+
+// The name of a directed edge.
+static uint32_t get_name(const ovoid_shape *s, uint32_t edge) {
+    edge_ends e = shape_get_ends(s, edge);
+    return e.from < e.to ? edge : shape_find_edge(s, e.to, e.from);
+}
+
+static int is_around(const ovoid_shape *s, uint32_t facet, uint32_t vertex) {
+    edge_range r = get_edges(s, vertex);
+    for (uint32_t i = r.first; i < r.end; i++)
+        if (shape_edge_facets(s)[i] == facet) return 1;
+    return 0;
+}
+
+// Facets around the vertex first that hold the vertex second too, the one that faces n most; `kept` has 1e-6 in
+// advance.
+typedef struct facing {
+    uint32_t facet;
+    double cosine;
+} facing;
+static facing find_facing(const ovoid_shape *s, edge_ends hold, const facet_choice *c) {
+    facing best = {UINT32_MAX, -2};
+    edge_range r = get_edges(s, hold.from);
+    for (uint32_t i = r.first; i < r.end && s->rank >= 2; i++) {
+        uint32_t facet = shape_edge_facets(s)[i];
+        double cosine = vec3_dot(shape_get_facet_normal(s, facet), c->n);
+        int is_kept = c->has_kept && c->kept == (OVOID_MANIFOLD_FACET | facet);
+        if (is_kept) cosine += 1e-6;
+        if (cosine <= best.cosine || (hold.to != hold.from && !is_around(s, facet, hold.to))) continue;
+        best = (facing){facet, cosine};
+    }
+    return best;
+}
+
+// Of a flat body a vertex may be no corner of its polygon.
+static facing find_side(const ovoid_shape *s, vec3 n) {
+    return (facing){vec3_dot(shape_get_facet_normal(s, 0), n) < 0, 1};
+}
+
+// The sine of the angle between an edge and the plane across n.
+static double get_slant(const ovoid_shape *s, uint32_t edge, vec3 n) {
+    edge_ends e = shape_get_ends(s, edge);
+    vec3 d = vec3_unit(vec3_sub(vec3_at(shape_vertices(s), e.to), vec3_at(shape_vertices(s), e.from)));
+    return fabs(vec3_dot(d, n));
+}
+
+uint32_t facet_choose(const ovoid_shape *s, const facet_choice *c) {
+    uint32_t index = feature_get_index(c->axis);
+    if (feature_get_kind(c->axis) == OVOID_MANIFOLD_FACET && s->rank >= 2) return c->axis;
+    int is_edge = feature_get_kind(c->axis) == OVOID_MANIFOLD_EDGE;
+    if (s->rank == 1) is_edge = 1, index = shape_loop_edges(s)[0];
+    edge_ends hold = is_edge ? shape_get_ends(s, index) : (edge_ends){c->low, c->low};
+    facing best = find_facing(s, hold, c);
+    if (best.facet == UINT32_MAX && s->rank == 2) best = find_side(s, c->n);
+    if (best.facet != UINT32_MAX && best.cosine >= c->least) return OVOID_MANIFOLD_FACET | best.facet;
+    if (is_edge && get_slant(s, index, c->n) <= sqrt(1 - c->least * c->least)) return OVOID_MANIFOLD_EDGE | index;
+    return OVOID_MANIFOLD_VERTEX | c->low;
+}
+
+// ---- after a search ----
+
+// The candidates of one body: the facet that faces n most, and the edge most across it.
+typedef struct side {
+    const ovoid_shape *shape;
+    vec3 n;         ///< toward the other body, in the body's axes
+    uint32_t low;   ///< the vertex that is extreme along n
+    uint32_t facet; ///< a feature, or UINT32_MAX
+    double cosine;  ///< of the facet
+    uint32_t edge;  ///< a feature, or UINT32_MAX
+} side;
+
+// The edge at the extreme vertex whose other end is lowest under it, if that is rounding.
+static uint32_t find_edge(const side *s, double within) {
+    edge_range r = get_edges(s->shape, s->low);
+    const double *x = shape_vertices(s->shape);
+    double top = vec3_dot(vec3_at(x, s->low), s->n), least = within;
+    uint32_t found = UINT32_MAX;
+    for (uint32_t i = r.first; i < r.end; i++) {
+        uint32_t to = shape_neighbors(s->shape)[i], reverse = shape_find_edge(s->shape, to, s->low);
+        double under = top - vec3_dot(vec3_at(x, to), s->n);
+        int is_inner = s->shape->rank >= 2 && shape_edge_facets(s->shape)[i] == shape_edge_facets(s->shape)[reverse];
+        if (is_inner || !(under <= least)) continue;
+        least = under;
+        found = OVOID_MANIFOLD_EDGE | get_name(s->shape, i);
+    }
+    return found;
+}
+
+static side make_side(const ovoid_shape *shape, vec3 n, uint32_t low, double within) {
+    side s = {shape, n, low, UINT32_MAX, -2, UINT32_MAX};
+    facing best = find_facing(shape, (edge_ends){low, low}, &(facet_choice){.n = n});
+    if (best.facet == UINT32_MAX && shape->rank == 2) {
+        best = find_side(shape, n);
+        best.cosine = fabs(vec3_dot(shape_get_facet_normal(shape, 0), n));
+    }
+    if (best.facet != UINT32_MAX) s.facet = OVOID_MANIFOLD_FACET | best.facet, s.cosine = best.cosine;
+    s.edge = find_edge(&s, within);
+    return s;
+}
+
+// The normal of the axis, if the gap along it is not below the least.
+static int take(const pair_frame *f, const manifold_axis *axis, double least, vec3 *n) {
+    vec3 found = *n;
+    if (!axis_compute_normal(f, axis, &found) || !(frame_find_support(f, found).gap >= least)) return 0;
+    *n = found;
+    return 1;
+}
+
+#define NEARLY_FLAT (1 - 1e-9)
+
+manifold_axis axis_choose(const pair_frame *f, double tolerance, vec3 *n) {
+    vec3 in_b = vec3_neg(mat3_mul_transposed_vec3(f->rotation, *n));
+    frame_support s = frame_find_support(f, *n);
+    double least = s.gap - tolerance, within = 1e-8 * f->size;
+    side a = make_side(f->a, *n, s.a, within), b = make_side(f->b, in_b, s.b, within);
+    manifold_axis axis = {OVOID_MANIFOLD_FACE_A, a.facet, b.low};
+    if (a.cosine >= NEARLY_FLAT && take(f, &axis, least, n)) return axis;
+    axis = (manifold_axis){OVOID_MANIFOLD_FACE_B, a.low, b.facet};
+    if (b.cosine >= NEARLY_FLAT && take(f, &axis, least, n)) return axis;
+    axis = (manifold_axis){OVOID_MANIFOLD_EDGES, a.edge, b.edge};
+    if (a.edge != UINT32_MAX && b.edge != UINT32_MAX && take(f, &axis, least, n)) return axis;
+    axis = (manifold_axis){OVOID_MANIFOLD_FREE, a.edge, b.low};
+    if (a.edge != UINT32_MAX && take(f, &axis, least, n)) return axis;
+    axis = (manifold_axis){OVOID_MANIFOLD_FREE, a.low, b.edge};
+    if (b.edge != UINT32_MAX && take(f, &axis, least, n)) return axis;
+    axis = (manifold_axis){OVOID_MANIFOLD_FREE, a.low, b.low};
+    if (take(f, &axis, least, n)) return axis;
+    return (manifold_axis){OVOID_MANIFOLD_FREE, OVOID_MANIFOLD_DIRECTION, OVOID_MANIFOLD_DIRECTION};
+}

@@ -1,0 +1,224 @@
+// The contact of two bodies: from the features of an earlier one, as long as the bracket that they show is narrow
+// enough; else from a search for the depth or the distance.
+#include "base/environment.h"
+#include "base/error.h"
+#include "manifold/manifold.h"
+#include "query/answer.h"
+
+// A query in the order of order.c.
+typedef struct task {
+    ovoid_pair pair;
+    pair_frame frame;
+    manifold_terms terms;
+    const ovoid_manifold *earlier; ///< or NULL
+} task;
+
+// The cosine of an angle of at most a quarter turn, to 1e-4, with the same bits on every machine.
+static double compute_cosine(double angle) {
+    double x = angle * angle;
+    return 1 - x / 2 * (1 - x / 12 * (1 - x / 30 * (1 - x / 56)));
+}
+
+int manifold_terms_make(const ovoid_manifold_options *given, const pair_frame *f, manifold_terms *t) {
+    static const ovoid_manifold_options none;
+    const ovoid_manifold_options *o = given ? given : &none;
+    int is_valid = o->margin >= 0 && isfinite(o->margin) && o->tolerance >= 0 && o->keep >= 0 && o->angle >= 0 &&
+                   o->angle <= MANIFOLD_ANGLE;
+    double tolerance = o->tolerance > 0 ? o->tolerance : 1e-9 * f->size,
+           angle = o->angle > 0 ? o->angle : MANIFOLD_ANGLE;
+    *t = (manifold_terms){o->margin, o->keep, tolerance + 8 * f->hidden, compute_cosine(angle), o->cover};
+    return is_valid;
+}
+
+// ---- what the features show ----
+
+double manifold_compute_lower(const manifold_frame *m) {
+    const pair_frame *f = m->pair;
+    double lower = m->gap - f->lower_radii - f->claim;
+    return frame_take_gain(lower, frame_compute_gain(f, m->n, m->n_in_b, AXIS_CLAIM));
+}
+
+double manifold_compute_points_upper(const manifold_state *s) {
+    return s->polygon.least + 2 * manifold_compute_rounding(s) - s->frame.pair->upper_radii;
+}
+
+void manifold_clip(const manifold_terms *t, const manifold_axis *axis, const ovoid_manifold *earlier,
+                   manifold_state *s) {
+    const pair_frame *f = s->frame.pair;
+    clip_rules rules = {
+        .snap = MANIFOLD_SNAP * f->size, .most = t->margin + f->a->radius + f->b->radius, .keep = t->keep};
+    rules.most += 2 * manifold_compute_rounding(s);
+    if (earlier) rules.kept = earlier->id, rules.kept_count = earlier->count < 4 ? earlier->count : 4;
+    patches_clip(&s->a, &s->b, &rules, &s->polygon);
+    if (s->polygon.count) return;
+    manifold_corner c = manifold_make_nearest(s, axis);
+    s->polygon.corners[s->polygon.count++] = c;
+    s->polygon.least = min2(s->polygon.least, fabs(c.separation) + 2 * manifold_compute_excess(s, &c));
+}
+
+// Patches and polygon about a unit normal.
+static void build(const task *t, const manifold_axis *axis, vec3 n, manifold_state *s) {
+    const pair_frame *f = &t->frame;
+    const ovoid_manifold *e = t->earlier;
+    manifold_frame_make(f, n, &s->frame);
+    facet_choice a = {n, axis->a, s->frame.low_a, e ? e->facet_a : 0, e != NULL, t->terms.least};
+    facet_choice b = {vec3_neg(s->frame.n_in_b), axis->b,   s->frame.low_b,
+                      e ? e->facet_b : 0,        e != NULL, t->terms.least};
+    s->facet_a = facet_choose(f->a, &a);
+    s->facet_b = facet_choose(f->b, &b);
+    patch_make_a(&s->frame, s->facet_a, &s->a);
+    patch_make_b(&s->frame, s->facet_b, &s->b);
+    manifold_clip(&t->terms, axis, e, s);
+}
+
+// ---- the contact ----
+
+// A bracket with the evidence of its upper end.
+typedef struct bracket {
+    double lower, upper;
+    ovoid_manifold_proof proof;
+} bracket;
+
+static void take_upper(bracket *b, double upper, ovoid_manifold_proof proof) {
+    if (!(upper < b->upper)) return;
+    b->upper = upper;
+    b->proof = proof;
+}
+
+// The bounds that the features show; of overlaps also the one that is left of an earlier search, where they show less
+// than enough.
+static bracket measure(const task *t, const manifold_state *s, const manifold_axis *axis,
+                       const ovoid_manifold_memory *memory) {
+    const pair_frame *f = &t->frame;
+    bracket b = {manifold_compute_lower(&s->frame), INFINITY, OVOID_MANIFOLD_PROOF_NONE};
+    double enough = b.lower + t->terms.tolerance + frame_get_allowance(f);
+    take_upper(&b, manifold_compute_points_upper(s), OVOID_MANIFOLD_PROOF_POINTS);
+    if (!(s->frame.gap < 0) || b.upper <= enough) return b;
+    double depth = manifold_prove_depth(s, axis, -enough - f->upper_radii);
+    if (depth > 0) take_upper(&b, -depth - f->upper_radii, OVOID_MANIFOLD_PROOF_FACETS);
+    if (b.upper > enough) take_upper(&b, memory_compute_upper(memory, f), OVOID_MANIFOLD_PROOF_SEARCH);
+    return b;
+}
+
+static int is_narrow(const task *t, const bracket *b) {
+    return b->upper - b->lower <= t->terms.tolerance + frame_get_allowance(&t->frame);
+}
+
+static void write_bracket(const task *t, const bracket *b, ovoid_limit limit, ovoid_manifold *out) {
+    out->lower = b->lower;
+    out->upper = max2(b->upper, b->lower);
+    out->proof = (uint8_t)b->proof;
+    out->status = bracket_find_status(out->lower, out->upper, t->terms.tolerance);
+    out->limit = is_narrow(t, b) ? OVOID_LIMIT_NONE : limit != OVOID_LIMIT_NONE ? limit : OVOID_LIMIT_PRECISION;
+}
+
+// No points: proven farther apart than the margin, along n.
+static void write_apart(double lower, vec3 normal, ovoid_manifold *out) {
+    *out = (ovoid_manifold){
+        .status = OVOID_SEPARATED, .limit = OVOID_LIMIT_CAP, .lower = lower, .upper = INFINITY, .normal = normal};
+}
+
+static void write_points(const task *t, const manifold_state *s, const manifold_axis *axis, ovoid_manifold *out) {
+    const manifold_polygon *p = &s->polygon;
+    corner_choice chosen = corners_choose(p, t->earlier);
+    out->normal = frame_direction_to_world(&t->frame, s->frame.n);
+    out->axis = axis->kind;
+    out->feature_a = axis->a;
+    out->feature_b = axis->b;
+    out->facet_a = s->facet_a;
+    out->facet_b = s->facet_b;
+    out->count = (uint8_t)chosen.count;
+    out->corners = (uint16_t)p->count;
+    out->share = (float)chosen.share;
+    for (uint32_t i = 0; i < chosen.count; i++) out->id[i] = p->corners[chosen.index[i]].id;
+}
+
+// ---- the earlier contact's features ----
+
+// 1 if the earlier contact's features, measured again, are the contact.
+static int find_warm(const task *t, manifold_state *s, ovoid_manifold *out) {
+    const ovoid_manifold *e = t->earlier;
+    const pair_frame *f = &t->frame;
+    if (!e || e->axis == OVOID_MANIFOLD_NONE) return 0;
+    manifold_axis axis = {e->axis, e->feature_a, e->feature_b};
+    vec3 n = vec3_unit(frame_direction_from_world(f, e->normal));
+    if (!axis_compute_normal(f, &axis, &n) || !(fabs(vec3_norm_squared(n) - 1) < 1e-9)) return 0;
+    build(t, &axis, n, s);
+    bracket b = measure(t, s, &axis, &e->memory);
+    if (b.lower > t->terms.margin) {
+        write_apart(b.lower, frame_direction_to_world(f, n), out);
+        return 1;
+    }
+    if (!is_narrow(t, &b)) return 0;
+    write_points(t, s, &axis, out);
+    write_bracket(t, &b, OVOID_LIMIT_NONE, out);
+    out->memory = e->memory;
+    return 1;
+}
+
+// ---- a search ----
+
+static ovoid_answer search_pair(const task *t) {
+    const ovoid_options options = {.relative_tolerance =
+                                       0.5 * min2(1e-9, max2(t->terms.tolerance / t->frame.size, 1e-15))};
+    query_goal goal = query_goal_make_depth(NULL);
+    goal.far = t->terms.margin;
+    ovoid_answer answer;
+    answer_find_internal(&t->pair, &(query_request){&options, &goal, NULL, t->terms.cover}, &answer);
+    return answer;
+}
+
+static void find_cold(const task *t, manifold_state *s, ovoid_manifold *out) {
+    const pair_frame *f = &t->frame;
+    ovoid_answer answer = search_pair(t);
+    vec3 n = vec3_unit(frame_direction_from_world(f, answer.normal));
+    if (answer.lower > t->terms.margin) {
+        write_apart(answer.lower, answer.normal, out);
+        return;
+    }
+    if (!(vec3_norm_squared(n) > 0.5)) n = (vec3){0, 0, 1};
+    ovoid_manifold_memory memory = {0};
+    if (answer.proof.kind == OVOID_PROOF_COVER) memory_set_search(&memory, &t->pair, f, answer.upper);
+    manifold_axis axis = axis_choose(f, 0.25 * min2(1e-9 * f->size, t->terms.tolerance), &n);
+    build(t, &axis, n, s);
+    bracket b = measure(t, s, &axis, &memory);
+    if (!is_narrow(t, &b) && answer.proof.kind == OVOID_PROOF_COVER)
+        take_upper(&b, answer.upper, OVOID_MANIFOLD_PROOF_SEARCH);
+    write_points(t, s, &axis, out);
+    write_bracket(t, &b, answer.limit, out);
+    out->memory = memory;
+}
+
+static ovoid_manifold make_refused(ovoid_limit limit) {
+    return (ovoid_manifold){.limit = limit, .lower = -INFINITY, .upper = INFINITY};
+}
+
+void manifold_find_internal(const ovoid_pair *pair, const ovoid_manifold_options *options,
+                            const ovoid_manifold *earlier, ovoid_manifold *out) {
+    OVOID_ASSERT(pair);
+    task t;
+    manifold_state s;
+    ovoid_manifold before;
+    ovoid_limit refused = frame_make(pair, &t.frame);
+    if (refused == OVOID_LIMIT_NONE && !manifold_terms_make(options, &t.frame, &t.terms)) refused = OVOID_LIMIT_OPTIONS;
+    *out = make_refused(refused);
+    if (refused != OVOID_LIMIT_NONE) return;
+    t.pair = *pair;
+    t.earlier = earlier;
+    int is_exchanged = order_is_exchanged(pair, earlier);
+    if (is_exchanged) {
+        t.pair = pair_make_exchanged(pair);
+        (void)frame_make(&t.pair, &t.frame);
+        if (earlier) before = ovoid_manifold_make_swapped(earlier), t.earlier = &before;
+    }
+    *out = (ovoid_manifold){0};
+    if (!find_warm(&t, &s, out)) find_cold(&t, &s, out);
+    out->memory.flags &= ~(uint32_t)MANIFOLD_EXCHANGED;
+    if (is_exchanged) *out = ovoid_manifold_make_swapped(out);
+}
+
+ovoid_manifold ovoid_manifold_find(const ovoid_pair *pair, const ovoid_manifold_options *options,
+                                   const ovoid_manifold *earlier) {
+    ENVIRONMENT_RETURN_FILLED(ovoid_manifold, manifold, pair,
+                              manifold_find_internal(pair, options, earlier, &manifold));
+}

@@ -1,0 +1,148 @@
+// The boundaries of facets from triangles that know their facet: an edge is on the boundary where the facets of its two
+// sides differ. Around the end of a boundary edge, from triangle to triangle of the same facet, is the next one. While
+// the loops are made, the table of an edge's facet holds its triangle.
+#include "shape/loops.h"
+
+#define NOTHING UINT32_MAX
+
+typedef struct tables {
+    ovoid_shape *shape;
+    const ovoid_polytope *p;
+    uint32_t *tails;                               // of directed edges
+    uint32_t *lefts;                               // of directed edges, the triangle; of a polygon the side
+    uint32_t *starts, *loop_vertices, *loop_edges; // of loops
+} tables;
+
+static uint32_t *get_table(ovoid_shape *shape, uint64_t at) { return (uint32_t *)((char *)shape + at); }
+
+static uint32_t get_reverse(const tables *t, uint32_t edge) {
+    return shape_find_edge(t->shape, t->p->neighbors[edge], t->tails[edge]);
+}
+
+static uint32_t get_facet(const tables *t, uint32_t edge) {
+    return t->p->rank == 3 ? t->p->triangle_facets[t->lefts[edge]] : t->lefts[edge];
+}
+
+static int is_boundary(const tables *t, uint32_t edge) {
+    return get_facet(t, get_reverse(t, edge)) != get_facet(t, edge);
+}
+
+// Of a polygon the lists of neighbors hold the corner before, then the corner after.
+static void set_lefts(tables *t) {
+    const ovoid_polytope *p = t->p;
+    for (uint32_t v = 0; v < p->vertex_count; v++)
+        for (uint32_t i = p->neighbor_starts[v]; i < p->neighbor_starts[v + 1]; i++) {
+            t->tails[i] = v;
+            t->lefts[i] = p->rank == 2 && i == p->neighbor_starts[v];
+        }
+    for (size_t i = 0; p->rank == 3 && i < 3 * (size_t)p->triangle_count; i++) {
+        uint32_t next = p->triangles[i % 3 == 2 ? i - 2 : i + 1];
+        t->lefts[shape_find_edge(t->shape, p->triangles[i], next)] = (uint32_t)(i / 3);
+    }
+}
+
+// The next edge of the triangle, or side, to the left of a directed edge.
+static uint32_t get_next(const tables *t, uint32_t edge) {
+    uint32_t from = t->tails[edge], to = t->p->neighbors[edge];
+    if (t->p->rank == 2) return t->p->neighbor_starts[to] + (t->lefts[edge] == 0);
+    const uint32_t *corner = t->p->triangles + 3 * (size_t)t->lefts[edge];
+    uint32_t beyond = corner[0] != from && corner[0] != to   ? corner[0]
+                      : corner[1] != from && corner[1] != to ? corner[1]
+                                                             : corner[2];
+    return shape_find_edge(t->shape, to, beyond);
+}
+
+// The edge of the facet's boundary that begins where this one ends.
+static uint32_t find_next(const tables *t, uint32_t edge) {
+    uint32_t next = get_next(t, edge);
+    while (!is_boundary(t, next)) next = get_next(t, get_reverse(t, next));
+    return next;
+}
+
+// Appends the loop through a directed edge; returns the number of corners so far.
+static uint32_t append_loop(tables *t, uint32_t first, uint32_t count) {
+    uint32_t most = t->shape->counts.neighbors, edge = first;
+    do {
+        uint32_t reverse = get_reverse(t, edge);
+        t->loop_vertices[count] = t->tails[edge];
+        t->loop_edges[count++] = t->tails[edge] < t->p->neighbors[edge] ? edge : reverse;
+        edge = find_next(t, edge);
+    } while (edge != first && count < most);
+    return count;
+}
+
+static vec3 get_side(const tables *t, const uint32_t *loop, uint32_t i, uint32_t count) {
+    const double *x = t->p->vertices;
+    return vec3_sub(vec3_at(x, loop[(i + 1) % count]), vec3_at(x, loop[i]));
+}
+
+// 1 if a loop is convex and counter-clockwise about the normal, to rounding. The boundary of a facet is, unless its
+// flatness hides a hole.
+static int is_convex(const tables *t, const uint32_t *loop, uint32_t count, vec3 normal) {
+    vec3 first = vec3_at(t->p->vertices, loop[0]);
+    double area = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        vec3 side = get_side(t, loop, i, count), next = get_side(t, loop, (i + 1) % count, count);
+        double turn = vec3_dot(vec3_cross(side, next), normal);
+        if (turn < -1e-9 * vec3_norm(side) * vec3_norm(next)) return 0;
+        area += vec3_dot(vec3_cross(vec3_sub(vec3_at(t->p->vertices, loop[i]), first), side), normal);
+    }
+    return area > 0;
+}
+
+// Replaces the loop that begins at `start` by the triangle to the left of a directed edge.
+static uint32_t put_triangle(tables *t, uint32_t edge, uint32_t start) {
+    for (uint32_t i = 0; i < 3; i++, edge = get_next(t, edge)) {
+        t->loop_vertices[start + i] = t->tails[edge];
+        t->loop_edges[start + i] = t->tails[edge] < t->p->neighbors[edge] ? edge : get_reverse(t, edge);
+    }
+    return start + 3;
+}
+
+static void fill_loops(tables *t, uint32_t loop_count) {
+    for (uint32_t f = 0; f <= loop_count; f++) t->starts[f] = NOTHING;
+    for (uint32_t i = t->shape->counts.neighbors; i-- > 0;)
+        if (is_boundary(t, i)) t->starts[get_facet(t, i)] = i;
+    uint32_t count = 0;
+    for (uint32_t f = 0; f < loop_count; f++) {
+        uint32_t first = t->starts[f], start = count;
+        t->starts[f] = start;
+        if (first == NOTHING) continue;
+        count = append_loop(t, first, start);
+        vec3 normal = shape_get_facet_normal(t->shape, f);
+        if (t->p->rank == 3 && !is_convex(t, t->loop_vertices + start, count - start, normal))
+            count = put_triangle(t, first, start);
+    }
+    t->starts[loop_count] = count;
+}
+
+// A segment or a point.
+static void fill_thin(tables *t) {
+    uint32_t v = 0;
+    while (v + 1 < t->p->vertex_count && t->p->neighbor_starts[v + 1] == t->p->neighbor_starts[v]) v++;
+    int is_segment = t->p->rank == 1;
+    t->starts[0] = 0;
+    t->starts[1] = is_segment ? 2 : 1;
+    t->loop_vertices[0] = is_segment ? v : 0;
+    if (is_segment) {
+        t->loop_edges[0] = t->loop_edges[1] = t->p->neighbor_starts[v];
+        t->loop_vertices[1] = t->p->neighbors[t->p->neighbor_starts[v]];
+    }
+}
+
+void loops_fill(ovoid_shape *s, const ovoid_polytope *p) {
+    const block_offsets *at = &s->at;
+    tables t = {s,
+                p,
+                get_table(s, at->edge_tails),
+                get_table(s, at->edge_facets),
+                get_table(s, at->loop_starts),
+                get_table(s, at->loop_vertices),
+                get_table(s, at->loop_edges)};
+    set_lefts(&t);
+    if (p->rank < 2)
+        fill_thin(&t);
+    else
+        fill_loops(&t, loops_get_count(p->rank, p->facet_count));
+    for (uint32_t i = 0; i < s->counts.neighbors; i++) t.lefts[i] = get_facet(&t, i);
+}

@@ -1,0 +1,266 @@
+// Contacts of plain bodies. Truth: positions by hand; for random pairs the bracket of ovoid_depth, which has its own
+// judge, and the verifier.
+#include "check.h"
+#include "ovoid/ovoid.h"
+
+#include "linear/vec3.h"
+
+static ovoid_quat turn_z(double angle) { return (ovoid_quat){cos(angle / 2), 0, 0, sin(angle / 2)}; }
+#define PI 3.14159265358979323846
+static const ovoid_quat straight = {1, 0, 0, 0};
+
+// The bodies' poses: A at the origin.
+static ovoid_pair pair_of(const ovoid_shape *a, const ovoid_shape *b, vec3 at, ovoid_quat turn) {
+    return (ovoid_pair){a, b, ovoid_pose_make_identity(), {at, turn}};
+}
+
+// Every claim of the contact, and those of its points that the caller sees.
+static void check_contact(const ovoid_pair *pair, const ovoid_manifold *m, const ovoid_manifold_options *o) {
+    ovoid_error error = {0};
+    CHECK_EQ(ovoid_manifold_verify(pair, m, o, &error), OVOID_OK);
+    if (error.code) printf("  %s\n", error.message);
+    ovoid_manifold_points p = ovoid_manifold_compute_points(pair, m);
+    CHECK_EQ(p.count, m->count);
+    for (uint32_t i = 0; i < p.count; i++) {
+        vec3 d = vec3_sub(p.points[i].point_b, p.points[i].point_a);
+        double off = vec3_norm(vec3_sub(d, vec3_scale(m->normal, p.points[i].separation)));
+        CHECK_LE(off, 1e-13 * (1 + vec3_norm(p.points[i].point_a)));
+        CHECK_EQ(p.points[i].id, m->id[i]);
+    }
+}
+
+// The same from the other side.
+static void check_exchanged(const ovoid_pair *pair, const ovoid_manifold *m, const ovoid_manifold_options *o) {
+    ovoid_pair other = {pair->shape_b, pair->shape_a, pair->pose_b, pair->pose_a};
+    ovoid_manifold found = ovoid_manifold_find(&other, o, NULL), back = ovoid_manifold_make_swapped(&found);
+    CHECK(memcmp(&back, m, sizeof back) == 0);
+    ovoid_manifold_points p = ovoid_manifold_compute_points(pair, m);
+    ovoid_manifold_points q = ovoid_manifold_compute_points(&other, &found);
+    CHECK_EQ(p.count, q.count);
+    for (uint32_t i = 0; i < p.count; i++) {
+        CHECK(memcmp(&p.points[i].point_a, &q.points[i].point_b, sizeof(vec3)) == 0);
+        CHECK(memcmp(&p.points[i].point_b, &q.points[i].point_a, sizeof(vec3)) == 0);
+        CHECK(memcmp(&p.points[i].separation, &q.points[i].separation, sizeof(double)) == 0);
+    }
+}
+
+// Two boxes of half size 1, the upper one 0.1 deep and moved by (0.5, 0.25): the overlap is [-0.5, 1] x [-0.75, 1].
+static void test_boxes(void) {
+    ovoid_error error;
+    ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, NULL, &error);
+    ovoid_pair pair = pair_of(box, box, (vec3){0.5, 0.25, 1.9}, straight);
+    ovoid_manifold m = ovoid_manifold_find(&pair, NULL, NULL);
+    CHECK_EQ(m.status, OVOID_OVERLAPPING);
+    CHECK_EQ(m.limit, OVOID_LIMIT_NONE);
+    CHECK_NEAR(m.lower, -0.1, 1e-12);
+    CHECK_NEAR(m.upper, -0.1, 1e-12);
+    CHECK_EQ(m.count, 4);
+    CHECK_EQ(m.corners, 4);
+    CHECK_EQ(m.proof, OVOID_MANIFOLD_PROOF_FACETS);
+    CHECK_NEAR(m.normal.z, 1, 0);
+    check_contact(&pair, &m, NULL);
+    check_exchanged(&pair, &m, NULL);
+    ovoid_manifold_points p = ovoid_manifold_compute_points(&pair, &m);
+    const double corner[4][2] = {{-0.5, -0.75}, {1, -0.75}, {1, 1}, {-0.5, 1}};
+    for (int k = 0; k < 4; k++) {
+        double nearest = INFINITY;
+        for (uint32_t i = 0; i < p.count; i++) {
+            vec3 a = p.points[i].point_a, b = p.points[i].point_b;
+            nearest = fmin(nearest, hypot(a.x - corner[k][0], a.y - corner[k][1]));
+            CHECK_NEAR(a.z, 1, 1e-14);
+            CHECK_NEAR(b.z, 0.9, 1e-14);
+            CHECK_NEAR(p.points[i].separation, -0.1, 1e-14);
+        }
+        CHECK_LE(nearest, 1e-14);
+    }
+    ovoid_manifold_polygon polygon;
+    CHECK_EQ(ovoid_manifold_compute_polygon(&pair, &m, NULL, &polygon), OVOID_OK);
+    // Each side of a polygon of length 6.5 is moved by twice the rounding of a point, and counted with as much doubt.
+    CHECK_NEAR(polygon.inner, 1.5 * 1.75, 6 * 6.5 * polygon.grown);
+    CHECK_NEAR(polygon.outer, 1.5 * 1.75, 6 * 6.5 * polygon.grown);
+    CHECK_LE(polygon.inner, 1.5 * 1.75);
+    CHECK_LE(1.5 * 1.75, polygon.outer);
+    ovoid_shape_destroy(box);
+}
+
+// A square turned by an eighth over an equal one: an octagon of area 8 (root 2 - 1); four of its corners span, at best,
+// every other one: a square whose diagonal is the circle's, 1 / cos(pi / 8) from the middle.
+static void test_octagon(void) {
+    ovoid_error error;
+    ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, NULL, &error);
+    ovoid_pair pair = pair_of(box, box, (vec3){0, 0, 1.9}, turn_z(PI / 4));
+    ovoid_manifold m = ovoid_manifold_find(&pair, NULL, NULL);
+    CHECK_EQ(m.corners, 8);
+    CHECK_EQ(m.count, 4);
+    double radius = 1 / cos(PI / 8);
+    CHECK_NEAR((double)m.share, 2 * radius * radius / (8 * (sqrt(2) - 1)), 1e-6);
+    check_contact(&pair, &m, NULL);
+    check_exchanged(&pair, &m, NULL);
+    ovoid_shape_destroy(box);
+}
+
+// Two bars across each other, edge on edge: one point, at the middle of both edges.
+static void test_edges(void) {
+    ovoid_error error;
+    ovoid_shape *bar = ovoid_shape_create_box((ovoid_vec3){4, 1, 1}, NULL, &error);
+    double c = cos(PI / 8), s = sin(PI / 8), high = 2 * sqrt(2);
+    ovoid_pair pair = pair_of(bar, bar, (vec3){0.5, 0.25, high - 0.1}, straight);
+    pair.pose_a.rotation = (ovoid_quat){c, s, 0, 0};
+    // B: turned about x as A is, then by a quarter about z.
+    ovoid_pose quarter = {{0, 0, 0}, turn_z(PI / 2)};
+    pair.pose_b.rotation = ovoid_pose_compute_product(&quarter, &pair.pose_a).rotation;
+    ovoid_manifold m = ovoid_manifold_find(&pair, NULL, NULL);
+    CHECK_EQ(m.axis, OVOID_MANIFOLD_EDGES);
+    CHECK_EQ(m.count, 1);
+    CHECK_EQ(m.id[0] & OVOID_MANIFOLD_KIND, OVOID_MANIFOLD_ID_CROSSING);
+    CHECK_NEAR(m.lower, -0.1, 1e-9);
+    check_contact(&pair, &m, NULL);
+    check_exchanged(&pair, &m, NULL);
+    ovoid_manifold_points p = ovoid_manifold_compute_points(&pair, &m);
+    CHECK_NEAR(p.points[0].point_a.x, 0.5, 1e-12);
+    CHECK_NEAR(p.points[0].point_a.y, 0, 1e-12);
+    CHECK_NEAR(p.points[0].point_a.z, sqrt(2), 1e-12);
+    ovoid_shape_destroy(bar);
+}
+
+// A lying capsule on a box touches along its segment, a standing one and a ball at a point.
+static void test_round(void) {
+    ovoid_error error;
+    ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){2, 2, 1}, NULL, &error);
+    ovoid_shape *capsule = ovoid_shape_create_capsule(0.5, 1, NULL, &error);
+    ovoid_shape *ball = ovoid_shape_create_sphere(0.5, NULL, &error);
+    const ovoid_quat lying = {sqrt(0.5), 0, sqrt(0.5), 0};
+    const struct {
+        const ovoid_shape *shape;
+        ovoid_quat turn;
+        double height;
+        uint32_t count;
+        double x;
+    } cases[] = {{capsule, lying, 1.4, 2, 1}, {capsule, straight, 2.4, 1, 0}, {ball, straight, 1.4, 1, 0}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        ovoid_pair pair = pair_of(box, cases[k].shape, (vec3){0.25, 0, cases[k].height}, cases[k].turn);
+        ovoid_manifold m = ovoid_manifold_find(&pair, NULL, NULL);
+        CHECK_EQ(m.count, cases[k].count);
+        CHECK_NEAR(m.lower, -0.1, 1e-9);
+        CHECK_NEAR(m.upper, -0.1, 1e-9);
+        check_contact(&pair, &m, NULL);
+        check_exchanged(&pair, &m, NULL);
+        ovoid_manifold_points p = ovoid_manifold_compute_points(&pair, &m);
+        for (uint32_t i = 0; i < p.count; i++) {
+            CHECK_NEAR(p.points[i].point_a.z, 1, 1e-13);
+            CHECK_NEAR(p.points[i].point_b.z, 0.9, 1e-13);
+            CHECK_NEAR(fabs(p.points[i].point_a.x - 0.25), cases[k].x, 1e-13);
+        }
+    }
+    ovoid_shape_destroy(box);
+    ovoid_shape_destroy(capsule);
+    ovoid_shape_destroy(ball);
+}
+
+// Beyond the margin there is no contact; within it there is one, with a distance.
+static void test_margin(void) {
+    ovoid_error error;
+    ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, NULL, &error);
+    ovoid_pair pair = pair_of(box, box, (vec3){0.5, 0.25, 2.1}, straight);
+    ovoid_manifold_options o = {.margin = 0.05};
+    ovoid_manifold m = ovoid_manifold_find(&pair, &o, NULL);
+    CHECK_EQ(m.axis, OVOID_MANIFOLD_NONE);
+    CHECK_EQ(m.status, OVOID_SEPARATED);
+    CHECK_EQ(m.limit, OVOID_LIMIT_CAP);
+    CHECK_EQ(m.count, 0);
+    check_contact(&pair, &m, &o);
+    o.margin = 0.2;
+    m = ovoid_manifold_find(&pair, &o, NULL);
+    CHECK_EQ(m.status, OVOID_SEPARATED);
+    CHECK_EQ(m.count, 4);
+    CHECK_NEAR(m.lower, 0.1, 1e-12);
+    CHECK_NEAR(m.upper, 0.1, 2.1 * ovoid_manifold_compute_points(&pair, &m).grown);
+    check_contact(&pair, &m, &o);
+    check_exchanged(&pair, &m, &o);
+    o.margin = -1;
+    m = ovoid_manifold_find(&pair, &o, NULL);
+    CHECK_EQ(m.limit, OVOID_LIMIT_OPTIONS);
+    CHECK_EQ(ovoid_manifold_verify(&pair, &m, &o, NULL), OVOID_OK);
+    pair.pose_b.rotation = (ovoid_quat){0, 0, 0, 0};
+    m = ovoid_manifold_find(&pair, NULL, NULL);
+    CHECK_EQ(m.limit, OVOID_LIMIT_POSE_B);
+    CHECK_EQ(m.count, 0);
+    CHECK_EQ(ovoid_manifold_compute_points(&pair, &m).count, 0);
+    ovoid_shape_destroy(box);
+}
+
+// ---- random pairs ----
+
+enum { HULL = 24 };
+static ovoid_shape *create_hull(uint64_t *s) {
+    double xyz[3 * HULL];
+    ovoid_error error;
+    for (int i = 0; i < HULL; i++) {
+        vec3 p = vec3_unit((vec3){random_normal(s), random_normal(s), random_normal(s)});
+        for (int k = 0; k < 3; k++) xyz[3 * i + k] = (&p.x)[k];
+    }
+    return ovoid_shape_create_from_points(xyz, HULL, NULL, &error);
+}
+
+// Moves B along a random direction until the bodies are about so far apart.
+static void place(ovoid_pair *pair, double want, uint64_t *s) {
+    vec3 d = vec3_unit((vec3){random_normal(s), random_normal(s), random_normal(s)});
+    double near = 0, far = 6;
+    for (int k = 0; k < 30; k++) {
+        double middle = (near + far) / 2;
+        pair->pose_b.position = vec3_scale(d, middle);
+        if (ovoid_depth(pair, NULL, NULL, NULL).lower > want)
+            far = middle;
+        else
+            near = middle;
+    }
+}
+
+static ovoid_quat random_turn(uint64_t *s) {
+    return (ovoid_quat){random_normal(s), random_normal(s), random_normal(s), random_normal(s)};
+}
+
+static void check_against_depth(const ovoid_pair *pair, const ovoid_manifold *m) {
+    ovoid_answer truth = ovoid_depth(pair, NULL, NULL, NULL);
+    CHECK_LE(m->lower, truth.upper);
+    if (m->axis != OVOID_MANIFOLD_NONE) CHECK_LE(truth.lower, m->upper);
+}
+
+// Cold, then five small motions, each from the contact before.
+static void test_random(void) {
+    ovoid_cover cover;
+    ovoid_manifold_options o = {.margin = 0.02, .cover = &cover};
+    for (uint64_t seed = 1; seed <= 200; seed++) {
+        uint64_t s = check_seed = seed;
+        ovoid_shape *a = create_hull(&s), *b = create_hull(&s);
+        ovoid_pair pair = {a, b, {{1, 2, 3}, random_turn(&s)}, {{0, 0, 0}, random_turn(&s)}};
+        pair.pose_a.position = (vec3){0, 0, 0};
+        place(&pair, random_uniform(&s, -0.1, 0.03), &s);
+        o.tolerance = 0;
+        ovoid_manifold m = ovoid_manifold_find(&pair, &o, NULL);
+        check_contact(&pair, &m, &o);
+        check_against_depth(&pair, &m);
+        check_exchanged(&pair, &m, &o);
+        o.tolerance = 1e-3;
+        for (int k = 0; k < 5; k++) {
+            pair.pose_b.position = vec3_add_scaled(pair.pose_b.position, (vec3){random_normal(&s), 1, -1}, 1e-4);
+            pair.pose_b.rotation.x += 1e-4 * random_normal(&s);
+            m = ovoid_manifold_find(&pair, &o, &m);
+            check_contact(&pair, &m, &o);
+            check_against_depth(&pair, &m);
+        }
+        ovoid_shape_destroy(a);
+        ovoid_shape_destroy(b);
+    }
+    check_seed = 0;
+}
+
+int main(void) {
+    test_boxes();
+    test_octagon();
+    test_edges();
+    test_round();
+    test_margin();
+    test_random();
+    return check_end();
+}
