@@ -21,6 +21,7 @@
 #include "ovoid/cpp/decompose.hpp"
 #include "ovoid/cpp/error.hpp"
 #include "ovoid/cpp/linear.hpp"
+#include "ovoid/cpp/manifold.hpp"
 #include "ovoid/cpp/motion.hpp"
 #include "ovoid/cpp/points.hpp"
 #include "ovoid/cpp/query.hpp"

@@ -291,9 +291,48 @@ void check_decompositions() {
     CHECK(throws(OVOID_ERROR_EMPTY, -1, "", [&] { ovoid::prove({cube, nullptr, 0}); }));
 }
 
+// Contacts: cold, warm, their points, polygon and batch.
+void check_manifolds() {
+    const shape box = shape::box({1, 2, 3});
+    const pose near = pose::rpy({1.9, 0.3, 0.1}, {0.1, 0, 0});
+    const ovoid::pair p(box, box, {}, near);
+    ovoid::manifold_options o;
+    o.margin = 0.1;
+    const ovoid::manifold cold = ovoid::find_manifold(p, o);
+    const ovoid_manifold same = ovoid_manifold_find(&p, &o, nullptr);
+    CHECK(is_same<ovoid_manifold>(cold, same));
+    CHECK(is_same<ovoid_manifold>(ovoid::find_manifold(p, o, &cold), ovoid_manifold_find(&p, &o, &same)));
+    CHECK(is_same<ovoid_manifold>(ovoid::make_swapped(cold), ovoid_manifold_make_swapped(&same)));
+    const ovoid::manifold_points points = ovoid::compute_points(p, cold);
+    CHECK_EQ(points.count, 4);
+    CHECK_EQ(ovoid::compute_polygon(p, cold, o).count, cold.corners);
+    CHECK(ovoid::is_proven(p, cold, o));
+    ovoid::manifold wrong = cold;
+    wrong.upper = -0.2;
+    CHECK(!ovoid::is_proven(p, wrong, o));
+    CHECK(throws(OVOID_ERROR_PROOF, -1, "upper", [&] { ovoid::verify(p, wrong, o); }));
+    CHECK(throws(OVOID_ERROR_ARGUMENT, -1, "manifold", [&] { ovoid::compute_polygon(p, {}, o); }));
+    CHECK(std::string(ovoid::name(cold.axis)) == "face a" || std::string(ovoid::name(cold.axis)) == "face b");
+    CHECK(std::string(ovoid::name(OVOID_MANIFOLD_PROOF_FACETS)) == "facets");
+
+    const std::vector<ovoid::posed_shape> bodies = {{box, pose()}, {box, near}};
+    std::vector<ovoid::couple> couples = {{0, 1}};
+    std::vector<ovoid_manifold> kept(1);
+    std::vector<ovoid::manifold_points> room(1);
+    ovoid::find_manifolds(ovoid::manifold_batch(bodies, couples, kept).with_options(o).with_points(room));
+    CHECK(is_same(kept[0], same));
+    CHECK(is_same(room[0].points[3].point_b, points.points[3].point_b));
+    std::vector<ovoid_manifold> none;
+    CHECK(throws(OVOID_ERROR_ARGUMENT, -1, "couples", [&] { ovoid::manifold_batch(bodies, couples, none); }));
+    couples[0].b = 2;
+    CHECK(
+        throws(OVOID_ERROR_INDEX, 0, "", [&] { ovoid::find_manifolds(ovoid::manifold_batch(bodies, couples, kept)); }));
+}
+
 } // namespace
 
 int main() {
+    check_manifolds();
     check_decompositions();
     check_pairs();
     check_batches();

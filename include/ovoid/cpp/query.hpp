@@ -132,6 +132,14 @@ inline verdict depth(const ovoid_prepared_shape &a, const ovoid_prepared_shape &
 /** As is_within of an answer. */
 inline int is_within(const ovoid_verdict &v, double margin) noexcept { return ovoid_verdict_is_within(&v, margin); }
 
+namespace detail {
+/** The places of a batch's results. Throws ARGUMENT: fewer than couples. */
+template <class C, class Container> C *receive(Container &into, std::size_t couples) {
+    if (items_of<C>(into).size() < couples) fail(OVOID_ERROR_ARGUMENT, "the batch has more couples than places");
+    return std::data(into);
+}
+} // namespace detail
+
 /** One query of many pairs. Bodies, couples, options and the arrays for the answers are borrowed. */
 class batch : public ovoid_batch {
   public:
@@ -160,9 +168,7 @@ class batch : public ovoid_batch {
 
   private:
     template <class C, class Container> C *receive(Container &into) const {
-        const auto items = detail::items_of<C>(into);
-        if (items.size() < couple_count) detail::fail(OVOID_ERROR_ARGUMENT, "the batch has more couples than places");
-        return std::data(into);
+        return detail::receive<C>(into, couple_count);
     }
 };
 
