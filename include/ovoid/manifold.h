@@ -54,6 +54,20 @@ typedef enum ovoid_manifold_proof {
 /** The nearest points of feature_a and feature_b: the facets met have no corner in common. */
 #define OVOID_MANIFOLD_ID_NEAREST UINT32_C(0xc0000000)
 
+/** A point of contact; world frame. */
+typedef struct ovoid_manifold_point {
+    ovoid_vec3 point_a, point_b; /**< on the surfaces of A and of B: point_b - point_a = separation normal */
+    double separation;           /**< negative: overlap */
+    uint32_t id;
+} ovoid_manifold_point;
+
+/** The points of a contact. */
+typedef struct ovoid_manifold_points {
+    uint32_t count; /**< of points; 0 if the contact is not one of this pair */
+    double grown;   /**< each point_a lies in A grown by this, each point_b in B: rounding, snapping, kept corners */
+    ovoid_manifold_point points[4];
+} ovoid_manifold_points;
+
 /** Options of contact queries; all zero, or NULL, is the default. */
 typedef struct ovoid_manifold_options {
     double margin;    /**< speculative: contacts and their points are given up to this distance; >= 0 */
@@ -65,6 +79,8 @@ typedef struct ovoid_manifold_options {
                      faces of the contact: only their edge or vertex touches; 0 means 1.45 */
     ovoid_cover *cover; /**< room for the proof of a search, or NULL. Untouched by a query that needs no search, so that
                            the cover of the last search stays; ovoid_manifold_verify reads it */
+    ovoid_manifold_points *points; /**< room for the points, or NULL: those of ovoid_manifold_compute_points, at a
+                                      fraction of its cost; a batch has its own */
 } ovoid_manifold_options;
 
 /** What the next query of the pair uses; it claims nothing. */
@@ -98,20 +114,6 @@ typedef struct ovoid_manifold {
     float share;      /**< the area of the points' quadrilateral divided by that of the polygon; 1 if they are all */
     ovoid_manifold_memory memory;
 } ovoid_manifold;
-
-/** A point of contact; world frame. */
-typedef struct ovoid_manifold_point {
-    ovoid_vec3 point_a, point_b; /**< on the surfaces of A and of B: point_b - point_a = separation normal */
-    double separation;           /**< negative: overlap */
-    uint32_t id;
-} ovoid_manifold_point;
-
-/** The points of a contact. */
-typedef struct ovoid_manifold_points {
-    uint32_t count; /**< of points; 0 if the contact is not one of this pair */
-    double grown;   /**< each point_a lies in A grown by this, each point_b in B: rounding, snapping, kept corners */
-    ovoid_manifold_point points[4];
-} ovoid_manifold_points;
 
 /** Most corners of a polygon. Facets of more than half as many corners take part with half as many of them. */
 #define OVOID_MANIFOLD_CORNERS 128

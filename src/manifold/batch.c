@@ -14,12 +14,13 @@ static ovoid_code find_all(const ovoid_manifold_batch *batch, ovoid_error *error
         if (batch->couples[i].a >= batch->body_count || batch->couples[i].b >= batch->body_count)
             return error_set(error, OVOID_ERROR_INDEX, (int64_t)i, "couple %zu names a body past the last of %zu", i,
                              batch->body_count);
+    ovoid_manifold_options options = batch->options ? *batch->options : (ovoid_manifold_options){0};
     for (size_t i = 0; i < batch->couple_count; i++) {
         ovoid_pair pair = get_pair(batch, i);
         ovoid_manifold found;
-        manifold_find_internal(&pair, batch->options, batch->manifolds + i, &found);
+        options.points = batch->points ? batch->points + i : NULL;
+        manifold_find_internal(&pair, &options, batch->manifolds + i, &found);
         batch->manifolds[i] = found;
-        if (batch->points) manifold_compute_points_internal(&pair, &found, batch->points + i);
     }
     return OVOID_OK;
 }

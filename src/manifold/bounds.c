@@ -38,17 +38,11 @@ static void add_side(frustum *f, double ox, double oy, double p) {
     f->depth = min2(f->depth, distance);
 }
 
-// The largest of the distances of the other patch's corners from an edge, to its inner side; edges of no length are no
-// sides. sign: -1 for sides of B's edges.
-static void add_edges(frustum *f, const manifold_patch *p, const manifold_patch *other, double sign) {
-    for (uint32_t i = 0; i < p->count && p->count > 1; i++) {
-        double dx = p->x[i + 1] - p->x[i], dy = p->y[i + 1] - p->y[i], length = sqrt(dx * dx + dy * dy);
-        if (!(length > 0)) continue;
-        double ox = -dy / length, oy = dx / length, most = -INFINITY;
-        for (uint32_t k = 0; k < other->count; k++)
-            most = max2(most, ox * (other->x[k] - p->x[i]) + oy * (other->y[k] - p->y[i]));
-        add_side(f, sign * ox, sign * oy, most);
-    }
+// The sides of a patch, with the distances to their inner sides of what is opposite. sign: -1 for those of B. Edges of
+// no length are no sides, and of a segment its ends are none.
+static void add_sides(frustum *f, const manifold_patch *p, const double *distance, double sign) {
+    for (uint32_t i = 0; i < p->count && p->count > 1; i++)
+        if (p->side_x[i] != 0 || p->side_y[i] != 0) add_side(f, sign * p->side_x[i], sign * p->side_y[i], distance[i]);
 }
 
 // The largest distance of a patch's corners from a place.
@@ -80,19 +74,74 @@ static double set_top(frustum *f, const manifold_frame *m) {
     return a->inside.least + b->inside.least;
 }
 
-double patches_prove_depth(const manifold_frame *m, const manifold_patch *a, const manifold_patch *b) {
+// The rounding of what is computed here of corners that are computed.
+static double get_pad(const manifold_frame *m) { return m->pair->check + 64 * ROUNDING * m->pair->size; }
+
+// Of both patches: the heights of the lowest and the highest point of their difference are -lowest and -h.
+typedef struct slab {
+    double h, lowest, reach;
+} slab;
+
+// 0 if there is no frustum.
+static int start(frustum *f, const manifold_frame *m, const slab *s) {
+    double radius = set_top(f, m), pad = get_pad(m);
+    f->h = s->h;
+    if (!(f->h > 0 && f->cz > 0)) return 0;
+    f->inset = pad;
+    if (s->lowest > s->h)
+        f->inset += (s->lowest - s->h) / (f->cz + s->lowest) * (sqrt(f->cx * f->cx + f->cy * f->cy) + s->reach);
+    f->s = s->reach > 0 ? min2(1, radius / (s->reach * (1 + 16 * ROUNDING))) : 1;
+    f->depth = min2(f->h, f->cz);
+    return 1;
+}
+
+static double prove_by_patches(const manifold_frame *m, const manifold_patch *a, const manifold_patch *b,
+                               const patch_table *to_a, const patch_table *to_b) {
     frustum f;
-    double radius = set_top(&f, m), pad = m->pair->check + 64 * ROUNDING * m->pair->size;
     range za = get_range(a), zb = get_range(b);
-    double reach = get_reach(a, a->x[0], a->y[0]) + get_reach(b, a->x[0], a->y[0]), lowest = za.high - zb.low;
-    f.h = za.low - zb.high;
-    if (!(f.h > 0 && f.cz > 0) || (a->count < 3 && b->count < 3 && a->count + b->count < 4)) return 0;
-    f.inset = pad + (lowest - f.h) / (f.cz + lowest) * (sqrt(f.cx * f.cx + f.cy * f.cy) + reach);
-    f.s = reach > 0 ? min2(1, radius / (reach * (1 + 16 * ROUNDING))) : 1;
-    f.depth = min2(f.h, f.cz);
-    add_edges(&f, a, b, 1);
-    add_edges(&f, b, a, -1);
-    return f.depth - pad;
+    slab s = {za.low - zb.high, za.high - zb.low, get_reach(a, a->x[0], a->y[0]) + get_reach(b, a->x[0], a->y[0])};
+    if ((a->count < 3 && b->count < 3 && a->count + b->count < 4) || !start(&f, m, &s)) return 0;
+    add_sides(&f, a, to_a->most, 1);
+    add_sides(&f, b, to_b->most, -1);
+    return f.depth - get_pad(m);
+}
+
+// A facet of one body that makes the axis, and the other's vertex that is extreme.
+static double prove_by_facet(const manifold_frame *m, const manifold_patch *p, vec3 vertex, double sign) {
+    frustum f;
+    range z = get_range(p);
+    slab s = {sign > 0 ? z.low - vertex.z : vertex.z - z.high, sign > 0 ? z.high - vertex.z : vertex.z - z.low,
+              get_reach(p, vertex.x, vertex.y)};
+    double distance[PATCH_CORNERS];
+    if (p->count < 3 || !start(&f, m, &s)) return 0;
+    for (uint32_t i = 0; i < p->count; i++) distance[i] = patch_get_side(p, i, vertex.x, vertex.y);
+    add_sides(&f, p, distance, sign);
+    return f.depth - get_pad(m);
+}
+
+static double prove_by_edges(const manifold_frame *m, const manifold_axis *axis) {
+    manifold_patch a, b;
+    patch_table to_a, to_b;
+    patch_make_a(m, axis->a, &a);
+    patch_make_b(m, axis->b, &b);
+    patch_table_fill(&a, &b, &to_a);
+    patch_table_fill(&b, &a, &to_b);
+    return prove_by_patches(m, &a, &b, &to_a, &to_b);
+}
+
+// By edges first where they make the axis: the facets beside them are tilted.
+double manifold_prove_depth(const manifold_state *s, const manifold_axis *axis, double enough) {
+    const manifold_frame *m = &s->frame;
+    double depth = 0;
+    if (axis->kind == OVOID_MANIFOLD_EDGES) depth = prove_by_edges(m, axis);
+    if (depth >= enough) return depth;
+    depth = max2(depth, prove_by_patches(m, &s->a, &s->b, &s->to_a, &s->to_b));
+    if (depth >= enough) return depth;
+    if (axis->kind == OVOID_MANIFOLD_FACE_A)
+        return max2(depth, prove_by_facet(m, &s->a, frame_place_b(m, m->low_b), 1));
+    if (axis->kind == OVOID_MANIFOLD_FACE_B)
+        return max2(depth, prove_by_facet(m, &s->b, frame_place_a(m, m->low_a), -1));
+    return depth;
 }
 
 // ---- what an earlier search leaves ----
@@ -136,28 +185,4 @@ double memory_compute_upper(const ovoid_manifold_memory *m, const pair_frame *f)
     double rounded = 0x1p-22 * (f->b->reach + vec3_norm(get_place(f)));
     double upper = (double)m->searched + compute_motion(m, f) + rounded + 2 * f->check;
     return upper == upper ? upper : INFINITY;
-}
-
-// ---- the patches, then the features of the axis ----
-
-static uint32_t get_vertex_feature(uint32_t vertex) { return OVOID_MANIFOLD_VERTEX | vertex; }
-
-// A facet that makes the axis is across it, to rounding, and so are two edges that do; the vertex opposite is extreme.
-double manifold_prove_depth(const manifold_state *s, const manifold_axis *axis, double enough) {
-    double depth = patches_prove_depth(&s->frame, &s->a, &s->b);
-    if (depth >= enough) return depth;
-    manifold_patch a, b;
-    switch (axis->kind) {
-    case OVOID_MANIFOLD_FACE_A:
-        patch_make_b(&s->frame, get_vertex_feature(s->frame.low_b), &b);
-        return max2(depth, patches_prove_depth(&s->frame, &s->a, &b));
-    case OVOID_MANIFOLD_FACE_B:
-        patch_make_a(&s->frame, get_vertex_feature(s->frame.low_a), &a);
-        return max2(depth, patches_prove_depth(&s->frame, &a, &s->b));
-    case OVOID_MANIFOLD_EDGES:
-        patch_make_a(&s->frame, axis->a, &a);
-        patch_make_b(&s->frame, axis->b, &b);
-        return max2(depth, patches_prove_depth(&s->frame, &a, &b));
-    default: return depth;
-    }
 }

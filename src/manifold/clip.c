@@ -1,13 +1,17 @@
 // The polygon in which two patches overlap. Neither is the reference: its corners are those of each patch that are
 // inside of the other, and the crossings of their edges. So it is the same polygon whichever body comes first, and each
 // corner has a name that does not depend on how it was found.
+//
+// Two edges cross where the ends of each are on different sides of the other: with a bit for each corner outside of a
+// side, edges that change sides are found by one shift.
 #include "manifold/manifold.h"
 
 // A polygon that grows.
 typedef struct clipper {
-    const manifold_patch *a, *b;
+    manifold_state *state;
     const clip_rules *rules;
     manifold_polygon *out;
+    uint32_t kept; ///< the first corners of the polygon are kept ones
 } clipper;
 
 static int is_kept(const clip_rules *r, uint32_t id) {
@@ -16,12 +20,13 @@ static int is_kept(const clip_rules *r, uint32_t id) {
     return 0;
 }
 
-// A corner that is nearer to one that is there than four times the snap is that corner.
+// A corner that is nearer to one that is there than four times the snap is that corner; near a kept one the distance is
+// that by which it may be outside.
 static int is_there(const clipper *c, double x, double y) {
-    double near = 4 * c->rules->snap;
+    double snap = 4 * c->rules->snap, keep = max2(c->rules->keep, snap);
     for (uint32_t i = 0; i < c->out->count; i++) {
         const manifold_corner *k = c->out->corners + i;
-        double dx = k->x - x, dy = k->y - y;
+        double dx = k->x - x, dy = k->y - y, near = i < c->kept ? keep : snap;
         if (dx * dx + dy * dy < near * near) return 1;
     }
     return 0;
@@ -35,27 +40,50 @@ static void add(clipper *c, const manifold_corner *corner) {
 // The least distance that a corner shows, whether it becomes one of the polygon or not: it does not depend on what was
 // kept.
 static void note(clipper *c, const manifold_corner *corner) {
-    double steep = max2(c->a->steepness, c->b->steepness);
+    double steep = max2(c->state->a.steepness, c->state->b.steepness);
     c->out->least = min2(c->out->least, fabs(corner->separation) + 2 * corner->outside * steep);
 }
 
-// Corners of one patch inside of the other; kept ones with more room. Returns how many are inside.
-static uint32_t add_inside(clipper *c, const manifold_patch *p, const manifold_patch *other, uint32_t kind) {
+// ---- corners ----
+
+// One patch's corners to the other patch.
+typedef struct corner_side {
+    const manifold_patch *own, *other;
+    const patch_table *table; ///< of own's corners to other's sides
+    uint32_t kind;            ///< of the ids
+} corner_side;
+
+// A corner of a patch; `outside` is above the room if it is farther outside than that.
+static manifold_corner make_corner(const corner_side *s, uint32_t i, double room) {
+    double x = s->own->x[i], y = s->own->y[i], least = s->table->least[i];
+    double height = patch_get_height(s->other, x, y);
+    double separation = s->kind == OVOID_MANIFOLD_ID_VERTEX_A ? height - s->own->z[i] : s->own->z[i] - height;
+    double outside = least >= 0 ? 0 : -least <= room ? patch_measure_distance(s->other, x, y) : INFINITY;
+    return (manifold_corner){x, y, separation, outside, s->kind | s->own->vertices[i]};
+}
+
+static void add_kept_corners(clipper *c, const corner_side *s) {
+    for (uint32_t i = 0; i < s->own->count; i++) {
+        if (!is_kept(c->rules, s->kind | s->own->vertices[i])) continue;
+        manifold_corner corner = make_corner(s, i, c->rules->keep);
+        if (corner.outside <= c->rules->keep) add(c, &corner);
+    }
+}
+
+// Returns how many corners are inside.
+static uint32_t add_corners(clipper *c, const corner_side *s) {
     uint32_t inside = 0;
-    for (uint32_t i = 0; i < p->count; i++) {
-        double distance = patch_measure_distance(other, p->x[i], p->y[i]);
-        uint32_t id = kind | p->vertices[i];
-        int is_inside = distance <= c->rules->snap;
-        if (!is_inside && !(distance <= c->rules->keep && is_kept(c->rules, id))) continue;
-        double height = patch_get_height(other, p->x[i], p->y[i]);
-        double separation = kind == OVOID_MANIFOLD_ID_VERTEX_A ? height - p->z[i] : p->z[i] - height;
-        const manifold_corner corner = {p->x[i], p->y[i], separation, max2(distance, 0), id};
-        inside += (uint32_t)is_inside;
-        if (is_inside) note(c, &corner);
+    for (uint32_t i = 0; i < s->own->count; i++) {
+        manifold_corner corner = make_corner(s, i, c->rules->snap);
+        if (!(corner.outside <= c->rules->snap)) continue;
+        inside++;
+        note(c, &corner);
         add(c, &corner);
     }
     return inside;
 }
+
+// ---- crossings ----
 
 // Twice the area of the triangle of the edge from corner i and a point: positive to the left.
 static double get_side(const manifold_patch *p, uint32_t i, double x, double y) {
@@ -78,17 +106,34 @@ uint32_t crossing_make_id(const manifold_patch *a, const manifold_patch *b, cons
     return OVOID_MANIFOLD_ID_CROSSING | (a->edges[c->i] & 0x7fff) << 15 | (b->edges[c->j] & 0x7fff);
 }
 
-static void add_crossings(clipper *c) {
+// Of the bits of a side: 1 at each edge of the other patch whose ends are on different sides.
+static uint64_t find_changes(uint64_t outside, uint32_t count) {
+    uint64_t next = outside >> 1 | (outside & 1) << (count - 1);
+    uint64_t edges = count > 2 ? ~UINT64_C(0) >> (64 - count) : count - 1;
+    return (outside ^ next) & edges;
+}
+
+static void add_crossings(clipper *c, int is_kept_only) {
+    const manifold_state *s = c->state;
+    const manifold_patch *a = &s->a, *b = &s->b;
+    uint64_t of_b[PATCH_CORNERS];
+    for (uint32_t j = 0; j < patch_get_edge_count(b); j++) of_b[j] = find_changes(s->to_b.outside[j], a->count);
     edge_crossing x;
-    for (x.i = 0; x.i < patch_get_edge_count(c->a); x.i++)
-        for (x.j = 0; x.j < patch_get_edge_count(c->b); x.j++) {
-            if (!patches_cross(c->a, c->b, &x)) continue;
-            double separation = patch_get_height(c->b, x.x, x.y) - patch_get_height(c->a, x.x, x.y);
-            const manifold_corner corner = {x.x, x.y, separation, 0, crossing_make_id(c->a, c->b, &x)};
+    for (x.i = 0; x.i < patch_get_edge_count(a); x.i++) {
+        uint64_t changes = find_changes(s->to_a.outside[x.i], b->count);
+        for (; changes; changes &= changes - 1) {
+            x.j = (uint32_t)__builtin_ctzll(changes);
+            if (!(of_b[x.j] >> x.i & 1) || !patches_cross(a, b, &x)) continue;
+            double separation = patch_get_height(b, x.x, x.y) - patch_get_height(a, x.x, x.y);
+            const manifold_corner corner = {x.x, x.y, separation, 0, crossing_make_id(a, b, &x)};
+            if (is_kept_only && !is_kept(c->rules, corner.id)) continue;
             note(c, &corner);
             add(c, &corner);
         }
+    }
 }
+
+// ---- the polygon ----
 
 // A number that grows with the angle of a direction, from -2 to 2.
 static double get_turn(double x, double y) {
@@ -120,13 +165,26 @@ static double compute_area(const manifold_polygon *p) {
     return max2(sum, 0) / 2;
 }
 
-void patches_clip(const manifold_patch *a, const manifold_patch *b, const clip_rules *rules, manifold_polygon *out) {
-    clipper c = {a, b, rules, out};
-    out->count = 0;
-    out->least = INFINITY;
-    uint32_t inside_a = add_inside(&c, a, b, OVOID_MANIFOLD_ID_VERTEX_A);
-    uint32_t inside_b = add_inside(&c, b, a, OVOID_MANIFOLD_ID_VERTEX_B);
-    if (inside_a < a->count && inside_b < b->count) add_crossings(&c);
-    if (out->count > 2) sort(out);
-    out->area = compute_area(out);
+void patches_clip(manifold_state *s, const clip_rules *rules) {
+    clipper c = {s, rules, &s->polygon, 0};
+    patch_table_fill(&s->a, &s->b, &s->to_a);
+    patch_table_fill(&s->b, &s->a, &s->to_b);
+    corner_side a = {&s->a, &s->b, &s->to_b, OVOID_MANIFOLD_ID_VERTEX_A};
+    corner_side b = {&s->b, &s->a, &s->to_a, OVOID_MANIFOLD_ID_VERTEX_B};
+    c.out->count = 0;
+    c.out->least = INFINITY;
+    if (rules->kept_count) {
+        add_kept_corners(&c, &a);
+        add_kept_corners(&c, &b);
+        add_crossings(&c, 1);
+        c.kept = c.out->count;
+    }
+    uint32_t inside_a = add_corners(&c, &a), inside_b = add_corners(&c, &b);
+    int is_whole = inside_a == s->a.count || inside_b == s->b.count;
+    if (!is_whole) add_crossings(&c, 0);
+    // The corners of one patch alone are in order.
+    int is_alone = is_whole && !c.kept && (c.out->count == inside_a || c.out->count == inside_b) &&
+                   (inside_a == 0 || inside_b == 0);
+    if (c.out->count > 2 && !is_alone) sort(c.out);
+    c.out->area = c.out->count > 4 ? compute_area(c.out) : 0;
 }

@@ -5,12 +5,15 @@
 #include "manifold/manifold.h"
 #include "query/answer.h"
 
+#include <string.h>
+
 // A query in the order of order.c.
 typedef struct task {
     ovoid_pair pair;
     pair_frame frame;
     manifold_terms terms;
     const ovoid_manifold *earlier; ///< or NULL
+    int is_exchanged;
 } task;
 
 // The cosine of an angle of at most a quarter turn, to 1e-4, with the same bits on every machine.
@@ -26,7 +29,7 @@ int manifold_terms_make(const ovoid_manifold_options *given, const pair_frame *f
                    o->angle <= MANIFOLD_ANGLE;
     double tolerance = o->tolerance > 0 ? o->tolerance : 1e-9 * f->size,
            angle = o->angle > 0 ? o->angle : MANIFOLD_ANGLE;
-    *t = (manifold_terms){o->margin, o->keep, tolerance + 8 * f->hidden, compute_cosine(angle), o->cover};
+    *t = (manifold_terms){o->margin, o->keep, tolerance + 8 * f->hidden, compute_cosine(angle), o->cover, o->points};
     return is_valid;
 }
 
@@ -48,8 +51,9 @@ void manifold_clip(const manifold_terms *t, const manifold_axis *axis, const ovo
     clip_rules rules = {
         .snap = MANIFOLD_SNAP * f->size, .most = t->margin + f->a->radius + f->b->radius, .keep = t->keep};
     rules.most += 2 * manifold_compute_rounding(s);
-    if (earlier) rules.kept = earlier->id, rules.kept_count = earlier->count < 4 ? earlier->count : 4;
-    patches_clip(&s->a, &s->b, &rules, &s->polygon);
+    if (earlier && rules.keep > rules.snap)
+        rules.kept = earlier->id, rules.kept_count = earlier->count < 4 ? earlier->count : 4;
+    patches_clip(s, &rules);
     if (s->polygon.count) return;
     manifold_corner c = manifold_make_nearest(s, axis);
     s->polygon.corners[s->polygon.count++] = c;
@@ -131,6 +135,7 @@ static void write_points(const task *t, const manifold_state *s, const manifold_
     out->corners = (uint16_t)p->count;
     out->share = (float)chosen.share;
     for (uint32_t i = 0; i < chosen.count; i++) out->id[i] = p->corners[chosen.index[i]].id;
+    if (t->terms.points) manifold_write_points(s, &chosen, t->is_exchanged, t->terms.points);
 }
 
 // ---- the earlier contact's features ----
@@ -193,28 +198,36 @@ static ovoid_manifold make_refused(ovoid_limit limit) {
     return (ovoid_manifold){.limit = limit, .lower = -INFINITY, .upper = INFINITY};
 }
 
+// The pair in its order, and the options. Refused pairs have no order.
+static ovoid_limit open_task(const ovoid_pair *pair, const ovoid_manifold_options *options,
+                             const ovoid_manifold *earlier, task *t) {
+    if (!pair->shape_a) return OVOID_LIMIT_SHAPE_A;
+    if (!pair->shape_b) return OVOID_LIMIT_SHAPE_B;
+    t->is_exchanged = order_is_exchanged(pair, earlier);
+    t->pair = t->is_exchanged ? pair_make_exchanged(pair) : *pair;
+    ovoid_limit refused = frame_make(&t->pair, &t->frame);
+    if (refused != OVOID_LIMIT_NONE) return frame_make(pair, &t->frame);
+    return manifold_terms_make(options, &t->frame, &t->terms) ? OVOID_LIMIT_NONE : OVOID_LIMIT_OPTIONS;
+}
+
 void manifold_find_internal(const ovoid_pair *pair, const ovoid_manifold_options *options,
                             const ovoid_manifold *earlier, ovoid_manifold *out) {
     OVOID_ASSERT(pair);
     task t;
     manifold_state s;
     ovoid_manifold before;
-    ovoid_limit refused = frame_make(pair, &t.frame);
-    if (refused == OVOID_LIMIT_NONE && !manifold_terms_make(options, &t.frame, &t.terms)) refused = OVOID_LIMIT_OPTIONS;
-    *out = make_refused(refused);
-    if (refused != OVOID_LIMIT_NONE) return;
-    t.pair = *pair;
-    t.earlier = earlier;
-    int is_exchanged = order_is_exchanged(pair, earlier);
-    if (is_exchanged) {
-        t.pair = pair_make_exchanged(pair);
-        (void)frame_make(&t.pair, &t.frame);
-        if (earlier) before = ovoid_manifold_make_swapped(earlier), t.earlier = &before;
+    if (options && options->points) options->points->count = 0;
+    ovoid_limit refused = open_task(pair, options, earlier, &t);
+    if (refused != OVOID_LIMIT_NONE) {
+        *out = make_refused(refused);
+        return;
     }
-    *out = (ovoid_manifold){0};
+    t.earlier = earlier;
+    if (t.is_exchanged && earlier) before = ovoid_manifold_make_swapped(earlier), t.earlier = &before;
+    memset(out, 0, sizeof *out);
     if (!find_warm(&t, &s, out)) find_cold(&t, &s, out);
     out->memory.flags &= ~(uint32_t)MANIFOLD_EXCHANGED;
-    if (is_exchanged) *out = ovoid_manifold_make_swapped(out);
+    if (t.is_exchanged) *out = ovoid_manifold_make_swapped(out);
 }
 
 ovoid_manifold ovoid_manifold_find(const ovoid_pair *pair, const ovoid_manifold_options *options,

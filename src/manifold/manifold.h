@@ -54,20 +54,34 @@ typedef struct manifold_frame {
     uint32_t low_a, low_b; ///< the vertices that are extreme toward the other body
 } manifold_frame;
 
+/// What is clipped of a body. A side is a half-plane across the normal that holds the patch: of a facet one for each
+/// edge; a segment has two along it and two at its ends, a point four around it.
 typedef struct manifold_patch {
-    uint32_t count;
+    uint32_t count, side_count;
     uint32_t vertices[PATCH_CORNERS], edges[PATCH_CORNERS]; ///< an edge goes from its corner to the next
-    double x[PATCH_CORNERS + 1], y[PATCH_CORNERS + 1];      ///< counter-clockwise; the first corner again at the end
+    double x[PATCH_CORNERS + 2], y[PATCH_CORNERS + 2]; ///< counter-clockwise; the first corner twice again at the end
     double z[PATCH_CORNERS];
-    double slope_x, slope_y; ///< of the plane: z = z[0] + slope_x (x - x[0]) + slope_y (y - y[0])
-    double steepness;        ///< one over the cosine of the angle between the plane's normal and n, not below 1
+    double side_x[PATCH_CORNERS], side_y[PATCH_CORNERS]; ///< unit, to the inner side; zero for an edge of no length
+    double side_at[PATCH_CORNERS]; ///< the distance to the inner side is side_x x + side_y y - side_at
+    double slope_x, slope_y;       ///< of the plane: z = z[0] + slope_x (x - x[0]) + slope_y (y - y[0])
+    double steepness;              ///< one over the cosine of the angle between the plane's normal and n, not below 1
 } manifold_patch;
 
 static inline double patch_get_height(const manifold_patch *p, double x, double y) {
     return p->z[0] + (p->slope_x * (x - p->x[0]) + p->slope_y * (y - p->y[0]));
 }
+static inline double patch_get_side(const manifold_patch *p, uint32_t i, double x, double y) {
+    return (p->side_x[i] * x + p->side_y[i] * y) - p->side_at[i];
+}
 /// A segment has one edge.
 static inline uint32_t patch_get_edge_count(const manifold_patch *p) { return p->count > 2 ? p->count : p->count - 1; }
+
+/// Where the corners of two patches are to the other one's sides.
+typedef struct patch_table {
+    uint64_t outside[PATCH_CORNERS]; ///< of each side: a bit for each corner of the other patch outside of it
+    double most[PATCH_CORNERS];      ///< of each side: the largest distance of those corners to its inner side
+    double least[PATCH_CORNERS + 1]; ///< of each corner of the other patch: the least distance to the inner sides
+} patch_table;
 
 /// A corner of the polygon.
 typedef struct manifold_corner {
@@ -89,6 +103,7 @@ typedef struct manifold_state {
     manifold_frame frame;
     uint32_t facet_a, facet_b; ///< the features of the patches
     manifold_patch a, b;
+    patch_table to_a, to_b; ///< B's corners to the sides of A; A's to those of B
     manifold_polygon polygon;
 } manifold_state;
 
@@ -106,6 +121,16 @@ static inline ovoid_pair pair_make_exchanged(const ovoid_pair *p) {
 /// The unit normal, in the axes of A, that the features make; where they make none, *n stays as it is. 0 if they are
 /// not features of this pair or do not make such an axis.
 int axis_compute_normal(const pair_frame *frame, const manifold_axis *axis, vec3 *n);
+
+/// A vertex in the frame of the normal.
+static inline vec3 frame_place_a(const manifold_frame *m, uint32_t vertex) {
+    vec3 x = frame_vertex_a(m->pair, vertex);
+    return (vec3){vec3_dot(m->u, x), vec3_dot(m->v, x), vec3_dot(m->n, x)};
+}
+static inline vec3 frame_place_b(const manifold_frame *m, uint32_t vertex) {
+    vec3 x = vec3_at(shape_vertices(m->pair->b), vertex);
+    return (vec3){vec3_dot(m->u_in_b, x) + m->tu, vec3_dot(m->v_in_b, x) + m->tv, vec3_dot(m->n_in_b, x) + m->tn};
+}
 
 /// The frame of a unit normal, with the gap along it.
 void manifold_frame_make(const pair_frame *pair, vec3 n, manifold_frame *frame);
@@ -139,8 +164,11 @@ uint32_t facet_choose(const ovoid_shape *shape, const facet_choice *choice);
 void patch_make_a(const manifold_frame *frame, uint32_t feature, manifold_patch *patch);
 void patch_make_b(const manifold_frame *frame, uint32_t feature, manifold_patch *patch);
 
-/// The distance of a point from a patch; inside minus the distance to the nearest edge.
+/// The distance of a point from a patch; 0 inside.
 double patch_measure_distance(const manifold_patch *patch, double x, double y);
+
+/// The corners of another patch to the sides of a patch.
+void patch_table_fill(const manifold_patch *patch, const manifold_patch *other, patch_table *table);
 
 /// Which corners count.
 typedef struct clip_rules {
@@ -148,11 +176,11 @@ typedef struct clip_rules {
     double most; ///< corners with a separation above this are left out
     double keep; ///< how far a kept corner may be outside
     const uint32_t *kept;
-    uint32_t kept_count;
+    uint32_t kept_count; ///< 0 where no corner is kept
 } clip_rules;
 
-/// The polygon in which the patches overlap, counter-clockwise.
-void patches_clip(const manifold_patch *a, const manifold_patch *b, const clip_rules *rules, manifold_polygon *polygon);
+/// The polygon in which the patches of a state overlap, counter-clockwise; and its tables.
+void patches_clip(manifold_state *state, const clip_rules *rules);
 
 /// Where edge i of A crosses edge j of B; 0 if they do not cross.
 typedef struct edge_crossing {
@@ -203,6 +231,10 @@ int manifold_open(const pair_frame *frame, const ovoid_manifold *manifold, manif
 int manifold_find_corner(const manifold_state *state, const ovoid_manifold *manifold, uint32_t id,
                          manifold_corner *corner);
 
+/// The points of the corners that were chosen, in the caller's order of the bodies.
+void manifold_write_points(const manifold_state *state, const corner_choice *chosen, int is_exchanged,
+                           ovoid_manifold_points *points);
+
 /// The points of a corner in the world.
 ovoid_manifold_point manifold_place_corner(const manifold_state *state, const manifold_corner *corner);
 
@@ -223,6 +255,7 @@ typedef struct manifold_terms {
     double tolerance; ///< of the bracket, beside the allowances
     double least;     ///< the least cosine between a facet's normal and the axis
     ovoid_cover *cover;
+    ovoid_manifold_points *points; ///< room for the points, or NULL
 } manifold_terms;
 /// 0 if the options are refused.
 int manifold_terms_make(const ovoid_manifold_options *options, const pair_frame *frame, manifold_terms *terms);

@@ -2,6 +2,8 @@
 // hull is in the facet, so what is found in it is true of the body.
 #include "manifold/manifold.h"
 
+#include "linear/both.h"
+
 // The corners of a feature of a shape.
 typedef struct corner_list {
     uint32_t count;
@@ -57,12 +59,32 @@ static void set_plane_slope(manifold_patch *p, vec3 plane) {
     p->steepness = max2(1, 1 / fabs(plane.z));
 }
 
+static void set_side(manifold_patch *p, uint32_t i, double x, double y, uint32_t corner) {
+    p->side_x[i] = x;
+    p->side_y[i] = y;
+    p->side_at[i] = x * p->x[corner] + y * p->y[corner];
+}
+
+// The half-plane to the left of an edge.
+static void set_edge_side(manifold_patch *p, uint32_t i, uint32_t from, uint32_t to) {
+    double dx = p->x[to] - p->x[from], dy = p->y[to] - p->y[from], square = dx * dx + dy * dy;
+    double scale = square > 0 ? 1 / sqrt(square) : 0;
+    set_side(p, i, -dy * scale, dx * scale, from);
+    if (!(square > 0)) p->side_at[i] = -INFINITY;
+}
+
 static void close_patch(manifold_patch *p) {
-    p->x[p->count] = p->x[0];
-    p->y[p->count] = p->y[0];
+    for (uint32_t k = 0; k < 2; k++) p->x[p->count + k] = p->x[0], p->y[p->count + k] = p->y[0];
     p->slope_x = p->slope_y = 0;
     p->steepness = 1;
-    if (p->count == 2) set_line_slope(p);
+    p->side_count = p->count > 2 ? p->count : 4;
+    for (uint32_t i = 0; i < p->count && p->count > 1; i++) set_edge_side(p, i, i, i + 1);
+    if (p->count == 2) {
+        set_side(p, 2, p->side_y[0], -p->side_x[0], 0);
+        set_side(p, 3, -p->side_y[0], p->side_x[0], 1);
+        set_line_slope(p);
+    } else if (p->count == 1)
+        for (uint32_t i = 0; i < 4; i++) set_side(p, i, i < 2 ? 1 - 2.0 * i : 0, i < 2 ? 0 : 5 - 2.0 * i, 0);
 }
 
 void patch_make_a(const manifold_frame *m, uint32_t feature, manifold_patch *p) {
@@ -70,10 +92,8 @@ void patch_make_a(const manifold_frame *m, uint32_t feature, manifold_patch *p) 
     list_corners(m->pair->a, feature, &list);
     take_corners(&list, 0, p);
     for (uint32_t i = 0; i < p->count; i++) {
-        vec3 x = frame_vertex_a(m->pair, p->vertices[i]);
-        p->x[i] = vec3_dot(m->u, x);
-        p->y[i] = vec3_dot(m->v, x);
-        p->z[i] = vec3_dot(m->n, x);
+        vec3 x = frame_place_a(m, p->vertices[i]);
+        p->x[i] = x.x, p->y[i] = x.y, p->z[i] = x.z;
     }
     close_patch(p);
     if (p->count < 3) return;
@@ -86,10 +106,8 @@ void patch_make_b(const manifold_frame *m, uint32_t feature, manifold_patch *p) 
     list_corners(m->pair->b, feature, &list);
     take_corners(&list, 1, p);
     for (uint32_t i = 0; i < p->count; i++) {
-        vec3 x = vec3_at(shape_vertices(m->pair->b), p->vertices[i]);
-        p->x[i] = vec3_dot(m->u_in_b, x) + m->tu;
-        p->y[i] = vec3_dot(m->v_in_b, x) + m->tv;
-        p->z[i] = vec3_dot(m->n_in_b, x) + m->tn;
+        vec3 x = frame_place_b(m, p->vertices[i]);
+        p->x[i] = x.x, p->y[i] = x.y, p->z[i] = x.z;
     }
     close_patch(p);
     if (p->count < 3) return;
@@ -108,14 +126,34 @@ static double measure_segment(const manifold_patch *p, uint32_t i, double x, dou
 }
 
 double patch_measure_distance(const manifold_patch *p, double x, double y) {
-    double most = p->count > 2 ? -INFINITY : INFINITY, nearest = INFINITY;
-    for (uint32_t i = 0; p->count > 2 && i < p->count; i++) {
-        double dx = p->x[i + 1] - p->x[i], dy = p->y[i + 1] - p->y[i], square = dx * dx + dy * dy;
-        double out = dy * (x - p->x[i]) - dx * (y - p->y[i]);
-        if (square > 0) most = max2(most, out / sqrt(square));
-    }
-    if (most <= 0) return most;
+    double least = INFINITY, nearest = INFINITY;
+    for (uint32_t i = 0; p->count > 2 && i < p->count; i++) least = min2(least, patch_get_side(p, i, x, y));
+    if (p->count > 2 && least >= 0) return 0;
     for (uint32_t i = 0; i < (p->count > 1 ? patch_get_edge_count(p) : 1); i++)
         nearest = min2(nearest, measure_segment(p, i, x, y));
     return nearest;
+}
+
+// Two corners at a time; there is one more than there are. Coordinates are finite.
+void patch_table_fill(const manifold_patch *p, const manifold_patch *other, patch_table *t) {
+    double distance[PATCH_CORNERS + 1];
+    for (uint32_t k = 0; k < other->count; k++) t->least[k] = INFINITY;
+    for (uint32_t i = 0; i < p->side_count; i++) {
+        both nx = both_make(p->side_x[i], p->side_x[i]), ny = both_make(p->side_y[i], p->side_y[i]);
+        both at = both_make(p->side_at[i], p->side_at[i]);
+        for (uint32_t k = 0; k < other->count; k += 2) {
+            both d = (nx * both_make(other->x[k], other->x[k + 1]) + ny * both_make(other->y[k], other->y[k + 1])) - at;
+            distance[k] = d[0];
+            distance[k + 1] = d[1];
+        }
+        double most = -INFINITY;
+        uint64_t outside = 0;
+        for (uint32_t k = 0; k < other->count; k++) {
+            most = max2(most, distance[k]);
+            t->least[k] = min2(t->least[k], distance[k]);
+            outside |= (uint64_t)(distance[k] < 0) << k;
+        }
+        t->most[i] = most;
+        t->outside[i] = outside;
+    }
 }

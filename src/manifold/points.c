@@ -3,6 +3,8 @@
 #include "base/environment.h"
 #include "manifold/manifold.h"
 
+#include <string.h>
+
 // The corners of a facet are within 4 FACET_FLATNESS of its plane, as triangles lower than that are joined to it. The
 // plane is taken through its first corner with slopes whose error is that of a direction, 100 u, over the square of the
 // cosine; what is placed with them is off by that times the size.
@@ -18,22 +20,21 @@ double manifold_compute_excess(const manifold_state *s, const manifold_corner *c
 static void set_heights(const manifold_state *s, manifold_corner *c) {
     c->separation = patch_get_height(&s->b, c->x, c->y) - patch_get_height(&s->a, c->x, c->y);
     double from_a = patch_measure_distance(&s->a, c->x, c->y), from_b = patch_measure_distance(&s->b, c->x, c->y);
-    c->outside = max2(max2(from_a, from_b), 0);
+    c->outside = max2(from_a, from_b);
 }
 
+// A vertex, to the other body's patch.
 static manifold_corner make_vertex_a(const manifold_state *s, uint32_t vertex) {
-    const manifold_frame *m = &s->frame;
-    vec3 x = frame_vertex_a(m->pair, vertex);
-    manifold_corner c = {.x = vec3_dot(m->u, x), .y = vec3_dot(m->v, x), .id = OVOID_MANIFOLD_ID_VERTEX_A | vertex};
-    return c;
+    vec3 x = frame_place_a(&s->frame, vertex);
+    double separation = patch_get_height(&s->b, x.x, x.y) - x.z;
+    return (manifold_corner){x.x, x.y, separation, patch_measure_distance(&s->b, x.x, x.y),
+                             OVOID_MANIFOLD_ID_VERTEX_A | vertex};
 }
 static manifold_corner make_vertex_b(const manifold_state *s, uint32_t vertex) {
-    const manifold_frame *m = &s->frame;
-    vec3 x = vec3_at(shape_vertices(m->pair->b), vertex);
-    manifold_corner c = {.x = vec3_dot(m->u_in_b, x) + m->tu,
-                         .y = vec3_dot(m->v_in_b, x) + m->tv,
-                         .id = OVOID_MANIFOLD_ID_VERTEX_B | vertex};
-    return c;
+    vec3 x = frame_place_b(&s->frame, vertex);
+    double separation = x.z - patch_get_height(&s->a, x.x, x.y);
+    return (manifold_corner){x.x, x.y, separation, patch_measure_distance(&s->a, x.x, x.y),
+                             OVOID_MANIFOLD_ID_VERTEX_B | vertex};
 }
 
 // Of a facet and another body the vertex that is extreme; of edges and vertices the nearest points.
@@ -90,16 +91,14 @@ int manifold_find_corner(const manifold_state *s, const ovoid_manifold *c, uint3
     case OVOID_MANIFOLD_ID_VERTEX_A:
         if (index >= s->frame.pair->a->vertex_count) return 0;
         *corner = make_vertex_a(s, index);
-        break;
+        return 1;
     case OVOID_MANIFOLD_ID_VERTEX_B:
         if (index >= s->frame.pair->b->vertex_count) return 0;
         *corner = make_vertex_b(s, index);
-        break;
+        return 1;
     case OVOID_MANIFOLD_ID_CROSSING: return find_crossing(s, id, corner);
     default: *corner = manifold_make_nearest(s, &axis); return corner->id == id;
     }
-    set_heights(s, corner);
-    return 1;
 }
 
 ovoid_manifold_point manifold_place_corner(const manifold_state *s, const manifold_corner *c) {
@@ -155,25 +154,29 @@ ordered_pair ordered_pair_make(const ovoid_pair *pair, const ovoid_manifold *c) 
     return (ordered_pair){pair_make_exchanged(pair), ovoid_manifold_make_swapped(c), 1};
 }
 
+void manifold_write_points(const manifold_state *s, const corner_choice *chosen, int is_exchanged,
+                           ovoid_manifold_points *out) {
+    double excess = 0;
+    memset(out, 0, sizeof *out);
+    for (uint32_t i = 0; i < chosen->count; i++) {
+        const manifold_corner *corner = s->polygon.corners + chosen->index[i];
+        out->points[i] = manifold_place_corner(s, corner);
+        if (is_exchanged) point_exchange(out->points + i);
+        excess = max2(excess, manifold_compute_excess(s, corner));
+    }
+    out->count = chosen->count;
+    out->grown = excess + manifold_compute_rounding(s);
+}
+
 void manifold_compute_points_internal(const ovoid_pair *pair, const ovoid_manifold *c, ovoid_manifold_points *out) {
     ordered_pair o = ordered_pair_make(pair, c);
     pair_frame f;
     manifold_state s;
-    manifold_corner corner;
-    *out = (ovoid_manifold_points){0};
+    memset(out, 0, sizeof *out);
     if (frame_make(&o.pair, &f) != OVOID_LIMIT_NONE || !manifold_open(&f, &o.manifold, &s)) return;
-    double excess = 0;
-    for (uint32_t i = 0; i < c->count; i++) {
-        if (!manifold_find_corner(&s, &o.manifold, o.manifold.id[i], &corner)) {
-            *out = (ovoid_manifold_points){0};
-            return;
-        }
-        out->points[i] = manifold_place_corner(&s, &corner);
-        if (o.is_exchanged) point_exchange(out->points + i);
-        excess = max2(excess, manifold_compute_excess(&s, &corner));
-    }
-    out->count = c->count;
-    out->grown = excess + manifold_compute_rounding(&s);
+    for (uint32_t i = 0; i < c->count; i++)
+        if (!manifold_find_corner(&s, &o.manifold, o.manifold.id[i], s.polygon.corners + i)) return;
+    manifold_write_points(&s, &(corner_choice){c->count, {0, 1, 2, 3}, 1}, o.is_exchanged, out);
 }
 
 ovoid_manifold_points ovoid_manifold_compute_points(const ovoid_pair *pair, const ovoid_manifold *manifold) {
