@@ -6,18 +6,22 @@
 // side, edges that change sides are found by one shift.
 #include "manifold/manifold.h"
 
-// A polygon that grows.
+#include <string.h>
+
+// A polygon that grows: kept corners come first, the others wait.
 typedef struct clipper {
     manifold_state *state;
     const clip_rules *rules;
     manifold_polygon *out;
-    uint32_t kept; ///< the first corners of the polygon are kept ones
+    uint32_t kept, waiting;
+    double steep;
+    manifold_corner others[2 * OVOID_MANIFOLD_CORNERS];
 } clipper;
 
 static int is_kept(const clip_rules *r, uint32_t id) {
-    for (uint32_t i = 0; i < r->kept_count; i++)
-        if (r->kept[i] == id) return 1;
-    return 0;
+    int found = 0;
+    for (uint32_t i = 0; i < r->kept_count; i++) found |= r->kept[i] == id;
+    return found;
 }
 
 // A corner that is nearer to one that is there than four times the snap is that corner; near a kept one the distance is
@@ -32,16 +36,22 @@ static int is_there(const clipper *c, double x, double y) {
     return 0;
 }
 
-static void add(clipper *c, const manifold_corner *corner) {
+static void append(clipper *c, const manifold_corner *corner) {
     if (c->out->count == OVOID_MANIFOLD_CORNERS || is_there(c, corner->x, corner->y)) return;
     if (corner->separation <= c->rules->most) c->out->corners[c->out->count++] = *corner;
+}
+
+static void add(clipper *c, const manifold_corner *corner, int is_kept) {
+    if (is_kept || !c->rules->kept_count)
+        append(c, corner);
+    else
+        c->others[c->waiting++] = *corner;
 }
 
 // The least distance that a corner shows, whether it becomes one of the polygon or not: it does not depend on what was
 // kept.
 static void note(clipper *c, const manifold_corner *corner) {
-    double steep = max2(c->state->a.steepness, c->state->b.steepness);
-    c->out->least = min2(c->out->least, fabs(corner->separation) + 2 * corner->outside * steep);
+    c->out->least = min2(c->out->least, fabs(corner->separation) + 2 * corner->outside * c->steep);
 }
 
 // ---- corners ----
@@ -53,52 +63,46 @@ typedef struct corner_side {
     uint32_t kind;            ///< of the ids
 } corner_side;
 
-// A corner of a patch; `outside` is above the room if it is farther outside than that.
-static manifold_corner make_corner(const corner_side *s, uint32_t i, double room) {
-    double x = s->own->x[i], y = s->own->y[i], least = s->table->least[i];
-    double height = patch_get_height(s->other, x, y);
-    double separation = s->kind == OVOID_MANIFOLD_ID_VERTEX_A ? height - s->own->z[i] : s->own->z[i] - height;
-    double outside = least >= 0 ? 0 : -least <= room ? patch_measure_distance(s->other, x, y) : INFINITY;
-    return (manifold_corner){x, y, separation, outside, s->kind | s->own->vertices[i]};
-}
-
-static void add_kept_corners(clipper *c, const corner_side *s) {
-    for (uint32_t i = 0; i < s->own->count; i++) {
-        if (!is_kept(c->rules, s->kind | s->own->vertices[i])) continue;
-        manifold_corner corner = make_corner(s, i, c->rules->keep);
-        if (corner.outside <= c->rules->keep) add(c, &corner);
-    }
-}
-
-// Returns how many corners are inside.
+// Returns how many corners are inside; kept ones have more room.
 static uint32_t add_corners(clipper *c, const corner_side *s) {
     uint32_t inside = 0;
     for (uint32_t i = 0; i < s->own->count; i++) {
-        manifold_corner corner = make_corner(s, i, c->rules->snap);
-        if (!(corner.outside <= c->rules->snap)) continue;
-        inside++;
-        note(c, &corner);
-        add(c, &corner);
+        double x = s->own->x[i], y = s->own->y[i], out = -s->table->least[i];
+        uint32_t id = s->kind | s->own->vertices[i];
+        int is_old = is_kept(c->rules, id);
+        double room = is_old ? max2(c->rules->keep, c->rules->snap) : c->rules->snap;
+        if (out > room) continue;
+        double outside = out > 0 ? patch_measure_distance(s->other, x, y) : 0;
+        if (outside > room) continue;
+        double height = patch_get_height(s->other, x, y);
+        double separation = s->kind == OVOID_MANIFOLD_ID_VERTEX_A ? height - s->own->z[i] : s->own->z[i] - height;
+        const manifold_corner corner = {x, y, separation, outside, id};
+        inside += outside <= c->rules->snap;
+        if (outside <= c->rules->snap) note(c, &corner);
+        add(c, &corner, is_old);
     }
     return inside;
 }
 
 // ---- crossings ----
 
-// Twice the area of the triangle of the edge from corner i and a point: positive to the left.
-static double get_side(const manifold_patch *p, uint32_t i, double x, double y) {
-    return (p->x[i + 1] - p->x[i]) * (y - p->y[i]) - (p->y[i + 1] - p->y[i]) * (x - p->x[i]);
-}
-
-int patches_cross(const manifold_patch *a, const manifold_patch *b, edge_crossing *c) {
+// Where side i of A and the edge from corner j of B meet, if its ends are on different sides.
+static void place_crossing(const manifold_patch *a, const manifold_patch *b, edge_crossing *c) {
     uint32_t i = c->i, j = c->j;
-    double p = get_side(a, i, b->x[j], b->y[j]), q = get_side(a, i, b->x[j + 1], b->y[j + 1]);
-    if ((p < 0) == (q < 0)) return 0;
-    double r = get_side(b, j, a->x[i], a->y[i]), s = get_side(b, j, a->x[i + 1], a->y[i + 1]);
-    if ((r < 0) == (s < 0)) return 0;
+    double p = patch_get_side(a, i, b->x[j], b->y[j]), q = patch_get_side(a, i, b->x[j + 1], b->y[j + 1]);
     double t = p / (p - q);
     c->x = b->x[j] + t * (b->x[j + 1] - b->x[j]);
     c->y = b->y[j] + t * (b->y[j + 1] - b->y[j]);
+}
+
+static int is_outside(const manifold_patch *p, uint32_t side, const manifold_patch *other, uint32_t corner) {
+    return patch_get_side(p, side, other->x[corner], other->y[corner]) < 0;
+}
+
+int patches_cross(const manifold_patch *a, const manifold_patch *b, edge_crossing *c) {
+    if (is_outside(a, c->i, b, c->j) == is_outside(a, c->i, b, c->j + 1)) return 0;
+    if (is_outside(b, c->j, a, c->i) == is_outside(b, c->j, a, c->i + 1)) return 0;
+    place_crossing(a, b, c);
     return 1;
 }
 
@@ -113,24 +117,23 @@ static uint64_t find_changes(uint64_t outside, uint32_t count) {
     return (outside ^ next) & edges;
 }
 
-static void add_crossings(clipper *c, int is_kept_only) {
+static void add_crossings(clipper *c) {
     const manifold_state *s = c->state;
     const manifold_patch *a = &s->a, *b = &s->b;
     uint64_t of_b[PATCH_CORNERS];
-    for (uint32_t j = 0; j < patch_get_edge_count(b); j++) of_b[j] = find_changes(s->to_b.outside[j], a->count);
+    uint32_t count_a = patch_get_edge_count(a), count_b = patch_get_edge_count(b);
+    for (uint32_t j = 0; j < count_b; j++) of_b[j] = find_changes(s->to_b.outside[j], a->count);
     edge_crossing x;
-    for (x.i = 0; x.i < patch_get_edge_count(a); x.i++) {
-        uint64_t changes = find_changes(s->to_a.outside[x.i], b->count);
-        for (; changes; changes &= changes - 1) {
+    for (x.i = 0; x.i < count_a; x.i++)
+        for (uint64_t changes = find_changes(s->to_a.outside[x.i], b->count); changes; changes &= changes - 1) {
             x.j = (uint32_t)__builtin_ctzll(changes);
-            if (!(of_b[x.j] >> x.i & 1) || !patches_cross(a, b, &x)) continue;
+            if (!(of_b[x.j] >> x.i & 1)) continue;
+            place_crossing(a, b, &x);
             double separation = patch_get_height(b, x.x, x.y) - patch_get_height(a, x.x, x.y);
             const manifold_corner corner = {x.x, x.y, separation, 0, crossing_make_id(a, b, &x)};
-            if (is_kept_only && !is_kept(c->rules, corner.id)) continue;
             note(c, &corner);
-            add(c, &corner);
+            add(c, &corner, is_kept(c->rules, corner.id));
         }
-    }
 }
 
 // ---- the polygon ----
@@ -144,17 +147,24 @@ static double get_turn(double x, double y) {
 // The corners around their mean. Equal turns keep their order.
 static void sort(manifold_polygon *p) {
     double x = 0, y = 0, turn[OVOID_MANIFOLD_CORNERS];
-    for (uint32_t i = 0; i < p->count; i++) x += p->corners[i].x, y += p->corners[i].y;
-    x /= p->count;
-    y /= p->count;
-    for (uint32_t i = 0; i < p->count; i++) {
-        manifold_corner corner = p->corners[i];
-        double key = get_turn(corner.x - x, corner.y - y);
+    uint32_t order[OVOID_MANIFOLD_CORNERS], count = p->count;
+    for (uint32_t i = 0; i < count; i++) x += p->corners[i].x, y += p->corners[i].y;
+    double scale = 1 / (double)count;
+    x *= scale;
+    y *= scale;
+    int is_sorted = 1;
+    for (uint32_t i = 0; i < count; i++) {
+        double key = get_turn(p->corners[i].x - x, p->corners[i].y - y);
         uint32_t k = i;
-        for (; k > 0 && turn[k - 1] > key; k--) turn[k] = turn[k - 1], p->corners[k] = p->corners[k - 1];
+        for (; k > 0 && turn[k - 1] > key; k--) turn[k] = turn[k - 1], order[k] = order[k - 1];
         turn[k] = key;
-        p->corners[k] = corner;
+        order[k] = i;
+        is_sorted &= k == i;
     }
+    if (is_sorted) return;
+    manifold_corner sorted[OVOID_MANIFOLD_CORNERS];
+    for (uint32_t i = 0; i < count; i++) sorted[i] = p->corners[order[i]];
+    memcpy(p->corners, sorted, count * sizeof *sorted);
 }
 
 static double compute_area(const manifold_polygon *p) {
@@ -166,22 +176,23 @@ static double compute_area(const manifold_polygon *p) {
 }
 
 void patches_clip(manifold_state *s, const clip_rules *rules) {
-    clipper c = {s, rules, &s->polygon, 0};
+    clipper c;
+    c.state = s;
+    c.rules = rules;
+    c.out = &s->polygon;
+    c.kept = c.waiting = 0;
+    c.steep = max2(s->a.steepness, s->b.steepness);
     patch_table_fill(&s->a, &s->b, &s->to_a);
     patch_table_fill(&s->b, &s->a, &s->to_b);
     corner_side a = {&s->a, &s->b, &s->to_b, OVOID_MANIFOLD_ID_VERTEX_A};
     corner_side b = {&s->b, &s->a, &s->to_a, OVOID_MANIFOLD_ID_VERTEX_B};
     c.out->count = 0;
     c.out->least = INFINITY;
-    if (rules->kept_count) {
-        add_kept_corners(&c, &a);
-        add_kept_corners(&c, &b);
-        add_crossings(&c, 1);
-        c.kept = c.out->count;
-    }
     uint32_t inside_a = add_corners(&c, &a), inside_b = add_corners(&c, &b);
     int is_whole = inside_a == s->a.count || inside_b == s->b.count;
-    if (!is_whole) add_crossings(&c, 0);
+    if (!is_whole) add_crossings(&c);
+    c.kept = rules->kept_count ? c.out->count : 0;
+    for (uint32_t i = 0; i < c.waiting; i++) append(&c, c.others + i);
     // The corners of one patch alone are in order.
     int is_alone = is_whole && !c.kept && (c.out->count == inside_a || c.out->count == inside_b) &&
                    (inside_a == 0 || inside_b == 0);
