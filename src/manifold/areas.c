@@ -158,7 +158,7 @@ static void write_corners(const manifold_state *s, int is_exchanged, ovoid_manif
         const manifold_corner *c = s->polygon.corners + (is_exchanged ? out->count - 1 - i : i);
         out->points[i] = manifold_place_corner(s, c);
         if (is_exchanged) point_exchange(out->points + i);
-        out->grown = max2(out->grown, manifold_compute_excess(s, c));
+        out->grown = max2(out->grown, manifold_compute_excess(s, c) + point_compute_rounding(out->points + i));
     }
     out->grown += manifold_compute_rounding(s);
 }

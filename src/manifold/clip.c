@@ -72,7 +72,7 @@ static uint32_t add_corners(clipper *c, const corner_side *s) {
         int is_old = is_kept(c->rules, id);
         double room = is_old ? max2(c->rules->keep, c->rules->snap) : c->rules->snap;
         if (out > room) continue;
-        double outside = out > 0 ? patch_measure_distance(s->other, x, y) : 0;
+        double outside = out > 0 || s->other->count < 3 ? patch_measure_distance(s->other, x, y) : 0;
         if (outside > room) continue;
         double height = patch_get_height(s->other, x, y);
         double separation = s->kind == OVOID_MANIFOLD_ID_VERTEX_A ? height - s->own->z[i] : s->own->z[i] - height;
@@ -86,13 +86,15 @@ static uint32_t add_corners(clipper *c, const corner_side *s) {
 
 // ---- crossings ----
 
-// Where side i of A and the edge from corner j of B meet, if its ends are on different sides.
-static void place_crossing(const manifold_patch *a, const manifold_patch *b, edge_crossing *c) {
+// Where side i of A and the edge from corner j of B meet, if its ends are on different sides. Returns how far the
+// farther end is from the side.
+static double place_crossing(const manifold_patch *a, const manifold_patch *b, edge_crossing *c) {
     uint32_t i = c->i, j = c->j;
     double p = patch_get_side(a, i, b->x[j], b->y[j]), q = patch_get_side(a, i, b->x[j + 1], b->y[j + 1]);
     double t = p / (p - q);
     c->x = b->x[j] + t * (b->x[j + 1] - b->x[j]);
     c->y = b->y[j] + t * (b->y[j + 1] - b->y[j]);
+    return max2(fabs(p), fabs(q));
 }
 
 static int is_outside(const manifold_patch *p, uint32_t side, const manifold_patch *other, uint32_t corner) {
@@ -102,7 +104,7 @@ static int is_outside(const manifold_patch *p, uint32_t side, const manifold_pat
 int patches_cross(const manifold_patch *a, const manifold_patch *b, edge_crossing *c) {
     if (is_outside(a, c->i, b, c->j) == is_outside(a, c->i, b, c->j + 1)) return 0;
     if (is_outside(b, c->j, a, c->i) == is_outside(b, c->j, a, c->i + 1)) return 0;
-    place_crossing(a, b, c);
+    (void)place_crossing(a, b, c);
     return 1;
 }
 
@@ -128,7 +130,8 @@ static void add_crossings(clipper *c) {
         for (uint64_t changes = find_changes(s->to_a.outside[x.i], b->count); changes; changes &= changes - 1) {
             x.j = (uint32_t)__builtin_ctzll(changes);
             if (!(of_b[x.j] >> x.i & 1)) continue;
-            place_crossing(a, b, &x);
+            // Edges that lie on one another cross by rounding alone.
+            if (place_crossing(a, b, &x) <= c->rules->snap) continue;
             double separation = patch_get_height(b, x.x, x.y) - patch_get_height(a, x.x, x.y);
             const manifold_corner corner = {x.x, x.y, separation, 0, crossing_make_id(a, b, &x)};
             note(c, &corner);

@@ -122,10 +122,16 @@ static void write_apart(double lower, vec3 normal, ovoid_manifold *out) {
         .status = OVOID_SEPARATED, .limit = OVOID_LIMIT_CAP, .lower = lower, .upper = INFINITY, .normal = normal};
 }
 
-static void write_points(const task *t, const manifold_state *s, const manifold_axis *axis, ovoid_manifold *out) {
+// given: the world normal that was kept or searched for; where no feature makes another, it is the contact's, so that
+// what is computed from it later has the same bits.
+static void write_points(const task *t, const manifold_state *s, const manifold_axis *axis, vec3 given,
+                         ovoid_manifold *out) {
     const manifold_polygon *p = &s->polygon;
     corner_choice chosen = corners_choose(p, t->earlier);
-    out->normal = frame_direction_to_world(&t->frame, s->frame.n);
+    vec3 n = vec3_unit(frame_direction_from_world(&t->frame, given));
+    int is_given =
+        fabs(vec3_norm(given) - 1) <= 1e-15 && n.x == s->frame.n.x && n.y == s->frame.n.y && n.z == s->frame.n.z;
+    out->normal = is_given ? given : frame_direction_to_world(&t->frame, s->frame.n);
     out->axis = axis->kind;
     out->feature_a = axis->a;
     out->feature_b = axis->b;
@@ -155,7 +161,7 @@ static int find_warm(const task *t, manifold_state *s, ovoid_manifold *out) {
         return 1;
     }
     if (!is_narrow(t, &b)) return 0;
-    write_points(t, s, &axis, out);
+    write_points(t, s, &axis, e->normal, out);
     write_bracket(t, &b, OVOID_LIMIT_NONE, out);
     out->memory = e->memory;
     return 1;
@@ -181,7 +187,11 @@ static void find_cold(const task *t, manifold_state *s, ovoid_manifold *out) {
         write_apart(answer.lower, answer.normal, out);
         return;
     }
-    if (!(vec3_norm_squared(n) > 0.5)) n = (vec3){0, 0, 1};
+    vec3 given = answer.normal;
+    if (!(vec3_norm_squared(n) > 0.5)) {
+        given = (vec3){0, 0, 1};
+        n = vec3_unit(frame_direction_from_world(f, given));
+    }
     ovoid_manifold_memory memory = {0};
     if (answer.proof.kind == OVOID_PROOF_COVER) memory_set_search(&memory, &t->pair, f, answer.upper);
     manifold_axis axis = axis_choose(f, 0.25 * min2(1e-9 * f->size, t->terms.tolerance), &n);
@@ -189,7 +199,7 @@ static void find_cold(const task *t, manifold_state *s, ovoid_manifold *out) {
     bracket b = measure(t, s, &axis, &memory);
     if (!is_narrow(t, &b) && answer.proof.kind == OVOID_PROOF_COVER)
         take_upper(&b, answer.upper, OVOID_MANIFOLD_PROOF_SEARCH);
-    write_points(t, s, &axis, out);
+    write_points(t, s, &axis, given, out);
     write_bracket(t, &b, answer.limit, out);
     out->memory = memory;
 }

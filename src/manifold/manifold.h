@@ -246,6 +246,10 @@ typedef struct ordered_pair {
 } ordered_pair;
 ordered_pair ordered_pair_make(const ovoid_pair *pair, const ovoid_manifold *manifold);
 void point_exchange(ovoid_manifold_point *point);
+/// What the rounding of world coordinates moves a point by.
+static inline double point_compute_rounding(const ovoid_manifold_point *p) {
+    return 4 * ROUNDING * max2(vec3_max_abs(p->point_a), vec3_max_abs(p->point_b));
+}
 
 // ---- find.c ----
 

@@ -162,7 +162,7 @@ void manifold_write_points(const manifold_state *s, const corner_choice *chosen,
         const manifold_corner *corner = s->polygon.corners + chosen->index[i];
         out->points[i] = manifold_place_corner(s, corner);
         if (is_exchanged) point_exchange(out->points + i);
-        excess = max2(excess, manifold_compute_excess(s, corner));
+        excess = max2(excess, manifold_compute_excess(s, corner) + point_compute_rounding(out->points + i));
     }
     out->count = chosen->count;
     out->grown = excess + manifold_compute_rounding(s);

@@ -1,0 +1,92 @@
+// What is true of a contact, found without its proof: by the depth query, and by the distance of each point from each
+// body.
+#ifndef OVOID_TESTS_MANIFOLDS_H
+#define OVOID_TESTS_MANIFOLDS_H
+
+#include "check.h"
+#include "linear/vec3.h"
+#include "ovoid/ovoid.h"
+
+/// A contact with what it was asked by.
+typedef struct asked_manifold {
+    ovoid_pair pair;
+    ovoid_manifold_options options;
+    ovoid_manifold manifold;
+    ovoid_answer truth; ///< of ovoid_depth
+    double size;        ///< of both bodies and what is between them
+} asked_manifold;
+
+static inline double size_of_pair(const ovoid_pair *p) {
+    ovoid_measures a = ovoid_shape_get_measures(p->shape_a), b = ovoid_shape_get_measures(p->shape_b);
+    ovoid_vec3 oa = ovoid_shape_get_polytope(p->shape_a).origin, ob = ovoid_shape_get_polytope(p->shape_b).origin;
+    return a.sphere_radius + b.sphere_radius + vec3_norm(a.sphere_center) + vec3_norm(b.sphere_center) +
+           vec3_norm(vec3_sub(p->pose_b.position, p->pose_a.position)) + vec3_norm(oa) + vec3_norm(ob) +
+           ovoid_shape_get_radius(p->shape_a) + ovoid_shape_get_radius(p->shape_b);
+}
+
+/// How far a point is from a body, 0 inside; by a search of its own.
+static inline double distance_of_point(const ovoid_shape *shape, const ovoid_pose *pose, ovoid_vec3 point) {
+    static ovoid_shape *dot;
+    ovoid_error error;
+    if (!dot) dot = ovoid_shape_create_sphere(0, NULL, &error);
+    ovoid_pair pair = {shape, dot, *pose, {point, {1, 0, 0, 0}}};
+    ovoid_answer answer = ovoid_distance(&pair, NULL, NULL);
+    return answer.upper > 0 ? answer.lower : 0;
+}
+
+/// NULL, or a claim that is not true. Rounding that the test's own measurements cannot see is 1e-11 of the size.
+/// Whether status and limit follow from the bracket is looked at for the default tolerance, or the options'.
+static inline const char *find_lie(const asked_manifold *q) {
+    const ovoid_manifold *m = &q->manifold;
+    double slack = 1e-11 * q->size + 0x1p-50 * vec3_norm(q->pair.pose_a.position),
+           tolerance = fmax(q->options.tolerance, q->options.tolerance > 0 ? 0 : 2e-9 * q->size);
+    double inside =
+        ovoid_shape_get_allowance(q->pair.shape_a).inside + ovoid_shape_get_allowance(q->pair.shape_b).inside;
+    double outside =
+        ovoid_shape_get_allowance(q->pair.shape_a).outside + ovoid_shape_get_allowance(q->pair.shape_b).outside;
+    if (!(m->lower <= q->truth.upper)) return "lower";
+    if (!(m->upper >= q->truth.lower)) return "upper";
+    if (!(fabs(vec3_norm(m->normal) - 1) <= 1e-11)) return "length of the normal";
+    if (!(ovoid_pair_compute_gap(&q->pair, m->normal) >= m->lower - slack)) return "normal";
+    ovoid_status status = m->lower > 0                       ? OVOID_SEPARATED
+                          : m->upper < 0                     ? OVOID_OVERLAPPING
+                          : m->upper - m->lower <= tolerance ? OVOID_TOUCHING
+                                                             : OVOID_UNDECIDED;
+    if (m->status != status && !(status == OVOID_TOUCHING && m->status == OVOID_UNDECIDED)) return "status";
+    if (m->limit == OVOID_LIMIT_NONE && !(m->upper - m->lower <= tolerance + inside + outside + slack)) return "limit";
+    if (m->axis == OVOID_MANIFOLD_NONE) return m->count || m->lower <= q->options.margin ? "no contact" : NULL;
+    ovoid_manifold_points p = ovoid_manifold_compute_points(&q->pair, m);
+    if (p.count != m->count) return "points";
+    for (uint32_t i = 0; i < p.count; i++) {
+        const ovoid_manifold_point *x = p.points + i;
+        vec3 off = vec3_sub(vec3_sub(x->point_b, x->point_a), vec3_scale(m->normal, x->separation));
+        if (!(vec3_norm(off) <= slack)) return "points along the normal";
+        if (!(distance_of_point(q->pair.shape_a, &q->pair.pose_a, x->point_a) <= p.grown + slack)) return "point of A";
+        if (!(distance_of_point(q->pair.shape_b, &q->pair.pose_b, x->point_b) <= p.grown + slack)) return "point of B";
+        int is_nearest = (x->id & OVOID_MANIFOLD_KIND) == OVOID_MANIFOLD_ID_NEAREST;
+        if (!is_nearest && x->separation > q->options.margin + slack) return "a point beyond the margin";
+        for (uint32_t k = 0; k < i; k++)
+            if (p.points[k].id == x->id) return "ids";
+    }
+    return NULL;
+}
+
+static inline asked_manifold ask_manifold(const ovoid_pair *pair, const ovoid_manifold_options *options,
+                                          const ovoid_manifold *earlier) {
+    asked_manifold q = {.pair = *pair, .options = *options};
+    q.manifold = ovoid_manifold_find(pair, options, earlier);
+    q.truth = ovoid_depth(pair, NULL, NULL, NULL);
+    q.size = size_of_pair(pair);
+    return q;
+}
+
+/// Checks that all that a contact claims is true, and that the verifier says so.
+static inline void check_manifold(const asked_manifold *q) {
+    ovoid_error error = {OVOID_OK, -1, ""};
+    const char *lie = find_lie(q);
+    if (!CHECK(!lie)) printf("  %s\n", lie);
+    if (!CHECK_EQ(ovoid_manifold_verify(&q->pair, &q->manifold, &q->options, &error), OVOID_OK))
+        printf("  %s\n", error.message);
+}
+
+#endif
