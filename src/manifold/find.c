@@ -130,7 +130,7 @@ static void write_points(const task *t, const manifold_state *s, const manifold_
     corner_choice chosen = corners_choose(p, t->earlier);
     vec3 n = vec3_unit(frame_direction_from_world(&t->frame, given));
     int is_given =
-        fabs(vec3_norm(given) - 1) <= 1e-15 && n.x == s->frame.n.x && n.y == s->frame.n.y && n.z == s->frame.n.z;
+        fabs(vec3_norm(given) - 1) <= 1e-13 && n.x == s->frame.n.x && n.y == s->frame.n.y && n.z == s->frame.n.z;
     out->normal = is_given ? given : frame_direction_to_world(&t->frame, s->frame.n);
     out->axis = axis->kind;
     out->feature_a = axis->a;
