@@ -7,6 +7,7 @@
 #define OVOID_JUDGE_H
 
 #include "ovoid/body.h"
+#include "ovoid/manifold.h"
 
 /// Working numbers, and the facts proven about each shape's inner ellipsoid (by address: a shape that was seen must
 /// live as long as the judge, or judge_forget must be called before it is destroyed). One thread at a time.
@@ -53,6 +54,22 @@ ovoid_code judge_verify_solid(judge *context, const ovoid_body_pair *pair, const
 /// For answers of ovoid_distance that are apart and of ovoid_depth, to the default tolerance: point_b - point_a = d
 /// normal, to what the bracket and the tolerance allow. OVOID_OK or OVOID_ERROR_PROOF.
 ovoid_code judge_verify_points(judge *context, const ovoid_pair *pair, const ovoid_answer *answer, ovoid_error *error);
+
+/// A contact with its whole polygon, as ovoid_manifold_compute_polygon gives it for the same options.
+typedef struct judge_contact {
+    const ovoid_manifold *manifold;
+    const ovoid_manifold_polygon *polygon;
+    double margin; ///< of the options; infinity: it is so large that no corner was left out
+    double snap;   ///< how far a corner may be from where it is, or outside: a length
+} judge_contact;
+
+/// OVOID_OK if what a contact says of its points is true: `lower` is shown by the normal; each pair of points lies on
+/// the bodies grown by polygon->grown, apart by the separation along the normal; the polygon is that in which the
+/// facets overlap, seen along the normal, to the snap, and its area is between inner and outer. The facets are clipped
+/// in exact arithmetic, by themselves: corners of one inside of the other, and crossings of edges. `upper` is not
+/// looked at. Else OVOID_ERROR_PROOF with a sentence in *error (may be NULL).
+ovoid_code judge_verify_contact(judge *context, const ovoid_pair *pair, const judge_contact *contact,
+                                ovoid_error *error);
 
 /// The truth about a pair of few vertices, by brute force over all features, independent of any proof.
 typedef struct judge_truth {

@@ -51,6 +51,9 @@ ovoid_code judge_verify_upper(const claim *c, const ovoid_cover *cover);
 /// The upper bounds that rest on the inner ellipsoids.
 ovoid_code judge_verify_inner(const claim *c);
 
+/// 1 if a point of the world is no farther than `reach` from the body's hull.
+int body_holds(pool *p, const body *b, nvec point, num reach);
+
 /// The witness points lie on their bodies.
 ovoid_code judge_verify_witness(const claim *c, const ovoid_answer *answer);
 

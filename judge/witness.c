@@ -47,7 +47,7 @@ static int is_near_boundary(pool *p, const ovoid_polytope *polytope, const nvec 
     return 0;
 }
 
-static int is_in_body(pool *p, const body *b, nvec point, num reach) {
+int body_holds(pool *p, const body *b, nvec point, num reach) {
     const ovoid_polytope *polytope = &b->polytope;
     nvec *corners = judge_allocate(polytope->vertex_count, sizeof *corners), at = nvec_scale(p, point, b->n);
     for (uint32_t i = 0; i < polytope->vertex_count; i++) {
@@ -93,7 +93,7 @@ static int is_witness(const claim *c, int of_b, nvec point, double tolerance) {
     num reach = num_add(s->p, b->radius, number_from(s->p, tolerance));
     named n = find_named(c, of_b);
     if (n.is_known && is_near(s->p, point, &n, reach)) return 1;
-    return is_in_body(s->p, b, point, reach);
+    return body_holds(s->p, b, point, reach);
 }
 
 ovoid_code judge_verify_witness(const claim *c, const ovoid_answer *answer) {

@@ -1,0 +1,117 @@
+// Contacts before the exact judge: boxes, prisms and hulls on one another and in random poses, cold and warm. Truth:
+// the facets clipped in exact arithmetic, the bodies' exact supports along the normal, and the exact distance of each
+// point from its body; of `upper`, the lower bounds of ovoid_depth, each shown by its own normal in exact arithmetic.
+// An argument is the number of contacts: test_judge_manifold 1000000.
+#include "judge.h"
+#include "manifolds.h"
+
+enum { SHAPES = 40, FRAMES = 4 };
+static ovoid_shape *shapes[SHAPES];
+
+static ovoid_shape *create(int kind, uint64_t *s) {
+    double xyz[3 * 32];
+    ovoid_error error;
+    int count = kind == 2 ? 8 : kind == 3 ? 14 : 32;
+    if (kind == 0)
+        return ovoid_shape_create_box((ovoid_vec3){random_uniform(s, 0.5, 1.5), random_uniform(s, 0.5, 1.5), 0.6}, NULL,
+                                      &error);
+    if (kind == 1)
+        return ovoid_shape_create_prism(&(ovoid_prism){1, 0.5, 3 + (uint32_t)(random_next(s) % 9)}, NULL, &error);
+    for (int i = 0; i < count; i++) {
+        vec3 p = vec3_unit((vec3){random_normal(s), random_normal(s), random_normal(s)});
+        if (i < 5) p = (vec3){0.8 * cos(1.2566 * i), 0.8 * sin(1.2566 * i), -0.6};
+        for (int k = 0; k < 3; k++) xyz[3 * i + k] = (&p.x)[k];
+    }
+    return ovoid_shape_create_from_points(xyz, (size_t)count, NULL, &error);
+}
+
+static ovoid_quat random_turn(uint64_t *s) {
+    return (ovoid_quat){random_normal(s), random_normal(s), random_normal(s), random_normal(s)};
+}
+
+// B on A, by faces or in a random turn; both then moved by a common pose.
+static void place(ovoid_pair *pair, uint64_t *s) {
+    int is_face = random_next(s) & 1;
+    ovoid_pose home = ovoid_pose_make_identity(),
+               by = {{random_normal(s), random_normal(s), random_normal(s)}, random_turn(s)};
+    pair->pose_a = pair->pose_b = home;
+    pair->pose_b.rotation = is_face ? (ovoid_quat){1, 0, 0, random_normal(s)} : random_turn(s);
+    vec3 d = vec3_unit((vec3){0.3 * random_normal(s), 0.3 * random_normal(s), 1});
+    double near = 0, far = 6, want = random_uniform(s, -0.03, 0.01);
+    for (int k = 0; k < 30; k++) {
+        pair->pose_b.position = vec3_scale(d, (near + far) / 2);
+        if (ovoid_depth(pair, NULL, NULL, NULL).lower > want)
+            far = (near + far) / 2;
+        else
+            near = (near + far) / 2;
+    }
+    pair->pose_a = ovoid_pose_compute_product(&by, &pair->pose_a);
+    pair->pose_b = ovoid_pose_compute_product(&by, &pair->pose_b);
+}
+
+static long judged, polygons;
+
+static void judge_one(judge *context, const ovoid_pair *pair, const ovoid_manifold_options *o,
+                      const ovoid_manifold *m) {
+    static ovoid_manifold_polygon polygon;
+    ovoid_error error = {OVOID_OK, -1, ""};
+    if (!m->count) return;
+    CHECK_EQ(ovoid_manifold_compute_polygon(pair, m, o, &polygon), OVOID_OK);
+    judge_contact contact = {m, &polygon, o->margin > 1 ? INFINITY : o->margin, 2e-6 * size_of_pair(pair)};
+    if (!CHECK_EQ(judge_verify_contact(context, pair, &contact, &error), OVOID_OK)) printf("  %s\n", error.message);
+    ovoid_answer truth = ovoid_depth(pair, NULL, NULL, NULL);
+    ovoid_manifold shown = {.normal = truth.normal, .lower = truth.lower};
+    contact.manifold = &shown;
+    polygon.count = 0;
+    CHECK_EQ(judge_verify_contact(context, pair, &contact, &error), OVOID_OK);
+    CHECK_LE(truth.lower, m->upper);
+    judged++;
+    polygons += m->corners > 2;
+}
+
+// A judge that accepts all is none: corners and bounds that are moved are refused.
+static void check_judge(judge *context, const ovoid_pair *pair, const ovoid_manifold_options *o, ovoid_manifold m) {
+    static ovoid_manifold_polygon polygon;
+    judge_contact contact = {&m, &polygon, o->margin, 2e-6 * size_of_pair(pair)};
+    int has_facets = (m.facet_a & m.facet_b & OVOID_MANIFOLD_KIND) == OVOID_MANIFOLD_FACET;
+    if (ovoid_manifold_compute_polygon(pair, &m, o, &polygon) != OVOID_OK || polygon.count < 3 || !has_facets) return;
+    polygon.points[0].point_a.x += 1e-3;
+    CHECK(judge_verify_contact(context, pair, &contact, NULL) != OVOID_OK);
+    polygon.points[0].point_a.x -= 1e-3;
+    double inner = polygon.inner;
+    polygon.inner = polygon.outer * 1.001 + 1e-3;
+    CHECK(judge_verify_contact(context, pair, &contact, NULL) != OVOID_OK);
+    polygon.inner = inner;
+    m.lower += 1e-9;
+    CHECK(judge_verify_contact(context, pair, &contact, NULL) != OVOID_OK);
+}
+
+int main(int argc, char **argv) {
+    long wanted = argc > 1 ? strtol(argv[1], NULL, 10) : 2000;
+    judge *context = judge_create();
+    uint64_t s = 1;
+    for (int i = 0; i < SHAPES; i++) shapes[i] = create(i % 5, &s);
+    for (uint64_t seed = 1; judged < wanted && check_failed < 20; seed++) {
+        s = check_seed = seed;
+        ovoid_pair pair = {shapes[random_next(&s) % SHAPES],
+                           shapes[random_next(&s) % SHAPES],
+                           {{0, 0, 0}, {0, 0, 0, 0}},
+                           {{0, 0, 0}, {0, 0, 0, 0}}};
+        place(&pair, &s);
+        ovoid_manifold_options o = {.margin = seed % 3 ? 0.02 : 10, .tolerance = seed & 1 ? 1e-3 : 0};
+        ovoid_manifold m = {0};
+        for (int frame = 0; frame < FRAMES; frame++) {
+            m = ovoid_manifold_find(&pair, &o, &m);
+            judge_one(context, &pair, &o, &m);
+            if (seed <= 100) check_judge(context, &pair, &o, m);
+            pair.pose_b.position.x += 1e-4 * random_normal(&s);
+            pair.pose_b.position.z += 1e-4 * random_normal(&s);
+            pair.pose_b.rotation.y += 1e-4 * random_normal(&s);
+        }
+    }
+    check_seed = 0;
+    printf("%ld contacts judged, %ld of them polygons\n", judged, polygons);
+    for (int i = 0; i < SHAPES; i++) ovoid_shape_destroy(shapes[i]);
+    judge_destroy(context);
+    return check_end();
+}
