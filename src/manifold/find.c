@@ -122,6 +122,8 @@ static void write_apart(double lower, vec3 normal, ovoid_manifold *out) {
         .status = OVOID_SEPARATED, .limit = OVOID_LIMIT_CAP, .lower = lower, .upper = INFINITY, .normal = normal};
 }
 
+static int is_unit(vec3 n) { return fabs(vec3_norm(n) - 1) <= 1e-13; }
+
 // given: the world normal that was kept or searched for; where no feature makes another, it is the contact's, so that
 // what is computed from it later has the same bits.
 static void write_points(const task *t, const manifold_state *s, const manifold_axis *axis, vec3 given,
@@ -152,7 +154,8 @@ static int find_warm(const task *t, manifold_state *s, ovoid_manifold *out) {
     const pair_frame *f = &t->frame;
     if (!e || e->axis == OVOID_MANIFOLD_NONE) return 0;
     manifold_axis axis = {e->axis, e->feature_a, e->feature_b};
-    vec3 n = vec3_unit(frame_direction_from_world(f, e->normal));
+    vec3 given = is_unit(e->normal) ? e->normal : vec3_unit(e->normal);
+    vec3 n = vec3_unit(frame_direction_from_world(f, given));
     if (!axis_compute_normal(f, &axis, &n) || !(fabs(vec3_norm_squared(n) - 1) < 1e-9)) return 0;
     build(t, &axis, n, s);
     bracket b = measure(t, s, &axis, &e->memory);
@@ -161,7 +164,7 @@ static int find_warm(const task *t, manifold_state *s, ovoid_manifold *out) {
         return 1;
     }
     if (!is_narrow(t, &b)) return 0;
-    write_points(t, s, &axis, e->normal, out);
+    write_points(t, s, &axis, given, out);
     write_bracket(t, &b, OVOID_LIMIT_NONE, out);
     out->memory = e->memory;
     return 1;
