@@ -1,6 +1,7 @@
 // bench: nanoseconds per query of ovoid and its peers, side by side, with every answer judged. bench --help explains
 // the options.
 #include "common/build.h"
+#include "contacts/contacts.h"
 #include "many/many.h"
 #include "pairs/cells.h"
 #include "pairs/field.h"
@@ -35,6 +36,7 @@ static const char help[] =
     "  --many           instead: frames of many moving bodies; a robot among parts, for a planner and a monitor\n"
     "  --bodies N,...   with --many: numbers of bodies (1000,10000,100000)\n"
     "  --robot          instead: robots of the data folder among obstacles: states, edges, monitor, matrix\n"
+    "  --contacts       instead: contact points, cold and from the frame before (bench/peers/contact_peer.h)\n"
     "  --scenes N       with --robot: most scenes of a robot (700)\n"
     "  --pairs N        with --scale: most pairs of a batch (1000000)\n"
     "  --help           this\n"
@@ -47,7 +49,7 @@ typedef struct settings {
     effort much;
     field all;
     const char *csv, *svg;
-    int alone, stages, scale, many, robot;
+    int alone, stages, scale, many, robot, contacts;
     const char *modules[ROBOT_PEERS_MOST];
     uint32_t module_count;
     robots_plan robots;
@@ -188,6 +190,8 @@ static int read_switch(settings *how, const char *name) {
         how->many = 1;
     else if (!strcmp(name, "--robot"))
         how->robot = 1;
+    else if (!strcmp(name, "--contacts"))
+        how->contacts = 1;
     else if (!strcmp(name, "--smoke")) {
         how->what.smoke = 1;
         how->what.count = 10;
@@ -227,6 +231,11 @@ int main(int argc, char **argv) {
     if (how.scale) return !scale_run(how.csv, how.svg, how.pairs, how.what.smoke);
     if (how.many) return !many_run(&how.crowd, how.csv, how.svg, how.alone);
     if (how.robot) return !robots_run_all(&how.robots, how.modules, how.module_count, how.csv, how.svg, how.alone);
+    if (how.contacts) {
+        const contacts_plan asked = {how.what.only,           how.modules, how.module_count, how.what.smoke ? 10 : 120,
+                                     how.what.smoke ? 1 : 40, how.alone};
+        return !contacts_run(&asked);
+    }
     for (uint32_t i = 0; i < how.module_count; i++)
         if (!field_load(&how.all, how.modules[i])) return 2;
     if (!how.alone) field_load_built(&how.all);

@@ -97,7 +97,7 @@ static uint32_t find_edge(const side *s, double within) {
     return found;
 }
 
-static side make_side(const ovoid_shape *shape, vec3 n, uint32_t low, double within) {
+static side make_side(const ovoid_shape *shape, vec3 n, uint32_t low) {
     side s = {shape, n, low, UINT32_MAX, -2, UINT32_MAX};
     facing best = find_facing(shape, (edge_ends){low, low}, &(facet_choice){.n = n});
     if (best.facet == UINT32_MAX && shape->rank == 2) {
@@ -105,7 +105,6 @@ static side make_side(const ovoid_shape *shape, vec3 n, uint32_t low, double wit
         best.cosine = fabs(vec3_dot(shape_get_facet_normal(shape, 0), n));
     }
     if (best.facet != UINT32_MAX) s.facet = OVOID_MANIFOLD_FACET | best.facet, s.cosine = best.cosine;
-    s.edge = find_edge(&s, within);
     return s;
 }
 
@@ -123,11 +122,13 @@ manifold_axis axis_choose(const pair_frame *f, double tolerance, vec3 *n) {
     vec3 in_b = vec3_neg(mat3_mul_transposed_vec3(f->rotation, *n));
     frame_support s = frame_find_support(f, *n);
     double least = s.gap - tolerance, within = 1e-8 * f->size;
-    side a = make_side(f->a, *n, s.a, within), b = make_side(f->b, in_b, s.b, within);
+    side a = make_side(f->a, *n, s.a), b = make_side(f->b, in_b, s.b);
     manifold_axis axis = {OVOID_MANIFOLD_FACE_A, a.facet, b.low};
     if (a.cosine >= NEARLY_FLAT && take(f, &axis, least, n)) return axis;
     axis = (manifold_axis){OVOID_MANIFOLD_FACE_B, a.low, b.facet};
     if (b.cosine >= NEARLY_FLAT && take(f, &axis, least, n)) return axis;
+    a.edge = find_edge(&a, within);
+    b.edge = find_edge(&b, within);
     axis = (manifold_axis){OVOID_MANIFOLD_EDGES, a.edge, b.edge};
     if (a.edge != UINT32_MAX && b.edge != UINT32_MAX && take(f, &axis, least, n)) return axis;
     axis = (manifold_axis){OVOID_MANIFOLD_FREE, a.edge, b.low};
