@@ -128,6 +128,8 @@ static void fill_frames(placed *pairs, uint32_t count, const bodies *all, const 
 // ---- the table ----
 
 static void time_entrant(contestant *e, const contact_work *w) {
+    // Once without the clock, so that each finds its data in the cache.
+    (void)e->who->run(e->self, 0, 0);
     double begin = get_own_seconds();
     uint32_t points = e->who->run(e->self, 0, 0);
     double cold = (get_own_seconds() - begin) / w->pair_count;

@@ -113,7 +113,8 @@ static void write_bracket(const task *t, const bracket *b, ovoid_limit limit, ov
     out->upper = max2(b->upper, b->lower);
     out->proof = (uint8_t)b->proof;
     out->status = bracket_find_status(out->lower, out->upper, t->terms.tolerance);
-    out->limit = is_narrow(t, b) ? OVOID_LIMIT_NONE : limit != OVOID_LIMIT_NONE ? limit : OVOID_LIMIT_PRECISION;
+    int is_reason = limit != OVOID_LIMIT_NONE && limit != OVOID_LIMIT_CAP;
+    out->limit = is_narrow(t, b) ? OVOID_LIMIT_NONE : is_reason ? limit : OVOID_LIMIT_PRECISION;
 }
 
 // No points: proven farther apart than the margin, along n.
@@ -186,9 +187,14 @@ static void find_cold(const task *t, manifold_state *s, ovoid_manifold *out) {
     const pair_frame *f = &t->frame;
     ovoid_answer answer = search_pair(t);
     vec3 n = vec3_unit(frame_direction_from_world(f, answer.normal));
+    // A search in pairs of doubles may show more than its normal in doubles.
     if (answer.lower > t->terms.margin) {
-        write_apart(answer.lower, answer.normal, out);
-        return;
+        manifold_frame_make(f, n, &s->frame);
+        double lower = min2(answer.lower, manifold_compute_lower(&s->frame));
+        if (lower > t->terms.margin) {
+            write_apart(lower, answer.normal, out);
+            return;
+        }
     }
     vec3 given = answer.normal;
     if (!(vec3_norm_squared(n) > 0.5)) {
