@@ -150,7 +150,8 @@ static void write_points(const task *t, const manifold_state *s, const manifold_
 // ---- the earlier contact's features ----
 
 // 1 if the earlier contact's features, measured again, are the contact.
-static int find_warm(const task *t, manifold_state *s, ovoid_manifold *out) {
+COMPILER_NOINLINE static int find_warm(const task *t, ovoid_manifold *out) {
+    manifold_state state, *s = &state;
     const ovoid_manifold *e = t->earlier;
     const pair_frame *f = &t->frame;
     if (!e || e->axis == OVOID_MANIFOLD_NONE) return 0;
@@ -173,7 +174,8 @@ static int find_warm(const task *t, manifold_state *s, ovoid_manifold *out) {
 
 // ---- a search ----
 
-static ovoid_answer search_pair(const task *t) {
+// A state is as large as a search: neither is on the stack while the other is.
+COMPILER_NOINLINE static ovoid_answer search_pair(const task *t) {
     const ovoid_options options = {.relative_tolerance =
                                        0.5 * min2(1e-9, max2(t->terms.tolerance / t->frame.size, 1e-15))};
     query_goal goal = query_goal_make_depth(NULL);
@@ -183,34 +185,39 @@ static ovoid_answer search_pair(const task *t) {
     return answer;
 }
 
-static void find_cold(const task *t, manifold_state *s, ovoid_manifold *out) {
+COMPILER_NOINLINE static void take_answer(const task *t, const ovoid_answer *answer, ovoid_manifold *out) {
     const pair_frame *f = &t->frame;
-    ovoid_answer answer = search_pair(t);
-    vec3 n = vec3_unit(frame_direction_from_world(f, answer.normal));
+    manifold_state state, *s = &state;
+    vec3 n = vec3_unit(frame_direction_from_world(f, answer->normal));
     // A search in pairs of doubles may show more than its normal in doubles.
-    if (answer.lower > t->terms.margin) {
+    if (answer->lower > t->terms.margin) {
         manifold_frame_make(f, n, &s->frame);
-        double lower = min2(answer.lower, manifold_compute_lower(&s->frame));
+        double lower = min2(answer->lower, manifold_compute_lower(&s->frame));
         if (lower > t->terms.margin) {
-            write_apart(lower, answer.normal, out);
+            write_apart(lower, answer->normal, out);
             return;
         }
     }
-    vec3 given = answer.normal;
+    vec3 given = answer->normal;
     if (!(vec3_norm_squared(n) > 0.5)) {
         given = (vec3){0, 0, 1};
         n = vec3_unit(frame_direction_from_world(f, given));
     }
     ovoid_manifold_memory memory = {0};
-    if (answer.proof.kind == OVOID_PROOF_COVER) memory_set_search(&memory, &t->pair, f, answer.upper);
+    if (answer->proof.kind == OVOID_PROOF_COVER) memory_set_search(&memory, &t->pair, f, answer->upper);
     manifold_axis axis = axis_choose(f, 0.25 * min2(1e-9 * f->size, t->terms.tolerance), &n);
     build(t, &axis, n, s);
     bracket b = measure(t, s, &axis, &memory);
-    if (!is_narrow(t, &b) && answer.proof.kind == OVOID_PROOF_COVER)
-        take_upper(&b, answer.upper, OVOID_MANIFOLD_PROOF_SEARCH);
+    if (!is_narrow(t, &b) && answer->proof.kind == OVOID_PROOF_COVER)
+        take_upper(&b, answer->upper, OVOID_MANIFOLD_PROOF_SEARCH);
     write_points(t, s, &axis, given, out);
-    write_bracket(t, &b, answer.limit, out);
+    write_bracket(t, &b, answer->limit, out);
     out->memory = memory;
+}
+
+static void find_cold(const task *t, ovoid_manifold *out) {
+    ovoid_answer answer = search_pair(t);
+    take_answer(t, &answer, out);
 }
 
 static ovoid_manifold make_refused(ovoid_limit limit) {
@@ -233,7 +240,6 @@ void manifold_find_internal(const ovoid_pair *pair, const ovoid_manifold_options
                             const ovoid_manifold *earlier, ovoid_manifold *out) {
     OVOID_ASSERT(pair);
     task t;
-    manifold_state s;
     ovoid_manifold before;
     if (options && options->points) options->points->count = 0;
     ovoid_limit refused = open_task(pair, options, earlier, &t);
@@ -244,7 +250,7 @@ void manifold_find_internal(const ovoid_pair *pair, const ovoid_manifold_options
     t.earlier = earlier;
     if (t.is_exchanged && earlier) before = ovoid_manifold_make_swapped(earlier), t.earlier = &before;
     memset(out, 0, sizeof *out);
-    if (!find_warm(&t, &s, out)) find_cold(&t, &s, out);
+    if (!find_warm(&t, out)) find_cold(&t, out);
     out->memory.flags &= ~(uint32_t)MANIFOLD_EXCHANGED;
     if (t.is_exchanged) *out = ovoid_manifold_make_swapped(out);
 }

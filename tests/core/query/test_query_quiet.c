@@ -65,6 +65,14 @@ int main(void) {
         sum += x.lower + ovoid_collide(&p, NULL, &x.proof).upper + ovoid_within(&p, 0.1, NULL, NULL).upper;
         sum += ovoid_distance(&p, NULL, NULL).upper + ovoid_pair_compute_bounds(&p).upper;
         sum += ovoid_answer_verify(&p, &x, &(ovoid_answer_basis){.cover = &cover}, NULL);
+        static ovoid_manifold_polygon polygon;
+        ovoid_manifold_points points;
+        ovoid_manifold_options with = {.margin = 0.1, .cover = &cover, .points = &points};
+        ovoid_manifold contact = ovoid_manifold_find(&p, &with, NULL);
+        contact = ovoid_manifold_find(&p, &with, &contact);
+        sum += contact.lower + ovoid_manifold_compute_points(&p, &contact).grown;
+        sum += ovoid_manifold_verify(&p, &contact, &with, NULL);
+        sum += ovoid_manifold_compute_polygon(&p, &contact, &with, &polygon);
         ovoid_moving_shape moving[2] = {{.shape = a, .motion = ovoid_motion_make_poses(p.pose_a, p.pose_b, 1)},
                                         {.shape = b, .motion = ovoid_motion_make_poses(p.pose_b, p.pose_a, 1)}};
         ovoid_moving_body whole[2] = {{.compound = compound, .motion = moving[0].motion},

@@ -80,6 +80,20 @@ static void ask_depth(void) { answer = ovoid_depth(&pair, NULL, NULL, &cover); }
 static void ask_check(void) {
     CHECK(ovoid_answer_verify(&pair, &answer, &(ovoid_answer_basis){.cover = &cover}, NULL) == OVOID_OK);
 }
+static ovoid_manifold manifold;
+static ovoid_manifold_points manifold_points;
+static ovoid_manifold_polygon manifold_polygon;
+static const ovoid_manifold_options manifold_options = {.margin = 0.1, .cover = &cover};
+static void ask_manifold(void) { manifold = ovoid_manifold_find(&pair, &manifold_options, NULL); }
+/// Of the contact of the query before them.
+static void ask_manifold_again(void) { manifold = ovoid_manifold_find(&pair, &manifold_options, &manifold); }
+static void ask_manifold_points(void) { manifold_points = ovoid_manifold_compute_points(&pair, &manifold); }
+static void ask_manifold_polygon(void) {
+    (void)ovoid_manifold_compute_polygon(&pair, &manifold, &manifold_options, &manifold_polygon);
+}
+static void ask_manifold_check(void) {
+    CHECK(ovoid_manifold_verify(&pair, &manifold, &manifold_options, NULL) == OVOID_OK);
+}
 static void ask_gradient(void) { gradient = ovoid_answer_compute_gradient(&pair, &answer, &cover); }
 static void ask_round_gradient(void) { gradient = ovoid_answer_compute_gradient(&round_pair, &round_answer, NULL); }
 static void ask_smooth(void) { smooth = ovoid_pair_compute_smooth(&pair, 2); }
@@ -222,6 +236,11 @@ static const struct {
                {"bounds", ask_bounds, 12 << 10},
                {"depth", ask_depth, STATED},
                {"check", ask_check, 56 << 10},
+               {"manifold", ask_manifold, STATED},
+               {"manifold again", ask_manifold_again, STATED},
+               {"manifold points", ask_manifold_points, 40 << 10},
+               {"manifold polygon", ask_manifold_polygon, 64 << 10},
+               {"manifold check", ask_manifold_check, 64 << 10},
                {"gradient", ask_gradient, 32 << 10},
                {"gradient of a cylinder", ask_round_gradient, STATED},
                {"smooth", ask_smooth, STATED},
