@@ -17,7 +17,7 @@ cd "$(dirname "$0")/.." || exit 1
 jobs=${JOBS:-2}
 copy=build/mutate
 tree=$copy/tree
-groups="allowance query prepared growth boxes exact hull shape ellipsoid simd environment tools world compound solid solid_body solid_files decompose motion smooth paper table lanes io robot robot_read robot_solid robot_spheres robot_cover robot_compare ompl robot_cli robot_spheres_cli shard verify page report python python_solid decompose_watch robot_watch hostile hostile_cli"
+groups="allowance query prepared growth boxes exact hull shape ellipsoid simd environment tools world compound solid solid_body solid_files decompose motion smooth paper manifold table lanes io robot robot_read robot_solid robot_spheres robot_cover robot_compare ompl robot_cli robot_spheres_cli shard verify page report python python_solid decompose_watch robot_watch hostile hostile_cli"
 
 # The tests of a group, fastest first; arguments after a colon.
 tests_of() {
@@ -48,6 +48,7 @@ tests_of() {
     motion) echo "test_motion_gap test_motion_pose test_judge_motion test_motion test_impact test_impact_rod test_impact_altered test_judge_impact test_impact_trials test_compound_impact" ;;
     smooth) echo "test_smooth test_smooth_bounds test_gradient test_gradient_round test_gradient_bounds" ;;
     paper) echo "test_paper test_area" ;;
+    manifold) echo "test_manifold test_manifold_altered test_manifold_hard test_judge_manifold" ;;
     table) echo "test_lookup test_shape test_simd test_query" ;;
     lanes) echo "test_simd_octet test_simd_gjk8 test_query_batch" ;;
     robot) echo "test_robot_model test_robot_poses test_robot_balls test_robot_hits test_robot_collide test_robot_matrix test_robot_path test_robot_path_altered test_robot_path_bounds test_robot_judge test_robot_clearance test_robot_motion" ;;

@@ -36,7 +36,9 @@ typedef enum ovoid_manifold_proof {
  * is an index into ovoid_polytope.neighbors, that of the end with the higher index in the list of the lower.
  */
 #define OVOID_MANIFOLD_VERTEX UINT32_C(0)
+/** An edge. */
 #define OVOID_MANIFOLD_EDGE UINT32_C(0x40000000)
+/** A facet. */
 #define OVOID_MANIFOLD_FACET UINT32_C(0x80000000)
 /** In both features of a free axis: no feature makes it, it is the direction that a search found. */
 #define OVOID_MANIFOLD_DIRECTION UINT32_C(0xc0000000)
@@ -49,7 +51,9 @@ typedef enum ovoid_manifold_proof {
  * different corners have different ids, if no edge has an index above 32767.
  */
 #define OVOID_MANIFOLD_ID_VERTEX_A UINT32_C(0)
+/** A vertex of B. */
 #define OVOID_MANIFOLD_ID_VERTEX_B UINT32_C(0x40000000)
+/** Two edges cross. */
 #define OVOID_MANIFOLD_ID_CROSSING UINT32_C(0x80000000)
 /** The nearest points of feature_a and feature_b: the facets met have no corner in common. */
 #define OVOID_MANIFOLD_ID_NEAREST UINT32_C(0xc0000000)
