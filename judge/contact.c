@@ -202,7 +202,15 @@ static ovoid_code verify_points(context *c, const judge_contact *k, ovoid_error 
     return OVOID_OK;
 }
 
-// Corners within the margin that are exact must be there, and what is there must be in the exact overlap, to the snap.
+static double find_distance_from(const context *c, const outline *o, const across *a, flat p) {
+    flat x[EDGES];
+    for (uint32_t i = 0; i < o->count; i++) x[i] = see(a, place_of(c, o->from[i]));
+    sort_corners(x, o->count);
+    return find_distance(x, o->count, p);
+}
+
+// Corners within the margin that are exact must be there, and what is there must be in each of both facets, to the
+// snap: where edges are nearly parallel, the overlap itself may begin much farther away than the snap.
 static ovoid_code compare_polygons(context *c, const judge_contact *k, flat *exact, const across *a,
                                    ovoid_error *error) {
     const ovoid_manifold_polygon *g = k->polygon;
@@ -210,10 +218,11 @@ static ovoid_code compare_polygons(context *c, const judge_contact *k, flat *exa
     int is_cut = 0;
     for (uint32_t i = 0; i < g->count; i++)
         given[i] = see(a, (place){g->points[i].point_a.x, g->points[i].point_a.y, g->points[i].point_a.z});
-    for (uint32_t i = 0; i < g->count; i++)
-        if (find_distance(exact, c->exact.count, given[i]) > k->snap + g->grown)
-            return judge_reject(error, OVOID_ERROR_PROOF, "corner %u is outside of the exact polygon by %.3g", i,
-                                find_distance(exact, c->exact.count, given[i]));
+    for (uint32_t i = 0; i < g->count; i++) {
+        double off = fmax(find_distance_from(c, &c->a, a, given[i]), find_distance_from(c, &c->b, a, given[i]));
+        if (!(off <= k->snap + g->grown))
+            return judge_reject(error, OVOID_ERROR_PROOF, "corner %u is outside of a facet by %.3g", i, off);
+    }
     // Where corners are left out, as farther apart than the margin, the polygon is smaller than the overlap.
     for (uint32_t i = 0; i < c->exact.count; i++) {
         double nearest = INFINITY;

@@ -45,7 +45,8 @@ static facing find_facing(const ovoid_shape *s, edge_ends hold, const facet_choi
 
 // Of a flat body a vertex may be no corner of its polygon.
 static facing find_side(const ovoid_shape *s, vec3 n) {
-    return (facing){vec3_dot(shape_get_facet_normal(s, 0), n) < 0, 1};
+    double cosine = vec3_dot(shape_get_facet_normal(s, 0), n);
+    return (facing){cosine < 0, fabs(cosine)};
 }
 
 // The sine of the angle between an edge and the plane across n.
@@ -100,10 +101,7 @@ static uint32_t find_edge(const side *s, double within) {
 static side make_side(const ovoid_shape *shape, vec3 n, uint32_t low) {
     side s = {shape, n, low, UINT32_MAX, -2, UINT32_MAX};
     facing best = find_facing(shape, (edge_ends){low, low}, &(facet_choice){.n = n});
-    if (best.facet == UINT32_MAX && shape->rank == 2) {
-        best = find_side(shape, n);
-        best.cosine = fabs(vec3_dot(shape_get_facet_normal(shape, 0), n));
-    }
+    if (best.facet == UINT32_MAX && shape->rank == 2) best = find_side(shape, n);
     if (best.facet != UINT32_MAX) s.facet = OVOID_MANIFOLD_FACET | best.facet, s.cosine = best.cosine;
     return s;
 }
