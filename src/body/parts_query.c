@@ -52,7 +52,7 @@ static void visit_leaves(body_search *state, const waiting_pair *w) {
     const part_pair pair = {&parts->parts[0][a], &parts->parts[1][b]};
     nodes_bound bound = parts_compute_lower(&state->frame, &parts->direction, &pair, min2(state->far, state->enough));
     if (!search_is_left_out(state, bound.lower)) {
-        search_query_leaves(state, a, b, NULL);
+        state->kind->query_leaves(state, a, b);
         return;
     }
     const waiting_pair closer = waiting_make(waiting_get_a(w), waiting_get_b(w), bound.lower, bound.means);
@@ -98,13 +98,13 @@ COMPILER_INLINED void open_nodes(body_search *state, const waiting_pair *w, wait
 }
 
 static void traverse(body_search *state);
-static const search_kind kind = {bound_roots, exclude_nodes, visit_leaves, open_nodes, traverse, take};
+const search_kind parts_kind = {bound_roots, exclude_nodes, visit_leaves, open_nodes, traverse, take, search_query_new};
 
 static void traverse(body_search *state) {
     // Each step down either tree leaves one pair on the stack.
     waiting_pair stack[2 * COMPOUND_DEPTH_MAX];
     waiting q = {.stack = stack};
-    if (!search_is_decided(state)) search_traverse(state, &kind, &q);
+    if (!search_is_decided(state)) search_traverse(state, &parts_kind, &q);
 }
 
 // ---- the query
@@ -123,20 +123,36 @@ static void set_nodes(parts_state *parts, int side, const body_tree *tree) {
     parts->parts[side] = &parts->own_part;
 }
 
-// From an earlier proof or NULL. Nodes visited and pairs tested are counted on.
-static void search_from(body_search *state, const query_goal *goal, const ovoid_body_proof *earlier) {
+static void begin_again(body_search *state, const query_goal *goal) {
     search_begin(state, goal);
     state->parts->direction = (parts_direction){.offset = 0};
     state->parts->turned.node = NULL;
-    search_run(state, earlier);
 }
 
-static void find(body_search *state, const query_goal *goal, const ovoid_body_proof *earlier) {
+// The nodes are set.
+static void begin(body_search *state, const query_goal *goal) {
     tree_frame_make(&state->a, &state->b, &state->frame);
     options_take_size(&state->options, state->frame.size);
     state->tolerance = state->slack = state->options.absolute_tolerance;
     state->least_far = 0;
-    search_from(state, goal, earlier);
+    begin_again(state, goal);
+}
+
+void parts_begin(body_search *state, const query_goal *goal) {
+    set_nodes(state->parts, 0, &state->a);
+    set_nodes(state->parts, 1, &state->b);
+    begin(state, goal);
+}
+
+// From an earlier proof or NULL. Nodes visited and pairs tested are counted on.
+static void search_from(body_search *state, const query_goal *goal, const ovoid_body_proof *earlier) {
+    begin_again(state, goal);
+    search_run(state, earlier);
+}
+
+static void find(body_search *state, const query_goal *goal, const ovoid_body_proof *earlier) {
+    begin(state, goal);
+    search_run(state, earlier);
     const ovoid_answer *x = &state->out->deciding;
     if (!earlier || !answer_is_improvable(x)) return;
     // No earlier proof makes an answer worse: the query alone, unless only the proof decides it.
@@ -176,7 +192,7 @@ void parts_find_internal(const ovoid_body_pair *pair, const body_request *reques
     static const vec3 none = {0, 0, 0};
     parts_state parts;
     body_search state;
-    state.kind = &kind;
+    state.kind = &parts_kind;
     state.has_solid = 0;
     state.parts = &parts;
     state.solids = NULL;

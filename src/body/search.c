@@ -65,7 +65,7 @@ int search_take(body_search *state, const leaf_pair *pair) {
 
 // ---- queries of leaves
 
-// The leaves at two places, in the world; one posed by the last call is reused.
+// A leaf posed by the last call is reused.
 static inline const ovoid_pair *pose_pair(body_search *state, uint32_t a, uint32_t b) {
     ovoid_pair *pair = &state->pair;
     triangle_shape *rooms = state->solids ? state->solids->rooms : NULL;
@@ -83,6 +83,8 @@ static inline const ovoid_pair *pose_pair(body_search *state, uint32_t a, uint32
     }
     return pair;
 }
+
+const ovoid_pair *search_pose_leaves(body_search *state, uint32_t a, uint32_t b) { return pose_pair(state, a, b); }
 
 static void take_trouble(body_search *state, ovoid_limit limit) {
     if (limit_is_stuck(limit) && state->trouble == OVOID_LIMIT_NONE) state->trouble = limit;
@@ -117,6 +119,8 @@ void search_query_leaves(body_search *state, uint32_t a, uint32_t b, const ovoid
     state->is_answered = 1;
     if (cover && x->proof.kind != OVOID_PROOF_COVER) cover->point_count = cover->triangle_count = 0;
 }
+
+void search_query_new(body_search *state, uint32_t a, uint32_t b) { search_query_leaves(state, a, b, NULL); }
 
 // Starts with the pair of leaves that decided the earlier query. Its indices may be out of range.
 static void visit_earlier(body_search *state, const ovoid_body_proof *earlier) {

@@ -58,6 +58,8 @@ typedef struct search_kind {
     void (*traverse)(struct body_search *state);
     /// A pair of leaves of which the bracket is known: search_take, and what the kind notes of it. 1: the best pair.
     int (*take)(struct body_search *state, const leaf_pair *pair);
+    /// Two leaves, by their places, that no bound leaves out: search_query_new, or what else is asked of each pair.
+    void (*query_leaves)(struct body_search *state, uint32_t a, uint32_t b);
 } search_kind;
 
 /// Of two bodies without a solid.
@@ -133,11 +135,15 @@ void search_exclude_leaves(body_search *state, const leaf_pair *pair);
 int search_take(body_search *state, const leaf_pair *pair);
 /// Queries two leaves in full, and takes them; earlier may be NULL.
 void search_query_leaves(body_search *state, uint32_t a, uint32_t b, const ovoid_proof *earlier);
+void search_query_new(body_search *state, uint32_t a, uint32_t b);
+/// The leaves at two places, in the world, until the next call.
+const ovoid_pair *search_pose_leaves(body_search *state, uint32_t a, uint32_t b);
 /// The limit of a bracket with that status.
 ovoid_limit search_find_limit(const body_search *state, double lower, double upper, ovoid_status status);
 
-/// The searches of both kinds, begun: their options are made, their trees and frame set.
-void search_begin_parts(body_search *state, const query_goal *goal);
-void search_begin_solids(body_search *state, const query_goal *goal);
+/// The kinds of search, of bodies without a solid and with one.
+extern const search_kind parts_kind, solids_kind;
 
+/// Begins a search of two bodies without a solid, not both shapes, whose trees and options are made.
+void parts_begin(body_search *state, const query_goal *goal);
 #endif

@@ -127,7 +127,7 @@ void solids_visit_leaves(body_search *state, const waiting_pair *w) {
     uint32_t a = body_tree_get_leaf_place(&state->a, waiting_get_a(w)),
              b = body_tree_get_leaf_place(&state->b, waiting_get_b(w));
     if (a == state->warm_a && b == state->warm_b) return;
-    if (!is_filtered(state, a, b)) search_query_leaves(state, a, b, NULL);
+    if (!is_filtered(state, a, b)) state->kind->query_leaves(state, a, b);
 }
 
 int solids_take(body_search *state, const leaf_pair *pair) {
@@ -189,6 +189,6 @@ void solids_visit_triangles(body_search *state, const triangle_group *group) {
         } else if (is_known)
             solids_take(state, &c);
         else
-            search_query_leaves(state, a, b, NULL);
+            state->kind->query_leaves(state, a, b);
     }
 }

@@ -149,7 +149,7 @@ static uint32_t find_most_stacked(const body_tree *tree) {
 
 static void traverse(body_search *state);
 const search_kind solids_kind = {solids_bound_roots, solids_exclude_boxes, solids_visit_leaves, open_nodes,
-                                 traverse,           solids_take};
+                                 traverse,           solids_take,          search_query_new};
 
 // The stack is at the beginning of the memory, the heap behind the most that the stack can take.
 static void traverse(body_search *state) {

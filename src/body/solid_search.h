@@ -4,8 +4,6 @@
 
 #include "body/traverse.h"
 
-extern const search_kind solids_kind;
-
 /// The normal that is tried on boxes, in a's frame.
 static inline vec3 solids_get_normal(const body_search *state) {
     return state->solids->normals[state->solids->normal_count - 1];
