@@ -8,6 +8,7 @@
 #include "ovoid/base.h"
 #include "ovoid/body.h"
 #include "ovoid/body_impact.h"
+#include "ovoid/body_manifolds.h"
 #include "ovoid/compound.h"
 #include "ovoid/decompose.h"
 #include "ovoid/ellipsoid.h"

@@ -17,6 +17,7 @@
 #define OVOID_OVOID_HPP
 
 #include "ovoid/cpp/body.hpp"
+#include "ovoid/cpp/body_manifolds.hpp"
 #include "ovoid/cpp/compound.hpp"
 #include "ovoid/cpp/decompose.hpp"
 #include "ovoid/cpp/error.hpp"

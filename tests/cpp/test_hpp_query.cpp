@@ -119,6 +119,46 @@ void check_batches() {
     CHECK(throws(OVOID_ERROR_ARGUMENT, -1, "couples", [&] { batch.with_verdicts(verdicts); }));
 }
 
+// The manifolds of bodies that come nearer step by step, those of the step before as the earlier ones.
+void check_body_manifolds(ovoid::body_pair p) {
+    ovoid::body_manifolds all;
+    CHECK(all.empty() && all.begin() == all.end());
+    std::vector<ovoid_body_manifold> last;
+    std::size_t parts = 0;
+    ovoid_manifold_options o = {};
+    o.margin = 1;
+    for (int step = 0; step < 20; step++) {
+        std::vector<ovoid_body_manifold> room(8);
+        ovoid_body_manifolds truth = {};
+        truth.items = room.data();
+        truth.capacity = room.size();
+        truth.earlier = last.data();
+        truth.earlier_count = last.size();
+        CHECK_EQ(ovoid_body_manifolds_find(&p, &o, &truth), OVOID_LIMIT_NONE);
+        CHECK_EQ(all.find(p, o), OVOID_LIMIT_NONE);
+        CHECK(all.size() == truth.count && all.lower() == truth.lower && all.upper() == truth.upper);
+        std::size_t i = 0;
+        for (const ovoid::body_manifold &m : all) {
+            CHECK(&m == &all[i] && is_same(m, room[i++]));
+            const ovoid_manifold_points points = ovoid::compute_points(p, m), &own = all.points_of(m);
+            CHECK(points.count == m.manifold.count && own.count == points.count);
+            CHECK(is_same_count(points.points, own.points, own.count));
+            CHECK_EQ(ovoid::is_proven(p, m, o), ovoid_body_manifold_verify(&p, &m, &o, nullptr) == OVOID_OK);
+        }
+        CHECK_EQ(i, truth.count);
+        parts += i;
+        last.assign(room.begin(), room.begin() + static_cast<std::ptrdiff_t>(truth.count));
+        p.b.pose.position.x -= 0.2;
+    }
+    CHECK(parts > 5);
+    ovoid_body_manifold none = {};
+    none.part_a = 7;
+    CHECK(!ovoid::is_proven(p, none) && ovoid::compute_points(p, none).count == 0);
+    CHECK(throws(OVOID_ERROR_PROOF, 0, "part 7", [&] { ovoid::verify(p, none); }));
+    p.a.pose.position.x = NAN;
+    CHECK(all.find(p, o) == OVOID_LIMIT_POSE_A && all.empty());
+}
+
 void check_compounds() {
     const bodies b;
     const ovoid_posed_shape parts[2] = {{b.box.get(), pose()}, {b.pill.get(), b.far}};
@@ -148,6 +188,7 @@ void check_compounds() {
     wrong.lower += 1;
     CHECK(!ovoid::is_proven(p, wrong, ovoid::options(), &e));
     CHECK(throws(OVOID_ERROR_PROOF, -1, "", [&] { ovoid::verify(p, wrong, ovoid::options(), &e); }));
+    check_body_manifolds(p);
     CHECK(throws(OVOID_ERROR_EMPTY, -1, "", [] { ovoid::compound::create(std::vector<ovoid::posed_shape>()); }));
     CHECK(throws(OVOID_ERROR_ROTATION, 1, "", [&] {
         ovoid::compound::create({{b.box}, {b.box, {vec3(), ovoid::quat(0, 0, 0, 0)}}});

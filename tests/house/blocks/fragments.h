@@ -19,6 +19,9 @@ extern const ovoid_posed_shape *parts;
 #ifdef PAGE_pairs
 extern ovoid_answer answer;
 #endif
+#ifdef PAGE_compound
+extern ovoid_body_pair bodies;
+#endif
 #ifdef PAGE_world
 extern ovoid_world_body body;
 extern ovoid_contact_query query;
