@@ -17,7 +17,7 @@ cd "$(dirname "$0")/.." || exit 1
 jobs=${JOBS:-2}
 copy=build/mutate
 tree=$copy/tree
-groups="allowance query prepared growth boxes exact hull shape ellipsoid simd environment tools world compound solid solid_body solid_files decompose motion smooth paper manifold table lanes io robot robot_read robot_solid robot_spheres robot_cover robot_compare ompl robot_cli robot_spheres_cli shard verify page report python python_solid decompose_watch robot_watch hostile hostile_cli"
+groups="allowance query prepared growth boxes exact hull shape ellipsoid simd environment tools world world_manifolds compound solid solid_body solid_files decompose motion smooth paper manifold table lanes io robot robot_read robot_solid robot_spheres robot_cover robot_compare ompl robot_cli robot_spheres_cli shard verify page report python python_solid decompose_watch robot_watch hostile hostile_cli"
 
 # The tests of a group, fastest first; arguments after a colon.
 tests_of() {
@@ -37,6 +37,7 @@ tests_of() {
     environment) echo "test_environment $query" ;;
     tools) echo "test_tools" ;;
     world) echo "test_world_tree test_world_margins test_world_rules test_world_even test_world_states test_world_find test_world test_world_far test_world_threads test_world_soak" ;;
+    world_manifolds) echo "test_world_manifolds test_body_manifolds test_world_rules test_world_threads test_world_soak" ;;
     solid_body) echo "test_solid_compound test_solid_impact test_solid_impact_altered test_world_solids test_io_scene" ;;
     solid) echo "test_solid_create test_solid_frames test_hull_match test_solid_crossings test_solid test_solid_compound test_solid_flush test_judge_solid_altered test_judge_solid" ;;
     solid_files) echo "test_cli_altered_solids.sh test_cli.sh:solid:info" ;;

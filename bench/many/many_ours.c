@@ -12,6 +12,7 @@ typedef struct self {
     ovoid_id *ids;
     uint32_t moving; ///< bodies 0 .. moving - 1 move
     ovoid_contact_query query;
+    double tolerance; ///< of manifolds
     // The planner's.
     ovoid_world *parts;
     ovoid_couple *couples;
@@ -55,6 +56,7 @@ static void *create_swarm(const swarm *what, const ovoid_pose *poses) {
     free(list);
     if (!good) return NULL;
     s->moving = what->body_count;
+    s->tolerance = 10 * what->step;
     return s;
 }
 
@@ -78,6 +80,26 @@ static void run_frame(self *s, const ovoid_pose *poses, meetings *all) {
 static void run_swarm(void *state, const ovoid_pose *poses, meetings *touching) { run_frame(state, poses, touching); }
 
 static const swarm_peer our_swarm = {"ovoid", create_swarm, run_swarm, destroy};
+
+/// The same frame with the contact points of all pairs that touch, each kept manifold used again while its bracket is
+/// not wider than ten times a body's motion in a frame.
+static void run_swarm_manifolds(void *state, const ovoid_pose *poses, meetings *touching) {
+    self *s = state;
+    const ovoid_world_manifold_query query = {.options = {.tolerance = s->tolerance}};
+    ovoid_world_manifolds frame;
+    if (ovoid_world_move_many(s->world, &(ovoid_world_moves){s->ids, poses, s->moving}, NULL) != OVOID_OK ||
+        ovoid_world_compute_manifolds(s->world, &query, &frame, NULL) != OVOID_OK) {
+        touching->failed = 1;
+        return;
+    }
+    for (size_t i = 0; i < frame.count; i++) {
+        const ovoid_world_manifold *m = &frame.items[i];
+        if (m->verdict.status == OVOID_SEPARATED) continue;
+        meetings_add(touching, get_index(m->a), get_index(m->b), m->verdict.upper);
+    }
+}
+
+static const swarm_peer our_manifolds = {"ovoid, manifolds", create_swarm, run_swarm_manifolds, destroy};
 
 // --- a robot
 
@@ -154,7 +176,7 @@ static void measure(void *state, const ovoid_pose *links, meetings *near) { run_
 
 static const cell_peer our_cell = {"ovoid", create_cell, is_hit, measure, destroy};
 
-static const swarm_peer *const swarms[] = {&our_swarm, NULL};
+static const swarm_peer *const swarms[] = {&our_swarm, &our_manifolds, NULL};
 static const cell_peer *const cells[] = {&our_cell, NULL};
 
 many_peers many_get_ours(void) { return (many_peers){swarms, cells}; }

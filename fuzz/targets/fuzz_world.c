@@ -1,7 +1,8 @@
 // A world of up to twelve bodies under any sequence of its functions. Truth: a model of the bodies and their groups,
 // and the query of each pair alone: a frame's contacts are sorted, are pairs, leave none out that is proven within the
-// margin, and each bracket has a point in common with the pair's own; whole answers are verified. Queries between
-// frames leave out nothing that is nearer.
+// margin, and each bracket has a point in common with the pair's own; whole answers are verified. The same of
+// manifolds, and a list of the pairs of the last ones, by which pairs begin and end. Queries between frames leave out
+// nothing that is nearer.
 #include "bodies.h"
 
 enum { SHAPES = 4, BODIES = 12, OPERATIONS = 48 };
@@ -18,7 +19,9 @@ typedef struct model {
     int count;
     ovoid_id ignored[OPERATIONS][2];
     int ignored_count;
-    ovoid_id stale; ///< of the body removed last
+    ovoid_id stale;                    ///< of the body removed last
+    ovoid_id last[BODIES * BODIES][2]; ///< the pairs of the last manifolds
+    size_t last_count;
     int is_wild;
 } model;
 
@@ -139,6 +142,85 @@ static void ask_frame(model *m, fuzz_bytes *from) {
         }
 }
 
+static int was_there(const model *m, ovoid_id a, ovoid_id b) {
+    for (size_t k = 0; k < m->last_count; k++)
+        if (m->last[k][0] == a && m->last[k][1] == b) return 1;
+    return 0;
+}
+
+static void check_manifold(const model *m, const ovoid_world_manifolds *all, const ovoid_world_manifold *x,
+                           const ovoid_manifold_options *options) {
+    int i = find_body(m, x->a), j = find_body(m, x->b);
+    fuzz_require(x->a < x->b && i >= 0 && j >= 0 && is_pair(m, i, j));
+    fuzz_require(x->event == (was_there(m, x->a, x->b) ? OVOID_MANIFOLD_STAY : OVOID_MANIFOLD_BEGIN));
+    ovoid_body_pair pair = {m->bodies[i].body, m->bodies[j].body};
+    ovoid_body_answer alone = ovoid_body_depth(&pair, NULL, NULL);
+    fuzz_require(x->verdict.lower <= alone.upper && alone.lower <= x->verdict.upper);
+    fuzz_require(!(x->verdict.lower > x->margin) && x->margin >= options->margin);
+    fuzz_require(x->first + x->count <= all->part_count);
+    ovoid_manifold_options own = *options;
+    own.margin = x->margin;
+    for (size_t k = x->first; k < x->first + x->count; k++) {
+        const ovoid_body_manifold *part = &all->parts[k];
+        ovoid_error error = {OVOID_OK, -1, ""};
+        ovoid_manifold_points points = ovoid_body_manifold_compute_points(&pair, part);
+        fuzz_require(points.count == part->manifold.count && points.count == all->points[k].count);
+        fuzz_require(!memcmp(points.points, all->points[k].points, points.count * sizeof *points.points));
+        // Of a search made in an earlier step there is no cover.
+        if (part->manifold.proof != OVOID_MANIFOLD_PROOF_SEARCH)
+            fuzz_require_code(ovoid_body_manifold_verify(&pair, part, &own, &error), &error);
+    }
+}
+
+// The pairs that are not there any more are told, once and in order.
+static void check_ended(model *m, const ovoid_world_manifolds *all) {
+    size_t at = 0;
+    for (size_t k = 0; k < m->last_count; k++) {
+        int is_there = 0;
+        for (size_t i = 0; i < all->count; i++)
+            is_there |= all->items[i].a == m->last[k][0] && all->items[i].b == m->last[k][1];
+        if (is_there) continue;
+        fuzz_require(at < all->ended_count && all->ended[at].a == m->last[k][0] && all->ended[at].b == m->last[k][1]);
+        at++;
+    }
+    fuzz_require(at == all->ended_count);
+    m->last_count = all->count;
+    for (size_t i = 0; i < all->count; i++) {
+        m->last[i][0] = all->items[i].a;
+        m->last[i][1] = all->items[i].b;
+    }
+}
+
+static void ask_manifolds(model *m, fuzz_bytes *from) {
+    ovoid_world_manifold_query query = {.ahead = (double)((unsigned)take_byte(from) % 3)};
+    query.options.margin = fabs(take_number(from, m->is_wild)) / 4;
+    query.options.tolerance = fabs(take_number(from, m->is_wild)) / 64;
+    query.options.keep = fabs(take_number(from, m->is_wild)) / 64;
+    ovoid_material material = {.margin = fabs(take_number(from, m->is_wild)) / 8, .friction = 1};
+    ovoid_world_manifolds all;
+    ovoid_error error = {OVOID_OK, -1, ""};
+    if (m->count && ovoid_world_set_material(m->world, m->bodies[0].id, &material, &error) != OVOID_OK)
+        fuzz_require(error.code == OVOID_ERROR_ARGUMENT && m->is_wild);
+    if (ovoid_world_compute_manifolds(m->world, &query, &all, &error) != OVOID_OK) {
+        fuzz_require_error(&error);
+        fuzz_require(error.code == OVOID_ERROR_ARGUMENT && m->is_wild);
+        return;
+    }
+    for (size_t k = 0; k < all.count; k++) check_manifold(m, &all, &all.items[k], &query.options);
+    for (int i = 0; i < m->count; i++)
+        for (int j = 0; j < i; j++) {
+            if (!is_pair(m, i, j)) continue;
+            ovoid_body_pair pair = {m->bodies[i].body, m->bodies[j].body};
+            ovoid_body_answer x = ovoid_body_within(&pair, query.options.margin, NULL, NULL);
+            int is_there = 0;
+            for (size_t k = 0; k < all.count; k++)
+                is_there |= (all.items[k].a == m->bodies[i].id && all.items[k].b == m->bodies[j].id) ||
+                            (all.items[k].b == m->bodies[i].id && all.items[k].a == m->bodies[j].id);
+            if (ovoid_answer_is_within(&x.deciding, query.options.margin) == 1) fuzz_require(is_there);
+        }
+    check_ended(m, &all);
+}
+
 // The answer about a pair alone.
 static ovoid_answer ask_alone(const ovoid_body *a, const ovoid_body *b) {
     ovoid_body_pair pair = {*a, *b};
@@ -243,6 +325,8 @@ static void operate(model *m, fuzz_bytes *from) {
     if (what <= 1 && m->count < BODIES) add(m, from);
     if (what == 7 && other % 2)
         ask_between(m, from);
+    else if (what == 7 && other % 4 == 2)
+        ask_manifolds(m, from);
     else if (what == 7 || m->count == 0)
         ask_frame(m, from);
     if (m->count == 0) return;
@@ -288,6 +372,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         if (m.compound) {
             ask_frame(&m, &from);
             ask_between(&m, &from);
+            ask_manifolds(&m, &from);
         }
     }
     ovoid_world_destroy(m.world);

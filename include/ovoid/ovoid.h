@@ -23,5 +23,6 @@
 #include "ovoid/smooth.h"
 #include "ovoid/solid.h"
 #include "ovoid/world.h"
+#include "ovoid/world_manifolds.h"
 
 #endif

@@ -32,8 +32,7 @@ static ovoid_code compute_proof(const ovoid_world *w, const ovoid_contact *conta
                          "no contact of this world: a must come before b, after a first query");
     const world_pair *p = find_pair(w, key_make(a, b));
     const pair_cache *warm = p && p->flags & PAIR_KNOWN ? &w->pair_cache[p->slot] : NULL;
-    ovoid_body_pair both = {w->bodies[a].body, w->bodies[b].body};
-    pair_query(w, &both, warm, proof->exclusions, &proof->answer);
+    pair_query(w, (ovoid_couple){a, b}, warm, proof->exclusions, &proof->answer);
     return OVOID_OK;
 }
 

@@ -1,5 +1,5 @@
 // The world's memory: allocations are counted, and arrays at least double when they grow.
-#include "world/state.h"
+#include "world/manifold_list.h"
 
 #include <string.h>
 
@@ -29,7 +29,7 @@ int world_reserve(ovoid_world *w, void **items, size_t *capacity, size_t used, s
 }
 
 size_t world_get_memory(const ovoid_world *w) {
-    size_t sum = w->memory;
+    size_t sum = w->memory + manifolds_get_memory(w);
     for (uint32_t i = 0; i < w->threads; i++) sum += w->gathered[i].capacity * sizeof *w->gathered[i].keys;
     return sum;
 }

@@ -60,6 +60,11 @@ box world_compute_box(ovoid_world *w, uint32_t i) {
     b->placed = w->places[i];
     find_room(w, i);
     double more = w->margin / 2;
+    if (i < w->range_capacity) {
+        body_range *range = &w->ranges[i];
+        range->boxed = range->now + range->spare;
+        more += range->boxed;
+    }
     vec3 low = {((double)b->low[0] + more) * SLACK, ((double)b->low[1] + more) * SLACK,
                 ((double)b->low[2] + more) * SLACK};
     vec3 high = {((double)b->high[0] + more) * SLACK, ((double)b->high[1] + more) * SLACK,
@@ -153,7 +158,7 @@ static int place_body(ovoid_world *w, uint32_t i, const ovoid_pose *pose) {
     *p = (body_place){at, travel + travel * 0x1p-51};
     b->center_error = center_error;
     b->body.pose = *pose;
-    w->marks[i] |= MARK_MOVED;
+    w->marks[i] |= MARK_MOVED | MARK_POSED;
     return !is_in_box(b, p);
 }
 

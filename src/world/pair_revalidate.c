@@ -51,13 +51,14 @@ static int measure_gap(const pair_frame *f, pair_cache *cache, double margin) {
 
 int pair_revalidate(const ovoid_world *w, const world_pair *p, pair_cache *cache) {
     const world_body *a = &w->bodies[p->a], *b = &w->bodies[p->b];
-    int is_apart = cache->status == OVOID_SEPARATED && cache->lower > w->margin;
+    double margin = w->margin + world_get_pair_range(w, p->a, p->b);
+    int is_apart = cache->status == OVOID_SEPARATED && cache->lower > margin;
     int is_overlap = cache->status == OVOID_OVERLAPPING && !world_is_measuring(w);
     if (!(is_apart || is_overlap) || !a->body.shape || !b->body.shape) return 0;
     ovoid_pair both = {a->body.shape, b->body.shape, a->body.pose, b->body.pose};
     pair_frame f;
     if (frame_place(&both, &f) != OVOID_LIMIT_NONE) return 0;
-    if (!(is_apart ? measure_gap(&f, cache, w->margin) : measure_overlap(&f, cache))) return 0;
+    if (!(is_apart ? measure_gap(&f, cache, margin) : measure_overlap(&f, cache))) return 0;
     // The other bound comes from the spheres.
     double d = vec3_norm(vec3_sub(w->places[p->b].at, w->places[p->a].at)),
            center_error = a->center_error + b->center_error;

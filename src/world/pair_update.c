@@ -47,11 +47,11 @@ static void cache_proof(pair_cache *cache, const ovoid_proof *p) {
 
 // ---- queries
 
-static query_goal make_goal(const ovoid_world *w) {
+static query_goal make_goal(const ovoid_world *w, uint32_t a, uint32_t b) {
     query_goal goal = query_goal_make_distance(NULL);
     switch (w->kind) {
     case OVOID_QUERY_COLLIDE: return query_goal_make_collide();
-    case OVOID_QUERY_WITHIN: return query_goal_make_within(w->margin);
+    case OVOID_QUERY_WITHIN: return query_goal_make_within(w->margin + world_get_pair_range(w, a, b));
     case OVOID_QUERY_DISTANCE: break;
     case OVOID_QUERY_DEPTH: goal.wants_depth = 1; break;
     }
@@ -59,8 +59,9 @@ static query_goal make_goal(const ovoid_world *w) {
     return goal;
 }
 
-void pair_query(const ovoid_world *w, const ovoid_body_pair *both, const pair_cache *cache,
-                ovoid_exclusions *exclusions, ovoid_body_answer *out) {
+void pair_query(const ovoid_world *w, ovoid_couple pair, const pair_cache *cache, ovoid_exclusions *exclusions,
+                ovoid_body_answer *out) {
+    const ovoid_body_pair both = {w->bodies[pair.a].body, w->bodies[pair.b].body};
     ovoid_body_proof earlier;
     if (cache && cache->proof == OVOID_PROOF_NONE) cache = NULL;
     if (cache) {
@@ -68,8 +69,8 @@ void pair_query(const ovoid_world *w, const ovoid_body_pair *both, const pair_ca
         earlier.part_b = cache->part_b;
         write_proof(cache, &earlier.proof);
     }
-    const query_goal goal = make_goal(w);
-    body_find_internal(both, &(body_request){&w->query_options, &goal, cache ? &earlier : NULL, exclusions}, out);
+    const query_goal goal = make_goal(w, pair.a, pair.b);
+    body_find_internal(&both, &(body_request){&w->query_options, &goal, cache ? &earlier : NULL, exclusions}, out);
 }
 
 // d and t of a pair at the present poses.
@@ -80,14 +81,16 @@ static vec3 find_between(const ovoid_world *w, const world_pair *p, double *trav
 }
 
 void pair_set_age(const ovoid_world *w, world_pair *p, const pair_cache *cache) {
-    double margin = w->margin;
+    double margin = w->margin, range = world_get_pair_range(w, p->a, p->b);
     double slack =
         SLACK_SET * (sum_abs(cache->between) + cache->travel + fabs(cache->lower) + fabs(cache->upper) + margin);
+    // The ranges of bodies change from step to step: a comparison adds those of its own step.
+    int is_far = cache->lower > margin + range;
     p->kind = PAIR_OPEN;
     p->flags &= (uint16_t)~PAIR_CONTACT;
-    if (!(cache->lower > margin)) p->flags |= PAIR_CONTACT;
+    if (!is_far) p->flags |= PAIR_CONTACT;
     int are_shapes = w->bodies[p->a].body.shape && w->bodies[p->b].body.shape;
-    if (cache->lower > margin && are_shapes && cache->stage == OVOID_STAGE_SPHERE) {
+    if (is_far && are_shapes && cache->stage == OVOID_STAGE_SPHERE) {
         // Three times the present centre error exceeds the part of any later one that the positions do not explain.
         const world_body *a = &w->bodies[p->a], *b = &w->bodies[p->b];
         double reach = (a->reach + b->reach) + (a->radius + b->radius);
@@ -95,7 +98,7 @@ void pair_set_age(const ovoid_world *w, world_pair *p, const pair_cache *cache) 
         p->c = (reach + margin) * (1 + 0x1p-48) + 3 * (a->center_error + b->center_error);
         return;
     }
-    if (cache->lower > margin && are_shapes && vec3_norm_squared(cache->normal) > 0.5) {
+    if (is_far && are_shapes && vec3_norm_squared(cache->normal) > 0.5) {
         p->kind = PAIR_PLANE;
         p->v = cache->normal;
         p->c = ((cache->lower - margin) - vec3_dot(cache->normal, cache->between)) + cache->travel - slack;
@@ -105,7 +108,7 @@ void pair_set_age(const ovoid_world *w, world_pair *p, const pair_cache *cache) 
     // of parts; their bounds are adjusted by the motion of the points alone (docs/world.md).
     if (world_is_measuring(w) && p->flags & PAIR_CONTACT) return;
     double lasts = -cache->upper;
-    if (cache->lower > margin)
+    if (is_far)
         lasts = cache->lower - margin;
     else if (cache->status == OVOID_SEPARATED)
         lasts = min2(cache->lower, margin - cache->upper);
@@ -121,9 +124,9 @@ static double find_center_error(const ovoid_world *w, const world_pair *p) {
 }
 
 int pair_is_answered(const ovoid_world *w, const world_pair *p) {
-    double t;
+    double t, range = world_get_pair_range(w, p->a, p->b);
     vec3 d = find_between(w, p, &t);
-    double slack = SLACK_SET * (sum_abs(d) + t + fabs(p->c));
+    double slack = SLACK_SET * (sum_abs(d) + t + fabs(p->c) + range) + range;
     if (p->kind == PAIR_PLANE) return p->c + vec3_dot(p->v, d) - t > slack;
     if (p->kind == PAIR_BALL) return p->c - vec3_norm(vec3_sub(d, p->v)) - t > slack;
     return p->kind == PAIR_SPHERE && vec3_norm(d) > p->c + slack + find_center_error(w, p);
@@ -142,7 +145,7 @@ static void query_shapes(const ovoid_world *w, const world_pair *p, const pair_c
     ovoid_proof earlier;
     int is_warm = cache->proof != OVOID_PROOF_NONE;
     if (is_warm) write_proof(cache, &earlier);
-    const query_goal goal = make_goal(w);
+    const query_goal goal = make_goal(w, p->a, p->b);
     answer_find_internal(&both, &(query_request){&w->query_options, &goal, is_warm ? &earlier : NULL, NULL}, out);
 }
 
@@ -154,7 +157,7 @@ static void cache_answer(ovoid_world *w, const world_pair *p, pair_cache *cache,
     cache->limit = (uint8_t)answer->limit;
     cache->iterations = answer->iterations;
     cache_proof(cache, &answer->proof);
-    if (world_is_measuring(w))
+    if (world_has_witnesses(w))
         w->witnesses[p->slot] = (ovoid_witness){answer->point_a, answer->point_b, answer->normal};
 }
 
@@ -166,20 +169,23 @@ static void query_pair(ovoid_world *w, const world_pair *p, pair_cache *cache) {
         return;
     }
     ovoid_body_answer x;
-    ovoid_body_pair both = {w->bodies[p->a].body, w->bodies[p->b].body};
-    pair_query(w, &both, cache, NULL, &x);
+    pair_query(w, (ovoid_couple){p->a, p->b}, cache, NULL, &x);
     cache->part_a = x.part_a;
     cache->part_b = x.part_b;
     ovoid_answer own = ovoid_body_answer_get_answer(&x);
     cache_answer(w, p, cache, &own);
 }
 
-void pair_update(ovoid_world *w, world_pair *p) {
-    pair_cache *cache = &w->pair_cache[p->slot];
-    if (!(p->flags & PAIR_KNOWN) || !pair_revalidate(w, p, cache)) query_pair(w, p, cache);
+void pair_renew(const ovoid_world *w, world_pair *p, pair_cache *cache) {
     cache->between = find_between(w, p, &cache->travel);
     p->flags |= PAIR_STILL | PAIR_KNOWN;
     pair_set_age(w, p, cache);
+}
+
+void pair_update(ovoid_world *w, world_pair *p) {
+    pair_cache *cache = &w->pair_cache[p->slot];
+    if (!(p->flags & PAIR_KNOWN) || !pair_revalidate(w, p, cache)) query_pair(w, p, cache);
+    pair_renew(w, p, cache);
 }
 
 // ---- contacts

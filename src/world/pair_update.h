@@ -5,15 +5,18 @@
 #include "ovoid/body.h"
 #include "world/state.h"
 
-/// The query of two bodies at the present poses, with the cached proof as warm start (NULL: without).
-void pair_query(const ovoid_world *w, const ovoid_body_pair *both, const pair_cache *cache,
-                ovoid_exclusions *exclusions, ovoid_body_answer *out);
+/// The query of two bodies of the world at the present poses, with the cached proof as warm start (NULL: without).
+void pair_query(const ovoid_world *w, ovoid_couple pair, const pair_cache *cache, ovoid_exclusions *exclusions,
+                ovoid_body_answer *out);
 
 /// Sets how long the cached answer holds for the world's query: kind, v, c and CONTACT.
 void pair_set_age(const ovoid_world *w, world_pair *p, const pair_cache *cache);
 
 /// Answers the pair from its revalidated proof or by a query, caches the answer and sets its age.
 void pair_update(ovoid_world *w, world_pair *p);
+
+/// Notes that the cached bounds are those at the present poses, and sets their age.
+void pair_renew(const ovoid_world *w, world_pair *p, pair_cache *cache);
 
 /// The most by which the signed distance can have changed since the cached answer, rounding included.
 double pair_compute_age(const ovoid_world *w, const world_pair *p, const pair_cache *cache);

@@ -9,7 +9,7 @@
 #ifndef OVOID_WORLD_STATE_H
 #define OVOID_WORLD_STATE_H
 
-#include "ovoid/world.h"
+#include "ovoid/world_manifolds.h"
 #include "world/body_bounds.h"
 #include "world/ignored.h"
 #include "world/thread_pool.h"
@@ -21,9 +21,9 @@ typedef struct body_place {
     double travel; ///< sum of turns, rounded up
 } body_place;
 
-/// Marks of a body since the last step: its box changed, all its pairs must be found again, it was moved. NAMED, and
-/// LEFT (its box), are used within one call.
-enum { MARK_BOX = 1, MARK_FRESH = 2, MARK_MOVED = 4, MARK_NAMED = 8, MARK_LEFT = 16 };
+/// Marks of a body since the last step: its box changed, all its pairs must be found again, its pairs must be compared
+/// again, it has another pose. NAMED, and LEFT (its box), are used within one call.
+enum { MARK_BOX = 1, MARK_FRESH = 2, MARK_MOVED = 4, MARK_NAMED = 8, MARK_LEFT = 16, MARK_POSED = 32 };
 
 typedef struct world_body {
     ovoid_body body;
@@ -96,6 +96,16 @@ typedef struct chunk {
     size_t contacts, queried;
 } chunk;
 
+/// How far beyond the margin contacts of a body are wanted.
+typedef struct body_range {
+    double now;
+    double boxed; ///< for which its box has room
+    double spare; ///< for which its next box gets room beside that, as a body that accelerates needs more in each step
+} body_range;
+
+/// The manifolds of the last step that asked for them (manifolds.h).
+typedef struct manifolds manifolds;
+
 struct ovoid_world {
     ovoid_allocator allocator;
     task_host host;
@@ -129,7 +139,7 @@ struct ovoid_world {
     chunk *chunks;
     size_t chunk_capacity;
     // The last step.
-    int has_query;
+    int has_query, wants_manifolds;
     ovoid_query_kind kind;
     double margin;               ///< of the boxes and of the query
     ovoid_options query_options; ///< as given; zeros for NULL
@@ -137,8 +147,21 @@ struct ovoid_world {
     ovoid_contact *contacts;
     ovoid_witness *contact_witnesses;
     size_t contact_count, contact_capacity, witness_capacity;
+    manifolds *manifolds; ///< NULL: none were computed yet
+    // What callers set of bodies for their manifolds, and how far these reach; none for an index beyond the capacity.
+    ovoid_material *materials;
+    body_range *ranges;
+    size_t material_capacity, range_capacity;
     size_t memory; ///< bytes allocated
 };
+
+/// By how much farther than the margin the pairs of a step get their answers.
+static inline double world_get_range(const ovoid_world *w, uint32_t i) {
+    return i < w->range_capacity ? w->ranges[i].now : 0;
+}
+static inline double world_get_pair_range(const ovoid_world *w, uint32_t a, uint32_t b) {
+    return w->wants_manifolds && w->range_capacity ? world_get_range(w, a) + world_get_range(w, b) : 0;
+}
 
 // ---- memory, counted
 
@@ -150,8 +173,10 @@ int world_reserve(ovoid_world *w, void **items, size_t *capacity, size_t used, s
 /// The number of bytes that the world holds.
 size_t world_get_memory(const ovoid_world *w);
 
-/// 1 if the query's answers have witness points, which move with the bodies.
-static inline int world_is_measuring(const ovoid_world *w) { return w->kind >= OVOID_QUERY_DISTANCE; }
+/// 1 if contacts have witness points.
+static inline int world_has_witnesses(const ovoid_world *w) { return w->kind >= OVOID_QUERY_DISTANCE; }
+/// 1 if the query's answers have points, which move with the bodies.
+static inline int world_is_measuring(const ovoid_world *w) { return world_has_witnesses(w) || w->wants_manifolds; }
 
 // ---- bodies
 

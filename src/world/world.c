@@ -6,6 +6,8 @@
 #include "base/error.h"
 #include "compound/compound.h"
 #include "world/body_bounds.h"
+#include "world/manifold_list.h"
+#include "world/material.h"
 #include "world/move.h"
 
 #include <string.h>
@@ -68,7 +70,9 @@ static void destroy(ovoid_world *w) {
     ovoid_shape_destroy(w->point);
     void *all[] = {w->bodies,     w->places,       w->marks,    w->leaf_of,           w->changed,   w->generations,
                    w->tree.nodes, w->ignored.keys, w->pairs,    w->pair_cache,        w->witnesses, w->free_slots,
-                   w->keys,       w->chunks,       w->contacts, w->contact_witnesses, w->tree.wide};
+                   w->keys,       w->chunks,       w->contacts, w->contact_witnesses, w->tree.wide, w->materials,
+                   w->ranges};
+    manifolds_destroy(w);
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) allocator_release(&w->allocator, all[i]);
     for (uint32_t i = 0; w->gathered && i < w->threads; i++) allocator_release(&w->allocator, w->gathered[i].keys);
     allocator_release(&w->allocator, w->gathered);
@@ -154,6 +158,7 @@ static uint32_t add_record(ovoid_world *w, const ovoid_world_body *given) {
                       .groups = groups_make(given->groups),
                       .seen = box_make_empty()};
     w->places[i] = (body_place){body_compute_center(&ball, &b->body.pose, &b->center_error), 0};
+    material_forget(w, i);
     if (world_get_extent(&given->body) > OVOID_LENGTH_MAX / 2) w->has_vast = 1;
     body_mark_fresh(w, i);
     w->count++;

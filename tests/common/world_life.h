@@ -3,7 +3,7 @@
 #ifndef OVOID_TESTS_WORLD_LIFE_H
 #define OVOID_TESTS_WORLD_LIFE_H
 
-#include "worlds.h"
+#include "world_manifolds.h"
 
 typedef struct life {
     ovoid_world *world;
@@ -14,6 +14,8 @@ typedef struct life {
     size_t most_bodies, most_pairs; ///< so far
     double side, scale;
     uint64_t s;
+    history past; ///< the pairs of the last manifolds
+    size_t most_parts;
 } life;
 
 static inline ovoid_world_body life_make_body(life *l) {
@@ -84,6 +86,23 @@ static inline void life_end(life *l) {
     world_destroy_shapes(l->shapes);
 }
 
+/// The manifolds of a frame, compared with all pairs. Of a part with its points there are four copies in all, of 408
+/// bytes at most; arrays double.
+static inline void life_manifolds(life *l) {
+    const ovoid_world_manifold_query q = {
+        .options = {.margin = random_next(&l->s) % 2 ? random_uniform(&l->s, 0, 0.2) * l->scale : 0,
+                    .tolerance = random_next(&l->s) % 2 ? 1e-3 * l->scale : 0},
+        .ahead = (double)(random_next(&l->s) % 3)};
+    const ovoid_material m = {.margin = random_uniform(&l->s, 0, 0.1) * l->scale, .friction = 1};
+    CHECK(ovoid_world_set_material(l->world, l->ids[random_next(&l->s) % l->count], &m, NULL) == OVOID_OK);
+    ovoid_world_manifolds found;
+    CHECK(ovoid_world_compute_manifolds(l->world, &q, &found, NULL) == OVOID_OK);
+    // The largest body has a size of a few hundred.
+    world_validate_manifolds(l->world, &(manifold_truth){&q, 200 * l->scale}, &found);
+    history_step(&l->past, &found);
+    if (found.part_count > l->most_parts) l->most_parts = found.part_count;
+}
+
 /// A frame with any query, compared with all pairs; and the bytes that the world holds: arrays double, so the 330 bytes
 /// of a body with its leaf, and the 390 of a pair with its cached answer and its contact, take at most twice that for
 /// the largest numbers so far.
@@ -97,7 +116,9 @@ static inline void life_frame(life *l, ovoid_contact_query *q) {
     world_validate_frame(l->world, q, &frame);
     if (frame.bodies > l->most_bodies) l->most_bodies = frame.bodies;
     if (frame.pairs > l->most_pairs) l->most_pairs = frame.pairs;
-    CHECK_LE(frame.memory, 16384 + 1024 * (l->most_bodies + l->most_pairs));
+    size_t manifolds = l->most_parts ? 65536 + 2048 * (l->most_bodies + l->most_pairs) + 4096 * l->most_parts : 0;
+    CHECK_LE(frame.memory, 16384 + 1024 * (l->most_bodies + l->most_pairs) + manifolds);
+    if (random_next(&l->s) % 4 == 0) life_manifolds(l);
 }
 
 #endif

@@ -66,6 +66,54 @@ void check_contacts(worlds &w) {
     }
 }
 
+void check_manifolds(worlds &w) {
+    ovoid::material soft;
+    soft.margin = 0.1;
+    soft.friction = 0.5;
+    w.ours.set_material(w.ids[2], soft);
+    ovoid_world_set_material(w.theirs, w.ids[2], &soft, nullptr);
+    CHECK(is_same(w.ours.material_of(w.ids[2]), soft) && w.ours.material_of(w.ids[3]).friction == 0);
+    ovoid::world_manifold_query query;
+    query.options.margin = 0.05;
+    std::size_t parts = 0;
+    for (int frame = 0; frame < 3; frame++) {
+        const ovoid::world_manifolds found = w.ours.compute_manifolds(query);
+        ovoid_world_manifolds truth;
+        CHECK_EQ(ovoid_world_compute_manifolds(w.theirs, &query, &truth, nullptr), OVOID_OK);
+        CHECK(found.size() == truth.count && found.size() > 20 && !found.empty());
+        CHECK(found.part_count == truth.part_count && found.begun == truth.begun);
+        CHECK(frame == 0 ? found.begun == found.size() : found.begun < found.size());
+        std::size_t i = 0;
+        for (const ovoid::world_manifold &m : found) {
+            const ovoid_world_manifold &t = truth.items[i];
+            CHECK(is_same(m, t) && &found[i] == &m);
+            const auto of = found.parts_of(m);
+            const auto points = found.points_of(m);
+            CHECK(of.size() == t.count && points.size() == t.count);
+            for (std::size_t k = 0; k < of.size(); k++) {
+                CHECK(is_same(of[k], truth.parts[t.first + k]));
+                CHECK_EQ(points[k].count, truth.points[t.first + k].count);
+                parts++;
+            }
+            i++;
+        }
+        const auto gone = found.partings();
+        CHECK_EQ(gone.size(), truth.ended_count);
+        for (std::size_t k = 0; k < gone.size(); k++) CHECK(is_same(gone[k], truth.ended[k]));
+        const ovoid::id far = found[0].a;
+        const pose away = vec3(100 + frame, 0, 0);
+        w.ours.move(far, away);
+        ovoid_world_move(w.theirs, far, &away, nullptr);
+        CHECK(frame == 0 || gone.size() > 0);
+    }
+    CHECK(parts > 60);
+    query.ahead = -1;
+    CHECK(throws(OVOID_ERROR_ARGUMENT, -1, "ahead", [&] { w.ours.compute_manifolds(query); }));
+    soft.margin = -1;
+    CHECK(throws(OVOID_ERROR_ARGUMENT, -1, "margin", [&] { w.ours.set_material(w.ids[2], soft); }));
+    CHECK(throws(OVOID_ERROR_INDEX, -1, "names no body", [&] { w.ours.material_of(0); }));
+}
+
 void check_bodies(worlds &w) {
     CHECK(w.ids.size() == 60 && w.ours.size() == 60);
     std::vector<ovoid::id> walked;
@@ -203,6 +251,7 @@ int main() {
     check_contacts(w);
     check_bodies(w);
     check_finds(w);
+    check_manifolds(w);
     check_refusals(w);
     return check_end();
 }

@@ -6,8 +6,9 @@
 #ifndef OVOID_CPP_WORLD_HPP
 #define OVOID_CPP_WORLD_HPP
 
+#include "ovoid/cpp/body_manifolds.hpp"
 #include "ovoid/cpp/motion.hpp"
-#include "ovoid/world.h"
+#include "ovoid/world_manifolds.h"
 
 namespace ovoid {
 
@@ -67,6 +68,43 @@ class contacts : public ovoid_contacts {
     bool has_witnesses() const noexcept { return witnesses != nullptr; }
     /** The points and normal of a contact of this list; has_witnesses must be true. */
     const ovoid::witness &witness(const contact &c) const noexcept { return witnesses[&c - items]; }
+};
+
+/** What a caller sets of a body for its manifolds. */
+using material = zeroed<ovoid_material>;
+/** A pair of bodies that are not proven farther apart than their margin. */
+using world_manifold = ovoid_world_manifold;
+/** The query of the manifolds of all pairs. */
+using world_manifold_query = zeroed<ovoid_world_manifold_query>;
+
+/**
+ * The manifolds of a world, for range-for, sorted by a, then by b. Valid until the next call of a function of the world
+ * that is not const.
+ */
+class world_manifolds : public ovoid_world_manifolds {
+  public:
+    /** From the C struct. */
+    explicit world_manifolds(const ovoid_world_manifolds &from) noexcept : ovoid_world_manifolds(from) {}
+    /** The first pair. */
+    const world_manifold *begin() const noexcept { return items; }
+    /** One past the last pair. */
+    const world_manifold *end() const noexcept { return items + count; }
+    /** Number of pairs. */
+    std::size_t size() const noexcept { return count; }
+    /** True if there is no pair. */
+    bool empty() const noexcept { return count == 0; }
+    /** Pair i < size. */
+    const world_manifold &operator[](std::size_t i) const noexcept { return items[i]; }
+    /** The manifolds of a pair of this list, one for each pair of parts. */
+    span<const body_manifold> parts_of(const world_manifold &m) const noexcept {
+        return {m.count ? parts + m.first : nullptr, m.count};
+    }
+    /** The points of the manifolds of a pair, beside its parts. */
+    span<const ovoid_manifold_points> points_of(const world_manifold &m) const noexcept {
+        return {m.count ? points + m.first : nullptr, m.count};
+    }
+    /** The pairs that are not in contact any more. */
+    span<const ovoid_world_parting> partings() const noexcept { return {ended, ended_count}; }
 };
 
 /** A world that owns its memory. What its bodies point to must live as long as they are in the world. */
@@ -133,7 +171,21 @@ class world : public detail::owner<detail::pointer<ovoid_world>, ovoid_world, ov
         call(ovoid_world_compute_contacts, &query, &found);
         return contacts(found);
     }
+    /** Sets the material of a body. Throws INDEX, ARGUMENT, MEMORY. */
+    void set_material(id b, const ovoid_material &m) { call(ovoid_world_set_material, b, &m); }
+    /** The manifolds of all pairs that are not proven farther apart than their margin. Throws ARGUMENT, MEMORY. */
+    world_manifolds compute_manifolds(const ovoid_world_manifold_query &query = world_manifold_query()) {
+        ovoid_world_manifolds found;
+        call(ovoid_world_compute_manifolds, &query, &found);
+        return world_manifolds(found);
+    }
 
+    /** The material of a body; zeros if none was set. Throws INDEX. */
+    ovoid::material material_of(id b) const {
+        ovoid_material found;
+        call(ovoid_world_get_material, b, &found);
+        return found;
+    }
     /** The present state of a body. Throws INDEX. */
     world_body at(id b) const {
         ovoid_world_body found;

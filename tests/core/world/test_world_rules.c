@@ -1,7 +1,7 @@
 // What a world lets through and what it refuses: groups, ignored pairs, the filter; ids that are gone, poses that are
 // none; an allocation that fails, each in turn. Truth: the bodies' places, chosen so that all touch all; worlds.h.
 #include "countdown.h"
-#include "worlds.h"
+#include "world_manifolds.h"
 
 static const ovoid_contact_query collide = {.kind = OVOID_QUERY_COLLIDE};
 
@@ -171,6 +171,24 @@ static int retry(trial *t, ovoid_code code) {
     return 0;
 }
 
+// Manifolds after a call that ran out of memory are those that the call would have found, and so are the events.
+static void test_failing_manifolds(ovoid_world *w, trial *t, ovoid_id id, history *past) {
+    ovoid_error e = {0};
+    const ovoid_material m = {.margin = 0.1, .friction = 1};
+    const ovoid_world_manifold_query q = {.options = {.margin = 0.1}, .ahead = 1};
+    ovoid_world_manifolds found;
+    if (!retry(t, ovoid_world_set_material(w, id, &m, &e)))
+        CHECK(ovoid_world_set_material(w, id, &m, NULL) == OVOID_OK);
+    for (int k = 0; k < 2; k++) {
+        if (!retry(t, ovoid_world_compute_manifolds(w, &q, &found, &e)))
+            CHECK(ovoid_world_compute_manifolds(w, &q, &found, NULL) == OVOID_OK);
+        history_step(past, &found);
+    }
+    CHECK_EQ(found.begun, 0);
+    CHECK_EQ(found.ended_count, 0);
+    if (t->failures) world_validate_manifolds(w, &(manifold_truth){&q, 20}, &found);
+}
+
 static void test_failing_allocation(ovoid_shape **shapes, long k, uint32_t threads, int *failures) {
     trial t = {.count = {k, 0}};
     check_seed = (uint64_t)k;
@@ -190,6 +208,8 @@ static void test_failing_allocation(ovoid_shape **shapes, long k, uint32_t threa
         if (!retry(&t, ids[i] ? OVOID_OK : e.code)) ids[i] = ovoid_world_add(w, &bodies[i], NULL);
     }
     ovoid_contacts f;
+    static history past;
+    past.count = 0;
     for (int round = 0; round < 4; round++) {
         ovoid_contact_query q = {.kind = (ovoid_query_kind)round, .margin = round ? 0.2 : 0};
         if (round == 1 && !retry(&t, ovoid_world_add_many(w, &(ovoid_world_additions){bodies + 20, 70, ids + 20}, &e)))
@@ -202,6 +222,7 @@ static void test_failing_allocation(ovoid_shape **shapes, long k, uint32_t threa
         if (!retry(&t, ovoid_world_compute_contacts(w, &q, &f, &e)))
             CHECK(ovoid_world_compute_contacts(w, &q, &f, NULL) == OVOID_OK);
         if (t.failures || k % 16 == 0) world_validate_frame(w, &q, &f);
+        if (round) test_failing_manifolds(w, &t, ids[round], &past);
         for (int i = 0; i < 20; i++) {
             ovoid_pose p = {random_place(&s, 4), random_quat(&s)};
             CHECK(ovoid_world_move(w, ids[i], &p, NULL) == OVOID_OK);

@@ -1,6 +1,7 @@
 // Worlds at random: test_world_soak [--lives N] [--seed S] [--seconds T]. 3 lives where nothing is said, so that what
 // is checked does not depend on the machine; --seconds: as many as that takes. Every frame is compared with all pairs
-// asked one by one (worlds.h), and the world's memory with what its bodies and pairs may take (world_life.h).
+// asked one by one (worlds.h), a quarter of the frames have manifolds, compared likewise (world_manifolds.h), and the
+// world's memory is compared with what its bodies, pairs and manifolds may take (world_life.h).
 #include "options.h"
 #include "world_life.h"
 
@@ -17,7 +18,7 @@ static void run(uint64_t seed) {
     static const double scales[4] = {1, 1e-9, 1e9, 1};
     check_seed = seed;
     ovoid_shape *shapes[WORLD_SHAPES];
-    life l;
+    static life l;
     life_begin(&l, seed, scales[seed % 4], shapes);
     ovoid_contact_query q = {.kind = OVOID_QUERY_COLLIDE};
     for (int f = 0; f < FRAMES && !is_over(); f++) {

@@ -70,7 +70,19 @@ static void add_frame(const ovoid_contacts *f) {
     add(counts, sizeof counts);
 }
 
-// A life of a few frames, the same for all; its hash.
+static void add_manifolds(const ovoid_world_manifolds *m) {
+    for (size_t i = 0; i < m->count; i++) add(&m->items[i], sizeof *m->items);
+    for (size_t i = 0; i < m->part_count; i++) {
+        add(&m->parts[i], sizeof *m->parts);
+        add(m->points[i].points, m->points[i].count * sizeof *m->points[i].points);
+    }
+    for (size_t i = 0; i < m->ended_count; i++) add(&m->ended[i], sizeof *m->ended);
+    size_t counts[] = {m->count, m->begun, m->ended_count, m->part_count, m->kept};
+    add(counts, sizeof counts);
+    add_frame(&m->step);
+}
+
+// A life of a few frames, the same for all; its hash. Half of the frames have manifolds.
 static uint64_t live(ovoid_shape **shapes, const ovoid_world_options *o, size_t *contacts) {
     uint64_t s = 11;
     ovoid_error error = {0};
@@ -90,6 +102,16 @@ static uint64_t live(ovoid_shape **shapes, const ovoid_world_options *o, size_t 
         CHECK(ovoid_world_compute_contacts(w, &q, &frame, NULL) == OVOID_OK);
         add_frame(&frame);
         *contacts = frame.count;
+        ovoid_world_manifold_query manifold_query = {.options = {.margin = f % 4 ? 0.05 : 0}, .ahead = f % 3};
+        ovoid_world_manifolds manifolds;
+        for (int i = f; i < BODIES; i += 30) {
+            const ovoid_material m = {.margin = 0.001 * (i % 7), .friction = 0.1 * i, .restitution = 1.0 / (i + 1)};
+            CHECK(ovoid_world_set_material(w, ids[i], &m, NULL) == OVOID_OK);
+        }
+        for (int k = 0; k < 2 && f % 2; k++) {
+            CHECK(ovoid_world_compute_manifolds(w, &manifold_query, &manifolds, NULL) == OVOID_OK);
+            add_manifolds(&manifolds);
+        }
         for (int i = 0; i < BODIES; i++) {
             ovoid_vec3 d = random_place(&s, i % 50 ? 0.02 : 5);
             ovoid_pose *p = &bodies[i].body.pose;

@@ -9,7 +9,7 @@
 #include "base/environment.h"
 #include "base/error.h"
 #include "linear/rotation.h"
-#include "world/bodies_query.h"
+#include "world/find/bodies_query.h"
 #include "world/state.h"
 #include "world/tree/dynamic_tree_traverse.h"
 

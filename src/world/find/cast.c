@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "body/body_tree.h"
 #include "world/body_bounds.h"
-#include "world/cast_solid.h"
+#include "world/find/cast_solid.h"
 #include "world/state.h"
 #include "world/tree/dynamic_tree_traverse.h"
 

@@ -7,7 +7,7 @@
 //
 // The ray in the solid's frame is off by 91 u S, as in frame.h, S the sizes and the distance of the frames; boxes are
 // enlarged by 256 u S and the ray's radius. Times at the boxes' sides are off by a few u of themselves.
-#include "world/cast_solid.h"
+#include "world/find/cast_solid.h"
 
 #include "body/body_find.h"
 #include "body/tree_frame.h"

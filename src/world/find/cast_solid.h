@@ -1,6 +1,6 @@
 // Casts against solids: a ray through a solid's tree, and bodies of which one is a solid.
-#ifndef OVOID_WORLD_CAST_SOLID_H
-#define OVOID_WORLD_CAST_SOLID_H
+#ifndef OVOID_WORLD_FIND_CAST_SOLID_H
+#define OVOID_WORLD_FIND_CAST_SOLID_H
 
 #include "linear/vec3.h"
 #include "ovoid/body.h"

@@ -1,6 +1,6 @@
 // The query of two bodies without a warm start, for queries between steps.
-#ifndef OVOID_WORLD_BODIES_QUERY_H
-#define OVOID_WORLD_BODIES_QUERY_H
+#ifndef OVOID_WORLD_FIND_BODIES_QUERY_H
+#define OVOID_WORLD_FIND_BODIES_QUERY_H
 
 #include "body/body_find.h"
 

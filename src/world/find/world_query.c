@@ -4,7 +4,7 @@
 #include "base/environment.h"
 #include "base/error.h"
 #include "compound/compound.h"
-#include "world/bodies_query.h"
+#include "world/find/bodies_query.h"
 #include "world/body_bounds.h"
 #include "world/state.h"
 #include "world/tree/dynamic_tree_traverse.h"
