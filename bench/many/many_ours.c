@@ -12,7 +12,7 @@ typedef struct self {
     ovoid_id *ids;
     uint32_t moving; ///< bodies 0 .. moving - 1 move
     ovoid_contact_query query;
-    double tolerance; ///< of manifolds
+    const swarm *what; ///< of a swarm
     // The planner's.
     ovoid_world *parts;
     ovoid_couple *couples;
@@ -56,7 +56,7 @@ static void *create_swarm(const swarm *what, const ovoid_pose *poses) {
     free(list);
     if (!good) return NULL;
     s->moving = what->body_count;
-    s->tolerance = 10 * what->step;
+    s->what = what;
     return s;
 }
 
@@ -81,11 +81,28 @@ static void run_swarm(void *state, const ovoid_pose *poses, meetings *touching) 
 
 static const swarm_peer our_swarm = {"ovoid", create_swarm, run_swarm, destroy};
 
-/// The same frame with the contact points of all pairs that touch, each kept manifold used again while its bracket is
-/// not wider than ten times a body's motion in a frame.
+/// The same frame with a contact point and the depth of each pair that touches.
+static void *create_swarm_depth(const swarm *what, const ovoid_pose *poses) {
+    self *s = create_swarm(what, poses);
+    if (s) s->query.kind = OVOID_QUERY_DEPTH;
+    return s;
+}
+
+static const swarm_peer our_depths = {"ovoid, a point each", create_swarm_depth, run_swarm, destroy};
+
+/// Do two bodies touch whose bracket holds 0?
+static int is_touching(const self *s, const ovoid_pose *poses, uint32_t a, uint32_t b) {
+    const body *shapes = s->what->shapes;
+    const ovoid_pair pair = {shapes[s->what->shape_of[a]].shape, shapes[s->what->shape_of[b]].shape, poses[a],
+                             poses[b]};
+    return ovoid_collide(&pair, NULL, NULL).status != OVOID_SEPARATED;
+}
+
+/// The same frame with up to four contact points of each pair. A kept manifold is used again while its bracket is not
+/// wider than ten times the motion of a frame.
 static void run_swarm_manifolds(void *state, const ovoid_pose *poses, meetings *touching) {
     self *s = state;
-    const ovoid_world_manifold_query query = {.options = {.tolerance = s->tolerance}};
+    const ovoid_world_manifold_query query = {.options = {.tolerance = 10 * s->what->step}};
     ovoid_world_manifolds frame;
     if (ovoid_world_move_many(s->world, &(ovoid_world_moves){s->ids, poses, s->moving}, NULL) != OVOID_OK ||
         ovoid_world_compute_manifolds(s->world, &query, &frame, NULL) != OVOID_OK) {
@@ -94,8 +111,10 @@ static void run_swarm_manifolds(void *state, const ovoid_pose *poses, meetings *
     }
     for (size_t i = 0; i < frame.count; i++) {
         const ovoid_world_manifold *m = &frame.items[i];
+        uint32_t a = get_index(m->a), b = get_index(m->b);
         if (m->verdict.status == OVOID_SEPARATED) continue;
-        meetings_add(touching, get_index(m->a), get_index(m->b), m->verdict.upper);
+        if (m->verdict.status != OVOID_OVERLAPPING && !is_touching(s, poses, a, b)) continue;
+        meetings_add(touching, a, b, m->verdict.upper);
     }
 }
 
@@ -176,7 +195,7 @@ static void measure(void *state, const ovoid_pose *links, meetings *near) { run_
 
 static const cell_peer our_cell = {"ovoid", create_cell, is_hit, measure, destroy};
 
-static const swarm_peer *const swarms[] = {&our_swarm, &our_manifolds, NULL};
+static const swarm_peer *const swarms[] = {&our_swarm, &our_depths, &our_manifolds, NULL};
 static const cell_peer *const cells[] = {&our_cell, NULL};
 
 many_peers many_get_ours(void) { return (many_peers){swarms, cells}; }
