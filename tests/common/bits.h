@@ -168,4 +168,14 @@ static inline uint64_t bits_add_pair(uint64_t hash, const ovoid_pair *p) {
     return bits_add_cover(bits_add_cover(hash, &cover), &warm_cover);
 }
 
+/// The same points of a manifold to the last bit, without their padding.
+static inline int points_are_same(const ovoid_manifold_points *a, const ovoid_manifold_points *b) {
+    int is_same = a->count == b->count;
+    for (uint32_t k = 0; is_same && k < a->count; k++) {
+        const ovoid_manifold_point *p = &a->points[k], *q = &b->points[k];
+        is_same = memcmp(p, q, offsetof(ovoid_manifold_point, id)) == 0 && p->id == q->id;
+    }
+    return is_same;
+}
+
 #endif

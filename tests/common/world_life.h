@@ -3,7 +3,7 @@
 #ifndef OVOID_TESTS_WORLD_LIFE_H
 #define OVOID_TESTS_WORLD_LIFE_H
 
-#include "world_manifolds.h"
+#include "worlds.h"
 
 typedef struct life {
     ovoid_world *world;

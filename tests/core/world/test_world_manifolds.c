@@ -1,7 +1,6 @@
 // Manifolds of a world. Truth: the manifolds of each pair alone, and a list of the pairs of the step before
-// (world_manifolds.h); closed forms of boxes on boxes.
+// (worlds.h); closed forms of boxes on boxes.
 #include "world_life.h"
-#include "world_manifolds.h"
 
 static const ovoid_pose here = {{0, 0, 0}, {1, 0, 0, 0}};
 

@@ -1,7 +1,7 @@
 // What a world lets through and what it refuses: groups, ignored pairs, the filter; ids that are gone, poses that are
 // none; an allocation that fails, each in turn. Truth: the bodies' places, chosen so that all touch all; worlds.h.
 #include "countdown.h"
-#include "world_manifolds.h"
+#include "worlds.h"
 
 static const ovoid_contact_query collide = {.kind = OVOID_QUERY_COLLIDE};
 

@@ -1,6 +1,6 @@
 // Worlds at random: test_world_soak [--lives N] [--seed S] [--seconds T]. 3 lives where nothing is said, so that what
 // is checked does not depend on the machine; --seconds: as many as that takes. Every frame is compared with all pairs
-// asked one by one (worlds.h), a quarter of the frames have manifolds, compared likewise (world_manifolds.h), and the
+// asked one by one (worlds.h), a quarter of the frames have manifolds, compared likewise (worlds.h), and the
 // world's memory is compared with what its bodies, pairs and manifolds may take (world_life.h).
 #include "options.h"
 #include "world_life.h"

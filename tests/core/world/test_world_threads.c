@@ -74,7 +74,11 @@ static void add_manifolds(const ovoid_world_manifolds *m) {
     for (size_t i = 0; i < m->count; i++) add(&m->items[i], sizeof *m->items);
     for (size_t i = 0; i < m->part_count; i++) {
         add(&m->parts[i], sizeof *m->parts);
-        add(m->points[i].points, m->points[i].count * sizeof *m->points[i].points);
+        for (uint32_t k = 0; k < m->points[i].count; k++) {
+            // Without its padding.
+            add(&m->points[i].points[k], offsetof(ovoid_manifold_point, id));
+            add(&m->points[i].points[k].id, sizeof m->points[i].points[k].id);
+        }
     }
     for (size_t i = 0; i < m->ended_count; i++) add(&m->ended[i], sizeof *m->ended);
     size_t counts[] = {m->count, m->begun, m->ended_count, m->part_count, m->kept};
