@@ -2,6 +2,7 @@
 // list, with their points; and the pairs of the last call that are missing have ended.
 #include "base/environment.h"
 #include "base/error.h"
+#include "manifold/manifold.h"
 #include "world/manifold_list.h"
 #include "world/material.h"
 
@@ -93,10 +94,11 @@ static size_t write_ended(manifolds *m) {
 
 static ovoid_code validate(const ovoid_world_manifold_query *q, const ovoid_contact_query *pairs, ovoid_error *error) {
     const ovoid_manifold_options *o = &q->options;
-    if (!(o->tolerance >= 0 && o->keep >= 0 && o->angle >= 0))
+    if (!(o->tolerance >= 0 && o->keep >= 0 && o->angle >= 0 && o->angle <= MANIFOLD_ANGLE))
         return error_set(error, OVOID_ERROR_ARGUMENT, -1,
-                         "tolerance %.17g, keep %.17g, angle %.17g: none may be negative or NaN", o->tolerance, o->keep,
-                         o->angle);
+                         "tolerance %.17g, keep %.17g, angle %.17g: none may be negative or NaN, and the angle at most "
+                         "%g",
+                         o->tolerance, o->keep, o->angle, MANIFOLD_ANGLE);
     if (!(q->ahead >= 0 && q->ahead <= 100))
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "ahead %.17g: it must be in 0 .. 100", q->ahead);
     return step_validate(pairs, error);

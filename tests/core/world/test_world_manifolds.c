@@ -250,6 +250,7 @@ static void test_refused(const ovoid_shape *box) {
                    {{.options = {.tolerance = -2}}, "tolerance -2"},
                    {{.options = {.keep = NAN}}, "keep nan"},
                    {{.options = {.angle = -0.5}}, "angle -0.5"},
+                   {{.options = {.angle = 2}}, "angle 2"},
                    {{.ahead = -1}, "ahead -1"},
                    {{.ahead = 101}, "ahead 101"},
                    {{.ahead = NAN}, "ahead nan"}};
