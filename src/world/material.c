@@ -32,7 +32,7 @@ static ovoid_code refuse_number(const ovoid_material *m, ovoid_error *error) {
 static int reserve_items(ovoid_world *w, void **items, size_t *capacity, size_t size) {
     size_t before = *capacity;
     if (!world_reserve(w, items, capacity, before, w->used, size)) return 0;
-    memset((char *)*items + before * size, 0, (*capacity - before) * size);
+    if (*capacity > before) memset((char *)*items + before * size, 0, (*capacity - before) * size);
     return 1;
 }
 
