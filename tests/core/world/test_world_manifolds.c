@@ -26,6 +26,22 @@ static void set_materials(life *l) {
     }
 }
 
+// The whole answer of a pair after a step with manifolds.
+static void check_proof(const ovoid_world *w, const ovoid_world_manifolds *found) {
+    static ovoid_exclusion items[1024];
+    if (!found->count) return;
+    const ovoid_world_manifold *m = &found->items[found->count / 2];
+    const ovoid_contact contact = {.a = m->a, .b = m->b};
+    ovoid_exclusions exclusions = {.items = items, .capacity = 1024};
+    ovoid_contact_proof proof = {.exclusions = &exclusions};
+    ovoid_world_body a, b;
+    CHECK(ovoid_world_compute_proof(w, &contact, &proof, NULL) == OVOID_OK);
+    CHECK(ovoid_world_get(w, m->a, &a, NULL) == OVOID_OK && ovoid_world_get(w, m->b, &b, NULL) == OVOID_OK);
+    const ovoid_body_pair pair = {a.body, b.body};
+    CHECK(ovoid_body_verify(&pair, &proof.answer, &(ovoid_body_basis){.exclusions = &exclusions}, NULL) == OVOID_OK);
+    CHECK(proof.answer.lower <= m->verdict.upper && m->verdict.lower <= proof.answer.upper);
+}
+
 static void test_life(uint64_t seed) {
     static history past;
     static const double scales[4] = {1, 1e-9, 1e9, 1};
@@ -44,6 +60,7 @@ static void test_life(uint64_t seed) {
         ovoid_world_manifolds found = compute(l.world, &q);
         world_validate_manifolds(l.world, &(manifold_truth){&q, q.ahead > 0 ? 200 * l.scale : 0}, &found);
         history_step(&past, &found);
+        check_proof(l.world, &found);
         ended += found.ended_count;
         begun += found.begun;
         kept += found.kept;
