@@ -131,7 +131,7 @@ static ovoid_limit find_parts(finding *f, const world_pair *p, const ovoid_world
     ovoid_manifold_options options = f->m->options;
     manifolds_request request = {.options = &options, .has_points = 1, .take = take_part, .context = f};
     options.margin = min2(w->margin + world_get_pair_range(w, p->a, p->b), OVOID_LENGTH_MAX);
-    if (earlier) {
+    if (earlier && earlier->count) {
         request.earlier = &f->m->last.parts[earlier->first];
         request.earlier_count = earlier->count;
     }
@@ -151,7 +151,9 @@ static void find_pair(finding *f, world_pair *p, int is_answered) {
     manifold_list *list = &f->room->list;
     manifolds_found found;
     ovoid_world_manifold item = {.first = list->part_count};
-    if (find_parts(f, p, earlier, &found) != OVOID_LIMIT_NONE) {
+    ovoid_limit refused = find_parts(f, p, earlier, &found);
+    if (f->room->failed) return;
+    if (refused != OVOID_LIMIT_NONE) {
         // A solid: what the query of the pair says.
         if (!is_queried && !is_answered) pair_update(w, p);
         item.verdict = get_verdict(&w->pair_cache[p->slot]);

@@ -218,6 +218,32 @@ static void test_ranges(const ovoid_shape *box) {
     ovoid_world_destroy(w);
 }
 
+// ---- what is taken over at rest: nothing that was found for other options
+
+static void test_options(const ovoid_shape *box) {
+    ovoid_world *w = ovoid_world_create(NULL, NULL);
+    ovoid_world_body bodies[2] = {{.body = {.shape = box, .pose = here}}, {.body = {.shape = box, .pose = here}}};
+    bodies[1].body.pose.position = (ovoid_vec3){0.1, 0.2, 0.9};
+    ovoid_id ids[2];
+    CHECK(ovoid_world_add_many(w, &(ovoid_world_additions){bodies, 2, ids}, NULL) == OVOID_OK);
+    ovoid_world_manifold_query q = {.options = {.tolerance = 0.5}};
+    ovoid_pose pose = {{0.1, 0.2, 0.9}, {1, 0.05, 0.02, 0}};
+    (void)compute(w, &q);
+    CHECK(ovoid_world_move(w, ids[1], &pose, NULL) == OVOID_OK);
+    ovoid_world_manifolds found = compute(w, &q);
+    CHECK(found.count == 1 && found.kept == 0);
+    // Its bracket is that of the face before it was turned.
+    CHECK_LE(1e-6, found.items[0].verdict.upper - found.items[0].verdict.lower);
+    CHECK_EQ(compute(w, &q).kept, 1);
+    q.options.tolerance = 1e-8;
+    found = compute(w, &q);
+    CHECK(found.count == 1 && found.kept == 0);
+    CHECK_LE(found.items[0].verdict.upper - found.items[0].verdict.lower, 1e-8);
+    found = compute(w, &q);
+    CHECK(found.kept == 1 && found.items[0].event == OVOID_MANIFOLD_STAY);
+    ovoid_world_destroy(w);
+}
+
 // ---- solids, whose triangles have no manifolds
 
 static void test_solid(const ovoid_shape *box) {
@@ -297,6 +323,7 @@ int main(void) {
     for (uint64_t seed = 1; seed <= 4; seed++) test_life(seed);
     check_seed = 0;
     test_ranges(box);
+    test_options(box);
     test_solid(box);
     test_refused(box);
     test_stack(1e-9, box);
