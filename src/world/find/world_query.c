@@ -4,8 +4,8 @@
 #include "base/environment.h"
 #include "base/error.h"
 #include "compound/compound.h"
-#include "world/find/bodies_query.h"
 #include "world/body_bounds.h"
+#include "world/find/bodies_query.h"
 #include "world/state.h"
 #include "world/tree/dynamic_tree_traverse.h"
 
