@@ -5,6 +5,7 @@
 #include "base/finish.h"
 #include "base/message.h"
 #include "base/outputs.h"
+#include "contacts.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -78,7 +79,7 @@ int results_have_proofs(const cli_results *results) { return results->settings->
 /// Writes the rows of the block.
 static void write_rows(cli_results *results) {
     ovoid_records_write_table(results->file, results->rows, results->row_count, results->unit);
-    results->row_count = 0;
+    while (results->row_count) contacts_clear(&results->rows[--results->row_count]);
 }
 
 static void write_header(cli_results *results) {
@@ -116,9 +117,10 @@ int results_add(cli_results *results, const ovoid_record *record) {
         message_error("out of memory");
         return EXIT_INPUT;
     }
-    results->rows[results->row_count] = *record;
-    results->rows[results->row_count++].cover =
-        NULL; // a table does not show the cover, which may be gone when the block is written
+    ovoid_record *row = &results->rows[results->row_count++];
+    *row = *record;
+    row->cover = NULL; // a table does not show the cover, which may be gone when the block is written
+    if (!contacts_copy(row)) return message_error("out of memory"), EXIT_INPUT;
     if (results->row_count == BLOCK_ROWS) write_rows(results);
     return ferror(results->file) ? EXIT_INPUT : 0;
 }
@@ -156,6 +158,7 @@ int results_close(cli_results *results, int code) {
     }
     ovoid_output_close(results->output);
     finish_set_unfinished(NULL);
+    while (results->row_count) contacts_clear(&results->rows[--results->row_count]);
     free(results->rows);
     return code;
 }

@@ -97,6 +97,7 @@ static void count_result(verify *v, const claim *i) {
     n->held += (size_t)i->holds;
     n->undecided += is_open(&i->record);
     n->impacts += (i->record.fields & OVOID_RECORD_IMPACT) != 0;
+    n->contacts += i->record.contact_count;
     n->mixed += i->record.solid && (i->pair.a.compound || i->pair.b.compound);
     if (!i->holds && v->reported++ < REPORTED_MAX)
         message_error("%s:%lld: %s", v->path, (long long)i->line, i->message);
@@ -156,8 +157,8 @@ static int is_continuous_unasked(const verify *v) { return v->counts.impacts && 
 static void print_json(const verify_counts *n, size_t exact) {
     printf("{\"proofs\":%zu,\"hold\":%zu,\"fail\":%zu,\"undecided\":%zu,\"exact\":%zu,\"floating\":%zu,", n->proofs,
            n->held, n->proofs - n->held, n->undecided, exact, n->proofs - exact);
-    printf("\"pairs\":%zu,\"missing\":%zu,\"beyond\":%zu,\"impacts_missing\":%zu}\n", n->pairs, get_missing(n),
-           n->beyond + n->by_boxes, n->impacts_lacking);
+    printf("\"pairs\":%zu,\"missing\":%zu,\"beyond\":%zu,\"impacts_missing\":%zu,\"contacts\":%zu}\n", n->pairs,
+           get_missing(n), n->beyond + n->by_boxes, n->impacts_lacking, n->contacts);
 }
 
 /// What the results lack.
@@ -190,10 +191,9 @@ static void print_counts(const verify *v) {
         printf("checked in exact arithmetic");
     else
         printf("checked in exact arithmetic, but for impacts (%zu): their steps in %s", n->impacts, floating);
-    if (verdict_is_exact() && n->mixed)
-        printf("; solids beside compounds (%zu) in %s\n", n->mixed, floating);
-    else if (verdict_is_exact())
-        printf("\n");
+    if (verdict_is_exact() && n->mixed) printf("; solids beside compounds (%zu) in %s", n->mixed, floating);
+    if (verdict_is_exact() && n->contacts) printf("; contacts (%zu) in %s", n->contacts, floating);
+    if (verdict_is_exact()) printf("\n");
 }
 
 static int is_identity(const ovoid_pose *pose) {
@@ -346,7 +346,8 @@ const cli_command command_verify = {
         "Of compounds and solids, it is also checked that the exclusions hold and leave out no pair of parts or "
         "triangles, and of solids, by winding numbers, what is inside; and of impacts, the "
         "steps that show that a pair was free until then, these always in floating point with rigorous error bounds. "
-        "Such results are counted apart.\n\n"
+        "Such results are counted apart; so are contacts, whose brackets, points and areas are shown again by the "
+        "features that meet, in floating point.\n\n"
         "PROOFS.jsonl is of \"ovoid robot path --proofs\". It names its robot and its obstacles, which must be the "
         "same "
         "still: a digest says so. Each step is measured again, without a search, and for each pair the steps must "

@@ -81,6 +81,7 @@ typedef struct verify_rest {
 typedef struct verify_counts {
     size_t proofs, held, undecided;
     size_t impacts;          ///< results whose steps were checked in floating point
+    size_t contacts;         ///< of results, which were checked in floating point
     size_t mixed;            ///< and those of solids beside compounds, which the exact judge does not know
     size_t pairs;            ///< of the question: of a scene those of all frames
     size_t lacking;          ///< of these, without a result

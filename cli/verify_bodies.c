@@ -233,7 +233,7 @@ static int store_record(const ovoid_record *record, claim *item) {
     stored->exclusions = copy(record->exclusions, record->exclusion_count * sizeof *record->exclusions);
     stored->steps = copy(record->steps, record->step_count * sizeof *record->steps);
     stored->groups = copy(record->groups, record->group_count * sizeof *record->groups);
-    return !stored->cover == !(record->cover && record->cover->point_count) &&
+    return contacts_copy(stored) && !stored->cover == !(record->cover && record->cover->point_count) &&
            !stored->exclusions == !record->exclusion_count && !stored->steps == !record->step_count &&
            !stored->groups == !record->group_count && !stored->solid == !record->solid;
 }
@@ -244,6 +244,7 @@ void verify_drop(claim *item) {
     free((void *)item->record.steps);
     free((void *)item->record.groups);
     free((void *)item->record.solid);
+    contacts_clear(&item->record);
     item->record = (ovoid_record){.a = NULL};
 }
 

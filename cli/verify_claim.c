@@ -16,20 +16,9 @@ static int claims_points(const verify *v, const claim *item, const ovoid_answer 
 
 /// Finds the pair of parts of a record; 0 where there is none such.
 static int get_parts(const ovoid_body_pair *bodies, const ovoid_record *record, ovoid_pair *pair) {
-    const ovoid_body *body[2] = {&bodies->a, &bodies->b};
-    const uint32_t part[2] = {record->fields & OVOID_RECORD_PARTS ? record->part_a : OVOID_RECORD_NO_PART,
-                              record->fields & OVOID_RECORD_PARTS ? record->part_b : OVOID_RECORD_NO_PART};
-    ovoid_posed_shape found[2];
-    for (int i = 0; i < 2; i++) {
-        found[i] = (ovoid_posed_shape){body[i]->shape, body[i]->pose};
-        if (!body[i]->compound != (part[i] == OVOID_RECORD_NO_PART)) return 0;
-        if (!body[i]->compound) continue;
-        if (part[i] >= ovoid_compound_get_part_count(body[i]->compound)) return 0;
-        found[i] = ovoid_compound_get_part(body[i]->compound, part[i]);
-        found[i].pose = ovoid_pose_compute_product(&body[i]->pose, &found[i].pose);
-    }
-    *pair = (ovoid_pair){found[0].shape, found[1].shape, found[0].pose, found[1].pose};
-    return 1;
+    const uint32_t parts[2] = {record->fields & OVOID_RECORD_PARTS ? record->part_a : OVOID_RECORD_NO_PART,
+                               record->fields & OVOID_RECORD_PARTS ? record->part_b : OVOID_RECORD_NO_PART};
+    return contacts_get_parts(bodies, parts, pair);
 }
 
 /// Checks the answer of compounds: that of the deciding parts, and that the exclusions hold and leave out no other pair
@@ -99,7 +88,7 @@ static ovoid_code verify_solids(const verify *v, const claim *item, ovoid_error 
     return verdict_verify_solid(v->verdict, &item->pair, r->solid, &exclusions, points, error);
 }
 
-ovoid_code verify_claim(const verify *v, const claim *item, ovoid_error *error) {
+static ovoid_code verify_answer(const verify *v, const claim *item, ovoid_error *error) {
     if (item->record.solid) {
         ovoid_code held = verify_solids(v, item, error);
         return held == OVOID_OK ? verify_impact(item, &item->record.answer, error) : held;
@@ -115,4 +104,10 @@ ovoid_code verify_claim(const verify *v, const claim *item, ovoid_error *error) 
     ovoid_code code = is_compound ? verify_compound(v, item, points ? &pair : NULL, error)
                                   : verdict_verify(v->verdict, &pair, &answer, item->record.cover, points, error);
     return code == OVOID_OK ? verify_impact(item, &answer, error) : code;
+}
+
+ovoid_code verify_claim(const verify *v, const claim *item, ovoid_error *error) {
+    ovoid_code code = verify_answer(v, item, error);
+    if (code != OVOID_OK || !(item->record.fields & OVOID_RECORD_CONTACTS)) return code;
+    return contacts_verify(&item->pair, &item->record, v->settings->tolerance, error);
 }

@@ -167,7 +167,8 @@ int verify_list_rest(verify *v) {
 /* ---- their proofs */
 
 static int prove_beyond(const verify *v, answer_room *room, const claim *item) {
-    const answers_query query = {QUERY_WITHIN, get_margin(v), v->settings->tolerance, 1, NULL};
+    const answers_query query = {
+        .query = QUERY_WITHIN, .margin = get_margin(v), .tolerance = v->settings->tolerance, .wants_proof = 1};
     claim asked = *item;
     ovoid_error error;
     asked.record = (ovoid_record){.fields = OVOID_RECORD_PARTS};

@@ -86,7 +86,8 @@ void page_pairs_end(page_pairs *list) { fputc(']', list->file); }
 
 /// Answers a block of pairs: a line for each of them. 0, or an exit code after a message.
 static int answer(const answers_job *job, char **text, size_t *size) {
-    unsigned fields = OVOID_RECORD_PARTS | (job->margin >= 0 ? OVOID_RECORD_MARGIN : 0) | inputs_get_fields(job->scene);
+    unsigned fields = OVOID_RECORD_PARTS | (job->margin >= 0 ? OVOID_RECORD_MARGIN : 0) |
+                      (job->contacts ? OVOID_RECORD_CONTACTS : 0) | inputs_get_fields(job->scene);
     FILE *file = open_memstream(text, size);
     if (!file) return message_error("out of memory"), EXIT_INPUT;
     cli_results results = {.file = file, .settings = &as_json, .unit = "", .fields = fields};

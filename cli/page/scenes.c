@@ -51,7 +51,7 @@ static ovoid_mesh_kind get_kind(const page_body *b) {
 static int write_pair(page_pairs *list, const page_bodies_source *source) {
     const page_body *b = source->bodies;
     const ovoid_body_pair pair = {get_body(&b[0]), get_body(&b[1])};
-    const answers_query query = {QUERY_DISTANCE, source->margin, 0, 1, NULL};
+    const answers_query query = {.query = QUERY_DISTANCE, .margin = source->margin, .wants_proof = 1};
     ovoid_record record = {.a = b[0].name,
                            .b = b[1].name,
                            .fields = OVOID_RECORD_PARTS | (source->margin >= 0 ? OVOID_RECORD_MARGIN : 0),

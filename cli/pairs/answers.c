@@ -92,7 +92,7 @@ int answers_find(answer_room *room, const ovoid_body_pair *pair, const answers_q
     record->cover = query->wants_proof && room->cover->point_count ? room->cover : NULL;
     record->exclusions = proof->items;
     record->exclusion_count = proof->count;
-    return 1;
+    return !query->contacts || contacts_find(pair, query->contacts, record);
 }
 
 void answer_room_clear(answer_room *room) {
@@ -125,7 +125,7 @@ static int make_record(const answers_job *job, chunk *k, size_t i, int wants_pro
                                    .time = job->time,
                                    .margin = job->margin,
                                    .frame = NAN};
-    const answers_query query = {job->query, job->margin, job->tolerance, wants_proof, NULL};
+    const answers_query query = {job->query, job->margin, job->tolerance, wants_proof, NULL, job->contacts};
     answers_describe(job->scene, c, &k->records[i]);
     return answers_find(&k->room, &pair, &query, &k->records[i]);
 }
@@ -135,7 +135,7 @@ static void work(void *context, void *slot) {
     chunk *k = slot;
     int lines = job->results && results_are_lines(job->results);
     int proofs = job->results && results_have_proofs(job->results);
-    if (!k->records) k->records = malloc(CHUNK * sizeof *k->records);
+    if (!k->records) k->records = calloc(CHUNK, sizeof *k->records);
     FILE *file = lines ? open_memstream(&k->text, &k->size) : NULL;
     k->failed = !k->records || (lines && !file);
     for (size_t i = 0; i < k->count && !k->failed; i++) {
@@ -169,6 +169,7 @@ static int drain(void *context, void *slot) {
     for (size_t i = 0; i < k->count && !code; i++) {
         if (job->results && !lines) code = results_add(job->results, &k->records[i]);
         if (job->take) job->take(job->context, k->first + i, &k->records[i]);
+        contacts_clear(&k->records[i]);
     }
     free(k->text);
     k->text = NULL;
@@ -179,6 +180,7 @@ static int drain(void *context, void *slot) {
 static void clear(void *slot) {
     chunk *k = slot;
     answer_room_clear(&k->room);
+    for (size_t i = 0; k->records && i < CHUNK; i++) contacts_clear(&k->records[i]);
     free(k->records);
     free(k->text);
 }

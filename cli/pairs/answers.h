@@ -2,6 +2,7 @@
 #ifndef OVOID_CLI_PAIRS_ANSWERS_H
 #define OVOID_CLI_PAIRS_ANSWERS_H
 
+#include "contacts.h"
 #include "results.h"
 
 #include <ovoid/ovoid.h>
@@ -22,12 +23,14 @@ typedef struct answer_room {
 typedef struct answers_query {
     int query; ///< of enum query
     double margin, tolerance;
-    int wants_proof;                 ///< 1: with cover and exclusions
-    const ovoid_body_proof *earlier; ///< of this pair, or NULL
+    int wants_proof;                        ///< 1: with cover and exclusions
+    const ovoid_body_proof *earlier;        ///< of this pair, or NULL
+    const ovoid_manifold_options *contacts; ///< of the contacts that the record is to have; NULL: none
 } answers_query;
 
 /// Answers one query: sets the record's answer and parts, and with a proof its cover and exclusions, which are in the
-/// room until the next call; so is the answer of a pair with a solid. 0 if memory runs out.
+/// room until the next call; so is the answer of a pair with a solid. Contacts are the record's own: contacts_clear
+/// frees them. 0 if memory runs out.
 int answers_find(answer_room *room, const ovoid_body_pair *pair, const answers_query *query, ovoid_record *record);
 void answer_room_clear(answer_room *room);
 
@@ -50,6 +53,7 @@ typedef struct answers_job {
     unsigned threads;
     const void *couples; ///< ovoid_couple, `stride` bytes apart
     size_t stride, count;
+    const ovoid_manifold_options *contacts; ///< of the contacts of the records; NULL: they have none
     double time;
     cli_results *results; ///< where records are written; NULL: nowhere
     int are_units;        ///< 1: each pair is a unit of a shard's work

@@ -19,6 +19,7 @@ typedef struct settings {
     unsigned threads, top;
     int hull;
     double margin, tolerance; ///< margin negative: not given
+    contacts_settings contacts;
     shard_part part;
     const char *html;
 } settings;
@@ -30,6 +31,7 @@ static const cli_option options[] = {
      "list the N nearest pairs, 0: all; all are counted (default: of a table without --margin 20, else all)"},
     {"tol", 0, OPTION_LENGTH, offsetof(settings, tolerance), "T", NULL,
      "stop when the bracket of a pair is at most T wide, or 1e-9 of its size (default: the latter alone)"},
+    CONTACTS_OPTIONS(settings),
     INPUTS_HULL_OPTION(settings),
     THREADS_OPTION(settings),
     SHARD_OPTION(settings),
@@ -58,8 +60,9 @@ typedef struct check {
     size_t row_count;
     cli_results results;
     cli_page page;
-    const char *path; ///< of the scene
-    size_t kept;      ///< rows of a shard that an earlier run wrote
+    ovoid_manifold_options contacts; ///< of the records, if they are wanted
+    const char *path;                ///< of the scene
+    size_t kept;                     ///< rows of a shard that an earlier run wrote
 } check;
 
 /// Makes the rows of all pairs, or of those that are near. 0, or EXIT_INPUT after a message.
@@ -162,8 +165,16 @@ static int sort_rows(check *c) {
     return code;
 }
 
+/// The pairs that are listed, as they are written: with their contacts.
+static answers_job make_listed_job(check *c) {
+    answers_job job = make_job(c);
+    if (c->settings->contacts.wanted) job.contacts = &c->contacts;
+    return job;
+}
+
 static unsigned get_fields(const check *c) {
-    return OVOID_RECORD_PARTS | (c->settings->margin >= 0 ? OVOID_RECORD_MARGIN : 0) | inputs_get_fields(c->scene);
+    return OVOID_RECORD_PARTS | (c->settings->margin >= 0 ? OVOID_RECORD_MARGIN : 0) |
+           (c->settings->contacts.wanted ? OVOID_RECORD_CONTACTS : 0) | inputs_get_fields(c->scene);
 }
 
 /* ---- a shard */
@@ -188,7 +199,7 @@ static int run_shard(check *c, const cli_command *command, const cli_operands *p
     if (results_open_shard(&c->results, &s->out, get_fields(c), &shard)) return EXIT_INPUT;
     uint64_t done = results_get_done(&c->results);
     int code = done == UINT64_MAX ? 0 : sort_rows(c);
-    answers_job job = make_job(c);
+    answers_job job = make_listed_job(c);
     job.count = get_listed(c);
     c->kept = done < job.count ? (size_t)done : job.count;
     job.couples = c->kept ? c->rows + c->kept : c->rows;
@@ -207,7 +218,7 @@ static int run_check(check *c) {
     if (code) return code;
     // Their answers, written.
     if (results_open(&c->results, &s->out, get_fields(c), ovoid_scene_get_unit(c->scene))) return EXIT_INPUT;
-    answers_job job = make_job(c);
+    answers_job job = make_listed_job(c);
     job.results = &c->results;
     job.count = get_listed(c);
     code = answers_run(&job);
@@ -217,7 +228,7 @@ static int run_check(check *c) {
     if (code != worst) return code;
     if (job.count < c->row_count) message_note("%zu more pairs: --top 0, or --json", c->row_count - job.count);
     report_counts(c, &t, progress_get_seconds() - start);
-    job = make_job(c);
+    job = make_listed_job(c);
     return page_write_scene(&c->page, c->path, &job) ? EXIT_INPUT : code;
 }
 
@@ -227,8 +238,10 @@ static int run(const cli_command *command, int argc, char **argv) {
     int code = command_parse(command, argc, argv, &s, &paths);
     if (code < 0) code = results_settle_part(command, &s.out, s.part);
     if (code < 0) code = page_settle(command, s.html, s.part);
+    if (code < 0) code = contacts_settle(command, &s.contacts);
     if (code >= 0) return code;
-    check c = {.settings = &s, .path = paths.items[0]};
+    check c = {
+        .settings = &s, .path = paths.items[0], .contacts = contacts_make_options(&s.contacts, s.margin, s.tolerance)};
     if (page_open(&c.page, s.html)) return EXIT_INPUT;
     ovoid_scene *scene = inputs_read_scene(paths.items[0], s.hull);
     if (!scene) return page_close(&c.page), EXIT_INPUT;
@@ -266,7 +279,8 @@ const cli_command command_check = {
              "3 bad input, or output that could not be written\n"
              "4 for some pair the sign (with --margin: the side of M) is not proven; this comes before 1",
     .examples = "ovoid check cell.json\n"
-                "ovoid check cell.json --margin 0.02 --json -o near.jsonl",
+                "ovoid check cell.json --margin 0.02 --json -o near.jsonl\n"
+                "ovoid check stack.json --margin 0.001 --contacts",
     .options = options,
     .operands_min = 1,
     .operands_max = 1,

@@ -173,7 +173,8 @@ static int verify_record(const ovoid_body_pair *pair, const ovoid_record *record
 /// Answers the pair, verifies the proof, writes the record. Returns the exit code.
 static int answer_pair(const settings *s, const cli_body bodies[2], const char *const paths[2]) {
     ovoid_body_pair pair = {inputs_get_body(&bodies[0], &s->pose_a), inputs_get_body(&bodies[1], &s->pose_b)};
-    const answers_query query = {QUERY_DISTANCE, s->margin, s->tolerance, 1, NULL};
+    const answers_query query = {
+        .query = QUERY_DISTANCE, .margin = s->margin, .tolerance = s->tolerance, .wants_proof = 1};
     answer_room room = {.cover = NULL};
     cli_results results;
     ovoid_record record = {.a = paths[0], .b = paths[1], .margin = s->margin};

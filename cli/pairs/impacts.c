@@ -233,7 +233,8 @@ static int answer_compounds(const cli_impacts *impacts, const impact *item, answ
     ovoid_pose poses[2] = {ovoid_motion_compute_pose(&motions[0], at), ovoid_motion_compute_pose(&motions[1], at)};
     ovoid_body_pair pair = {answers_get_body(impacts->scene, c.a, &poses[0]),
                             answers_get_body(impacts->scene, c.b, &poses[1])};
-    answers_query query = {QUERY_WITHIN, impacts->margin, 0, results_have_proofs(impacts->results), NULL};
+    answers_query query = {
+        .query = QUERY_WITHIN, .margin = impacts->margin, .wants_proof = results_have_proofs(impacts->results)};
     int done = answers_find(room, &pair, &query, record);
     if (!done || !is_hit(item) || record->answer.upper <= impacts->margin) return done;
     // For bodies with allowances the few pairs of one proof may prove less than those of the hit.

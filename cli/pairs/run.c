@@ -27,6 +27,7 @@ typedef struct settings {
     int query, continuous, hull;
     unsigned threads;
     double margin, tolerance; ///< margin negative: not given
+    contacts_settings contacts;
     shard_part part;
 } settings;
 
@@ -45,6 +46,7 @@ static const cli_option options[] = {
      "stop when the bracket of a pair is at most T wide, or 1e-9 of its size (default: the latter alone)"},
     {"plot", 0, OPTION_OUTPUT, offsetof(settings, plot), "FILE", "svg",
      "draw the distances of the nearest pairs over time, an SVG file"},
+    CONTACTS_OPTIONS(settings),
     INPUTS_HULL_OPTION(settings),
     PAGE_OPTION(settings),
     THREADS_OPTION(settings),
@@ -63,8 +65,9 @@ typedef struct run_state {
     cli_track track;
     cli_results results;
     cli_page page;
-    page_motion motion; ///< of the page
-    size_t counts[4];   ///< of the records of frames, by ovoid_status
+    page_motion motion;              ///< of the page
+    ovoid_manifold_options contacts; ///< of the records of frames, if they are wanted
+    size_t counts[4];                ///< of the records of frames, by ovoid_status
     exit_code worst;
     int code;      ///< the exit code of a failed callback, or 0
     uint64_t kept; ///< frames of a shard that an earlier run wrote
@@ -123,6 +126,7 @@ static int answer_frame(run_state *r, int is_kept) {
                        .couples = r->near.couples,
                        .stride = sizeof *r->near.couples,
                        .count = r->near.count,
+                       .contacts = s->contacts.wanted && !is_kept ? &r->contacts : NULL,
                        .time = r->frames.time,
                        .results = is_kept ? NULL : &r->results,
                        .take = is_kept ? take_held : take_record,
@@ -181,7 +185,8 @@ static int open_all(run_state *r) {
 static unsigned get_fields(const run_state *r) {
     const settings *s = r->settings;
     return inputs_get_fields(r->scene) | OVOID_RECORD_TIME | OVOID_RECORD_PARTS |
-           (s->continuous ? OVOID_RECORD_IMPACT : 0) | (s->margin >= 0 ? OVOID_RECORD_MARGIN : 0);
+           (s->contacts.wanted ? OVOID_RECORD_CONTACTS : 0) | (s->continuous ? OVOID_RECORD_IMPACT : 0) |
+           (s->margin >= 0 ? OVOID_RECORD_MARGIN : 0);
 }
 
 /// Runs the motion for the pairs of a shard. Frames cannot be divided, since a world keeps the proof of a pair from
@@ -211,6 +216,7 @@ static int write_page(run_state *r, const char *title) {
                              .query = QUERY_DISTANCE,
                              .margin = s->margin,
                              .tolerance = s->tolerance,
+                             .contacts = s->contacts.wanted ? &r->contacts : NULL,
                              .threads = s->threads};
     const page_run run = {&r->motion, &r->track, s->continuous ? get_margin(s) : s->margin};
     r->motion.is_continuous = s->continuous && !r->frames.speed;
@@ -254,6 +260,7 @@ static int settle(const cli_command *command, settings *s) {
     if (s->plot && s->part.count)
         return args_complain(command, "run: --plot is of all pairs, --shard of a part of them");
     int code = page_settle(command, s->html, s->part);
+    if (code < 0) code = contacts_settle(command, &s->contacts);
     return code < 0 ? results_settle_part(command, &s->out, s->part) : code;
 }
 
@@ -263,7 +270,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     int code = command_parse(command, argc, argv, &s, &paths);
     if (code < 0) code = settle(command, &s);
     if (code >= 0) return code;
-    run_state r = {.settings = &s};
+    run_state r = {.settings = &s, .contacts = contacts_make_options(&s.contacts, s.margin, s.tolerance)};
     if (page_open(&r.page, s.html)) return EXIT_INPUT;
     ovoid_scene *scene = inputs_read_scene(paths.items[0], s.hull);
     if (!scene) return page_close(&r.page), EXIT_INPUT;

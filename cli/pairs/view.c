@@ -173,7 +173,7 @@ static int add_link(drawing *d, size_t a, size_t b, const found_answer *found) {
     return 0;
 }
 
-static const answers_query distance_query = {QUERY_DISTANCE, -1, 0, 0, NULL};
+static const answers_query distance_query = {.query = QUERY_DISTANCE, .margin = -1};
 
 /// Links each object with the nearest one; a mutually nearest pair once.
 static int link_nearest(drawing *d, const ovoid_scene *scene) {
@@ -199,7 +199,7 @@ static int link_nearest(drawing *d, const ovoid_scene *scene) {
 
 /// Links all pairs that are not proven farther than the margin.
 static int link_within(drawing *d, const ovoid_scene *scene, double margin) {
-    const answers_query within = {QUERY_WITHIN, margin, 0, 0, NULL};
+    const answers_query within = {.query = QUERY_WITHIN, .margin = margin};
     int code = 0;
     for (size_t a = 0; a < d->body_count; a++)
         for (size_t b = a + 1; b < d->body_count && !code; b++) {

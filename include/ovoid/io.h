@@ -14,6 +14,7 @@
 
 #include "ovoid/body.h"
 #include "ovoid/decompose.h"
+#include "ovoid/manifold.h"
 #include "ovoid/motion.h"
 
 #include <stdio.h>
@@ -329,7 +330,8 @@ typedef enum ovoid_record_field {
     OVOID_RECORD_MARGIN = 8,  /**< the margin of the query */
     OVOID_RECORD_PROOF = 16,  /**< of CSV: the proof, as the last column; JSON always has it */
     OVOID_RECORD_MESHES = 32, /**< the volumes of the bodies' meshes and of their hulls */
-    OVOID_RECORD_SOLIDS = 64  /**< of CSV: the triangles that decide, and what is inside; JSON has them with `solid` */
+    OVOID_RECORD_SOLIDS = 64, /**< of CSV: the triangles that decide, and what is inside; JSON has them with `solid` */
+    OVOID_RECORD_CONTACTS = 128 /**< the contact manifolds of the bodies; not of an impact */
 } ovoid_record_field;
 
 /** The largest number of exclusions, steps and groups, all together, of a record in a line of JSON. */
@@ -340,6 +342,17 @@ typedef enum ovoid_record_field {
 
 /** The part of a body that is not a compound. */
 #define OVOID_RECORD_NO_PART UINT32_MAX
+
+/** The contact of a part of a and a part of b, as in results files. */
+typedef struct ovoid_record_contact {
+    uint32_t part_a, part_b; /**< 0-based; 0: the body is not a compound */
+    ovoid_manifold manifold; /**< of its memory the flags alone are written, the rest is zero where it was read */
+    const ovoid_manifold_point *points;
+    size_t point_count;       /**< that of the manifold */
+    double grown;             /**< as in ovoid_manifold_points */
+    double inner, outer;      /**< the areas of its polygon */
+    const ovoid_cover *cover; /**< of a proof by a search; NULL: none */
+} ovoid_record_contact;
 
 /** The answer for one pair of bodies, as in results files. */
 typedef struct ovoid_record {
@@ -366,6 +379,10 @@ typedef struct ovoid_record {
     ovoid_convexity mesh_a, mesh_b; /**< of their meshes: the allowance, written where it is not 0 and the kind is HULL;
                                          the volumes, NaN where there is no mesh, or it has none */
     const ovoid_body_answer *solid; /**< the answer of solids, beside `answer`; NULL: there is none */
+    double contact_margin, contact_angle; /**< with OVOID_RECORD_CONTACTS: the options of the contacts */
+    ovoid_limit contact_limit; /**< NONE, or why the bodies have no contacts, however near they are: SHAPE_A, SHAPE_B */
+    const ovoid_record_contact *contacts; /**< up to the margin, sorted by part_a, then part_b; NULL: none */
+    size_t contact_count;
 } ovoid_record;
 
 /**
@@ -382,14 +399,15 @@ OVOID_API void ovoid_record_set_solid(ovoid_record *record, const ovoid_body_ans
  * allowance_a, and where they are given mesh_volume_a and hull_volume_a; then what belongs to b. Behind within, where
  * one solid has a component in the other, inside and component; docs/formats.md has them. within is what the bracket
  * says of the margin: "yes", "no" (farther), "at" (the bracket is as narrow as asked and holds the margin) or
- * "unproven". FILE where the stream failed; LIMIT, and nothing is written, where the record has too many items.
+ * "unproven". Before the proof stand contact_margin, contact_angle and, where there are some, contacts. FILE where the
+ * stream failed; LIMIT, and nothing is written, where the record has too many items.
  */
 OVOID_API ovoid_code ovoid_record_write_json(FILE *file, const ovoid_record *record);
 
 /**
  * Writes the header of CSV, with the columns of ovoid_record_write_json: vectors are three columns, the proof, if it is
- * wanted, is one field of JSON. fields: of all records; TIME, IMPACT, MESHES, SOLIDS and PROOF choose columns, all
- * others are always there.
+ * wanted, is one field of JSON. fields: of all records; TIME, IMPACT, MESHES, SOLIDS, CONTACTS and PROOF choose
+ * columns, all others are always there; contacts are a column of JSON.
  */
 OVOID_API ovoid_code ovoid_record_write_csv_header(FILE *file, unsigned fields);
 /** Writes one line of CSV, with the columns that the record's fields choose; a column without a value is empty. */
@@ -405,7 +423,8 @@ OVOID_API size_t ovoid_answer_write_distance(char text[64], const ovoid_answer *
  * A table for people, in the given order, with a column for the time if the first record has one. The part of a
  * compound follows its name, as in "arm[3]"; the columns of the bracket are the distance, as in
  * ovoid_answer_write_distance, and the width. unit: of the lengths, for the title; NULL or "": none. Behind the numbers
- * are the result for a record's margin, and the limit that left a bracket wide.
+ * are the result for a record's margin, and the limit that left a bracket wide. Below a pair stand its contacts, each
+ * with its points.
  */
 OVOID_API ovoid_code ovoid_records_write_table(FILE *file, const ovoid_record *records, size_t count, const char *unit);
 

@@ -204,6 +204,11 @@ static void write_column(FILE *file, const field *f, fields_item of) {
         fields_write_json(file, "\"\"", (fields_item){f->table, at, of.bits});
         fputc('"', file);
         break;
+    case FIELD_LIST:
+        fputc('"', file);
+        write_list(file, "\"\"", f, of);
+        fputc('"', file);
+        break;
     case FIELD_OWN: f->own->write(file, NULL, item); break;
     default: write_value(file, "", f, of); break;
     }

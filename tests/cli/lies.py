@@ -26,6 +26,8 @@ WORDS = {
     "kind_b": ["hull", "parts", "solid", "surface"],
     "inside": ["a in b", "b in a"],
     "frame": ["a", "b"],
+    "axis": ["face a", "face b", "edges", "free", "none"],
+    "proof": ["points", "facets", "search", "none"],
 }
 # Of each record one lie in so many is told, of the next record the next one; OVOID_LIES=1 tells all.
 STRIDE = int(os.environ.get("OVOID_LIES", "3"))
@@ -118,6 +120,64 @@ def find_false_times(record, pair):
     return "the time is not that of the frame" if record["time"] != record["frame"] + at else None
 
 
+# ---- contacts
+
+
+def find_overlap(a, b, axis):
+    """The area of the intersection of two boxes' shadows along an axis."""
+    return math.prod(max(0, min(a[1][i], b[1][i]) - max(a[0][i], b[0][i])) for i in range(3) if i != axis)
+
+
+def find_false_corner(told, honest, a, b, contact):
+    n = contact["normal"]
+    p, q = told["point_a"], told["point_b"]
+    if told["id"] != honest["id"]:
+        return "the id of a point"
+    if not (is_on([a], p) and is_on([b], q)):
+        return "a point of contact is not on its body"
+    off = math.dist([y - x for x, y in zip(p, q)], [told["separation"] * c for c in n])
+    return "the separation" if off > NEAR else None
+
+
+def find_false_contact(told, honest, pair, margin):
+    """Boxes that meet face on face: all is a closed form; which features meet is what the honest contact says."""
+    # The nearest points of a facet and a vertex have the facet's normal too.
+    is_free = told["axis"] == "free" and all(told[k] == honest[k] for k in ("feature_a", "feature_b"))
+    if told["axis"] != honest["axis"] and not is_free:
+        return "axis of a contact"
+    for key in ("part_a", "part_b", "facet_a", "facet_b", "corners", "share"):
+        if told.get(key) != honest[key]:
+            return f"{key} of a contact"
+    # A facet makes the axis; what is beside it is the vertex below it, of which there may be several.
+    side = {"face a": "feature_a", "face b": "feature_b"}.get(honest["axis"])
+    if side and told[side] != honest[side]:
+        return f"{side} of a contact"
+    a, b = pair.a[told["part_a"]], pair.b[told["part_b"]]
+    d, (lower, upper) = measure_parts(a, b), find_bracket(told)
+    if not lower <= d <= upper or find_false_status(told["status"], lower, upper) or upper > max(margin, 0) + NEAR:
+        return "the bracket of a contact"
+    if abs(math.hypot(*told["normal"]) - 1) > 1e-11 or measure_gap([a], [b], told["normal"]) < lower:
+        return "the normal of a contact"
+    area = find_overlap(a, b, max(range(3), key=lambda i: abs(told["normal"][i])))
+    if not told["inner"] <= area <= told["outer"]:
+        return "the area of a contact"
+    points, others = told.get("points", []), honest["points"]
+    if len(points) != len(others):
+        return "the number of points"
+    return next(filter(None, (find_false_corner(p, q, a, b, told) for p, q in zip(points, others))), None)
+
+
+def find_false_contacts(record, honest, pair):
+    margin = record.get("contact_margin")
+    near = [(i, k) for i, p in enumerate(pair.a) for k, q in enumerate(pair.b) if measure_parts(p, q) <= margin]
+    told, others = record.get("contacts", []), honest.get("contacts", [])
+    if [(c.get("part_a"), c.get("part_b")) for c in told] != near:
+        return "which parts are in contact"
+    by_parts = {(c["part_a"], c["part_b"]): c for c in others}
+    checks = (find_false_contact(c, by_parts[c["part_a"], c["part_b"]], pair, margin) for c in told)
+    return next(filter(None, checks), None)
+
+
 def find_lie(record, honest, pair, margin):
     """What of a record is false, or None. honest: the record before it was altered."""
     lower, upper = find_bracket(record)
@@ -134,13 +194,15 @@ def find_lie(record, honest, pair, margin):
             return key
     if record["status"] == "undecided":
         return find_false_times(record, pair)
-    return find_false_points(record, pair, lower, upper) or find_false_times(record, pair)
+    contacts = find_false_contacts(record, honest, pair) if "contact_margin" in honest else None
+    return contacts or find_false_points(record, pair, lower, upper) or find_false_times(record, pair)
 
 
 # ---- lies of one field
 
 
-INDICES = {"a", "b", "part_a", "part_b", "triangle_a", "triangle_b", "component", "count", "pairs", "triangles"}
+INDICES = {"a", "b", "part_a", "part_b", "triangle_a", "triangle_b", "component", "count", "pairs", "triangles", "id", "feature_a",
+           "feature_b", "facet_a", "facet_b", "corners"}
 
 
 def alter_index(x):
@@ -363,11 +425,11 @@ def make_pairs(bodies, **facts):
     return {(p, q): Pair(bodies[p], bodies[q], **facts) for p, q in itertools.combinations(bodies, 2)}
 
 
-def try_scene(name, bodies, shapes, options=(), samples=99, **facts):
-    """bodies as make_scene has them, shapes their boxes in their own frames."""
+def try_scene(name, bodies, shapes, options=(), samples=99, verify=None, **facts):
+    """bodies as make_scene has them, shapes their boxes in their own frames. verify: its options, if they are others."""
     scene = make_scene(name + ".json", bodies)
     truth = make_pairs({n: moved(shapes[n], at) for n, (_, at) in bodies.items()}, **facts)
-    case = Case(name, ["check", scene, *options], [scene, *options], truth)
+    case = Case(name, ["check", scene, *options], [scene, *(options if verify is None else verify)], truth)
     case.tell_all(samples)
     case.tell_files()
     return case
@@ -391,6 +453,28 @@ def try_shapes():
     all_pairs.tell_file("an ignored pair", all_pairs.records, 4)
     twin = dict(all_pairs.records[0], b=all_pairs.records[0]["a"])
     all_pairs.tell_file("a body and itself", [twin], 4)
+
+
+def try_contacts():
+    """Boxes that stand on one another, deep, apart within the margin, and part by part."""
+    cube, tile = {"box": [1, 1, 1]}, {"box": [0.5, 0.25, 0.5]}
+    parts = [{"box": [2, 1, 1]}, {"box": [1, 1, 2], "pose": {"xyz": [0, 0, -1.5]}}]
+    tee = box([2, 1, 1]) + box([1, 1, 2], (0, 0, -1.5))
+    bodies = {"floor": (cube, (0, 0, 0)), "tile": (tile, (0.25, 0.125, 0.6875)), "lid": (cube, (0.25, 0.25, 1.4375 + 0.0078125)),
+              "tee": ({"compound": parts}, (0.125, 1, 2.375))}
+    shapes = {"floor": box([1, 1, 1]), "tile": box([0.5, 0.25, 0.5]), "lid": box([1, 1, 1]), "tee": tee}
+    case = try_scene("contacts", bodies, shapes, ["--margin", "0.015625", "--contacts"], verify=["--margin", "0.015625"])
+    with_contacts = [r for r in case.records if "contacts" in r]
+    if len(with_contacts) < 3 or max(len(r["contacts"]) for r in with_contacts) < 2:
+        failures.append("contacts: too few to lie about")
+    for record in with_contacts:
+        rest = take(record, ("contacts",))
+        for key in ("contact_margin", "contact_angle"):
+            case.tell_file(f"contacts without {key}", [take(record, (key,))], 3, options=["--partial"])
+        case.tell_file("contacts that are left out", [rest], 4, options=["--partial"])
+        case.tell_file("no contacts were asked", [take(take(rest, ("contact_margin",)), ("contact_angle",))], 0, options=["--partial"])
+        case.tell_file("a limit in their place", [dict(rest, contact_limit="shape_a")], 4, options=["--partial"])
+        case.tell_file("the first of them twice", [put(record, ("contacts",), record["contacts"][:1] + record["contacts"])], 4, options=["--partial"])
 
 
 def try_nothing_near():
@@ -508,7 +592,7 @@ def try_turning():
     case.tell_all()
 
 
-TRIALS = (try_shapes, try_nothing_near, try_compounds, try_solids, try_cylinder, try_batch, try_distance, try_motions, try_turning)
+TRIALS = (try_shapes, try_contacts, try_nothing_near, try_compounds, try_solids, try_cylinder, try_batch, try_distance, try_motions, try_turning)
 for name, side in (("big.obj", 2), ("cube.obj", 1), ("small.obj", 0.5)):
     make_cube(name, side)
 for trial in TRIALS:

@@ -91,42 +91,14 @@ static const char *read_within(const json_t *value, void *line) {
 // ---- covers
 
 static void write_cover(FILE *file, const char *q, const void *line) {
-    const ovoid_cover *cover = ((const ovoid_record *)line)->cover;
-    fprintf(file, "{%spairs%s:", q, q);
-    for (uint32_t i = 0; i < cover->point_count; i++)
-        fprintf(file, "%s[%lu,%lu]", i ? "," : "[", (unsigned long)cover->a[i], (unsigned long)cover->b[i]);
-    fprintf(file, "],%striangles%s:", q, q);
-    for (uint32_t i = 0; i < cover->triangle_count; i++) {
-        const uint16_t *t = cover->triangles[i];
-        fprintf(file, "%s[%u,%u,%u]", i ? "," : "[", (unsigned)t[0], (unsigned)t[1], (unsigned)t[2]);
-    }
-    fputs(cover->triangle_count ? "]}" : "[]}", file);
+    record_cover_write(file, q, ((const ovoid_record *)line)->cover);
 }
 
 static const char *read_cover(const json_t *value, void *line) {
     ovoid_cover *cover = ((record_line *)line)->cover;
-    const json_t *pairs = json_object_get(value, "pairs"), *triangles = json_object_get(value, "triangles");
-    size_t points = json_array_size(pairs), count = json_array_size(triangles);
-    double v[3];
-    if (json_object_size(value) != 2 || !json_is_array(pairs) || !json_is_array(triangles))
-        return "must have \"pairs\" and \"triangles\", two lists, and no more";
-    if (!points || points > OVOID_COVER_POINTS) return "must have 1 to 512 pairs";
-    if (count > 2 * OVOID_COVER_POINTS) return "must have at most 1024 triangles";
-    for (size_t i = 0; i < points; i++) {
-        if (!json_read_wholes(json_array_get(pairs, i), 2, UINT32_MAX, v))
-            return "must have pairs of vertices as its \"pairs\"";
-        cover->a[i] = (uint32_t)v[0];
-        cover->b[i] = (uint32_t)v[1];
-    }
-    for (size_t i = 0; i < count; i++) {
-        if (!json_read_wholes(json_array_get(triangles, i), 3, (double)(points - 1), v))
-            return "must have triples of pairs as its \"triangles\"";
-        for (int k = 0; k < 3; k++) cover->triangles[i][k] = (uint16_t)v[k];
-    }
-    cover->point_count = (uint32_t)points;
-    cover->triangle_count = (uint32_t)count;
-    ((ovoid_record *)line)->cover = cover;
-    return NULL;
+    const char *wrong = record_cover_read(value, cover);
+    if (!wrong) ((ovoid_record *)line)->cover = cover;
+    return wrong;
 }
 
 static const field_own own_a = {write_a, read_a}, own_b = {write_b, read_b}, own_within = {write_within, read_within},
@@ -223,6 +195,9 @@ static const field_table proof = FIELD_TABLE_READ(record_line, proof_fields, "do
 #define VOLUME(member)                                                                                                 \
     RECORD(member), .bit = RECORD_VOLUMES, .if_null = NAN, .column = OVOID_RECORD_MESHES,                              \
                     .wrong = "must be a number or null", .apart = "is missing: volumes come together"
+#define CONTACT(bits)                                                                                                  \
+    .bit = (bits), .column = OVOID_RECORD_CONTACTS,                                                                    \
+    .apart = "goes with \"contact_margin\" and \"contact_angle\", and a limit or contacts with one another not"
 static const field record_fields[] = {
     {"time", FIELD_FINITE, TIMED(time, RECORD_TIME, 0, OVOID_RECORD_TIME), .wrong = NUMBER},
     {"frame", FIELD_FINITE, TIMED(frame, RECORD_IMPACT, 0, OVOID_RECORD_IMPACT), .wrong = TIMES},
@@ -262,6 +237,12 @@ static const field record_fields[] = {
     {"allowance_b", FIELD_NUMBER, ALLOWANCE(mesh_b.allowance, RECORD_ALLOWANCE_B)},
     {"mesh_volume_b", FIELD_MEASURE, VOLUME(mesh_b.mesh_volume)},
     {"hull_volume_b", FIELD_MEASURE, VOLUME(mesh_b.hull_volume)},
+    {"contact_margin", FIELD_FINITE, RECORD(contact_margin), CONTACT(RECORD_CONTACTS), .wrong = NUMBER},
+    {"contact_angle", FIELD_FINITE, RECORD(contact_angle), CONTACT(RECORD_CONTACTS), .wrong = NUMBER},
+    {"contact_limit", FIELD_NAME, RECORD(contact_limit), .names = &limits, CONTACT(RECORD_CONTACT_LIMIT),
+     .wrong = "is not a limit"},
+    {"contacts", FIELD_LIST, LIST(contacts, contact_count), .table = &record_contact_table,
+     CONTACT(RECORD_CONTACT_LIST)},
     {"proof", FIELD_OBJECT, .table = &proof, .column = OVOID_RECORD_PROOF},
 };
 const field_table record_table = FIELD_TABLE_READ(record_line, record_fields, "is not a key of results", "is missing");
@@ -300,6 +281,12 @@ static uint64_t find_solid_bits(const record_line *line) {
     return r->answer.lower <= 0 && r->answer.lower != -INFINITY ? bits | RECORD_PARTING : bits;
 }
 
+static uint64_t find_contact_bits(const ovoid_record *r) {
+    uint64_t bits = RECORD_CONTACTS;
+    if (r->contact_limit != OVOID_LIMIT_NONE) return bits | RECORD_CONTACT_LIMIT;
+    return r->contact_count ? bits | RECORD_CONTACT_LIST : bits;
+}
+
 uint64_t record_find_bits(const record_line *line) {
     const ovoid_record *r = &line->record;
     ovoid_proof_kind kind = r->answer.proof.kind;
@@ -316,5 +303,6 @@ uint64_t record_find_bits(const record_line *line) {
     if (kind == OVOID_PROOF_INNER || kind == OVOID_PROOF_INNER_POINTS) bits |= RECORD_INNER_A;
     if (kind == OVOID_PROOF_INNER_POINTS) bits |= RECORD_INNER_B;
     if (r->cover && r->cover->point_count) bits |= RECORD_COVER;
+    if (r->fields & OVOID_RECORD_CONTACTS && !record_is_impact(r)) bits |= find_contact_bits(r);
     return r->solid ? bits | find_solid_bits(line) : bits;
 }

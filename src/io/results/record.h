@@ -36,8 +36,27 @@ enum {
     RECORD_INNER_B = 1 << 16,
     RECORD_COVER = 1 << 17,
     RECORD_SURFACES = 1 << 18,
-    RECORD_PARTING = 1 << 19
+    RECORD_PARTING = 1 << 19,
+    RECORD_CONTACTS = 1 << 20,
+    RECORD_CONTACT_LIMIT = 1 << 21,
+    RECORD_CONTACT_LIST = 1 << 22
 };
+
+/// A cover in JSON. record_cover_read: what is wrong, or NULL.
+void record_cover_write(FILE *file, const char *quote, const ovoid_cover *cover);
+const char *record_cover_read(const struct json_t *value, ovoid_cover *cover);
+
+/// The table of ovoid_record_contact.
+extern const field_table record_contact_table;
+/// Sets what follows from the fields of contacts that were read; what is wrong, or NULL.
+const char *record_contacts_settle(ovoid_record *record);
+/// Frees the covers of contacts that were read, and leaves the record without contacts.
+void record_contacts_clear(ovoid_record *record);
+/// The room that contacts take in a line, in items of OVOID_RECORD_ITEMS_MAX.
+size_t record_contacts_count_items(const ovoid_record *record);
+
+/// Writes the contacts of a record as lines of a table, below its row; of one without any nothing.
+void table_write_contacts(FILE *file, const ovoid_record *record);
 
 /// The bits of what the line has.
 uint64_t record_find_bits(const record_line *line);

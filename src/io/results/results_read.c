@@ -39,6 +39,7 @@ static void set_fields(record_line *line, uint64_t bits) {
     if (bits & (RECORD_PART_A | RECORD_PART_B)) r->fields |= OVOID_RECORD_PARTS;
     if (bits & RECORD_MARGIN) r->fields |= OVOID_RECORD_MARGIN;
     if (bits & RECORD_VOLUMES) r->fields |= OVOID_RECORD_MESHES;
+    if (bits & (RECORD_CONTACTS | RECORD_CONTACT_LIMIT | RECORD_CONTACT_LIST)) r->fields |= OVOID_RECORD_CONTACTS;
 }
 
 // The answer of solids: the deciding pair's, but for the bracket, status and limit of its surfaces.
@@ -73,6 +74,8 @@ static const char *check_together(ovoid_results_reader *r, uint64_t found) {
         bits &= ~(uint64_t)RECORD_KINDS;
     const char *wrong = fields_compare(&r->fields, r->json, &record_table, bits);
     if (wrong) return wrong;
+    r->fields.key = "contacts";
+    if ((wrong = record_contacts_settle(&r->line.record)) != NULL) return wrong;
     const char *word = json_string_value(json_object_get(r->json, r->fields.key = "within"));
     if (word && strcmp(word, record_find_within(record)) != 0)
         return "is not what the bracket and the limit say of the margin";
@@ -82,6 +85,7 @@ static const char *check_together(ovoid_results_reader *r, uint64_t found) {
 }
 
 static ovoid_code read_record(ovoid_results_reader *r, const char *text, size_t length, ovoid_error *error) {
+    record_contacts_clear(&r->line.record);
     fields_reader_clear(&r->fields);
     r->line = (record_line){.record = {.frame = NAN, .part_a = OVOID_RECORD_NO_PART, .part_b = OVOID_RECORD_NO_PART},
                             .cover = &r->cover};
@@ -127,6 +131,7 @@ void ovoid_results_reader_close(ovoid_results_reader *reader) {
     if (!reader) return;
     line_source_close(&reader->source);
     json_decref(reader->json);
+    record_contacts_clear(&reader->line.record);
     fields_reader_clear(&reader->fields);
     free(reader);
 }
