@@ -241,7 +241,7 @@ void manifold_find_internal(const ovoid_pair *pair, const ovoid_manifold_options
     OVOID_ASSERT(pair);
     task t;
     ovoid_manifold before;
-    if (options && options->points) options->points->count = 0;
+    if (options && options->points) options->points->count = 0, options->points->grown = 0;
     ovoid_limit refused = open_task(pair, options, earlier, &t);
     if (refused != OVOID_LIMIT_NONE) {
         *out = make_refused(refused);
