@@ -15,15 +15,16 @@ Lengths are in the caller's unit, the same everywhere; angles are radians; poses
 arrays where NumPy can be imported.
 """
 
-from ._enums import Agreement, Code, Error, ImpactStatus, Inside, Limit, ProofKind, RobotStatus, Stage, Status, Touch
+from ._enums import (Agreement, Axis, Code, Error, ImpactStatus, Inside, Limit, ManifoldProof, ProofKind, RobotStatus, Stage,
+                     Status, Touch)
 from ._ovoid import *  # noqa: F403
 from ._ovoid import __version__, has_io, has_robot
 from . import _faces, _pickle
 from ._draw import Picture, draw
 from ._page import show
 from ._planning import Plan
-from ._values import (Cast, Clearance, Comparison, Contacts, Element, Hit, Joint, MatrixPair, MotionRequest, Obstacle,
-                      PartsAudit, Side, SphereAudit, StateAnswer, Trajectory, Variable)
+from ._values import (Cast, Clearance, Comparison, Contacts, Element, Hit, Joint, ManifoldPolygon, Material, MatrixPair,
+                      MotionRequest, Obstacle, PartsAudit, Side, SphereAudit, StateAnswer, Trajectory, Variable, WorldManifolds)
 
 
 if not has_io:

@@ -149,6 +149,28 @@ class Agreement(Named):
         return self.name.lower().replace("_", " ")
 
 
+class Axis(Named):
+    """What the normal of a contact is made of."""
+
+    NONE = 0  #: no contact: proven farther apart than the margin
+    FACE_A = 1  #: the normal of a facet of a
+    FACE_B = 2  #: minus the normal of a facet of b
+    EDGES = 3  #: orthogonal to an edge of each
+    FREE = 4  #: between the nearest points of two features, or a direction that a search found
+
+    def __str__(self) -> str:
+        return self.name.lower().replace("_", " ")
+
+
+class ManifoldProof(Named):
+    """What the upper bound of a contact rests on."""
+
+    NONE = 0
+    POINTS = 1  #: its points
+    FACETS = 2  #: the facets that meet
+    SEARCH = 3  #: the surface that a search found, now or earlier
+
+
 class Error(ValueError):
     """What the library refused: its sentence, with code (a Code) and place.
 

@@ -45,23 +45,27 @@ def _reduce_robot(robot: Any) -> tuple[Any, ...]:
     return make_robot, (parts, robot.name, robot._get_facts())
 
 
-def make_world(options: dict[str, Any], bodies: list[tuple[Any, ...]], ignored: list[tuple[int, int]]) -> Any:
-    """A World with these bodies, (body, pose, group, mask) each."""
+def make_world(options: dict[str, Any], bodies: list[tuple[Any, ...]], ignored: list[tuple[int, int]],
+               materials: list[tuple[int, tuple[float, ...]]]) -> Any:
+    """A World with these bodies, (body, pose, group, mask) each; pairs of these that are ignored; materials, with their body."""
     world = _ovoid.World(**options)
     ids = [world.add(body, pose, group=group, mask=mask) for body, pose, group, mask in bodies]
     for a, b in ignored:
         world.set_ignored(ids[a], ids[b])
+    for a, (margin, friction, restitution) in materials:
+        world.set_material(ids[a], margin=margin, friction=friction, restitution=restitution)
     return world
 
 
 def _reduce_world(world: Any) -> tuple[Any, ...]:
     options, bodies, ids = world._get_state()
-    again, ids = make_world(options, bodies, []), ids.tolist()
+    again, ids = make_world(options, bodies, [], []), ids.tolist()
     if again.ids().tolist() != ids:
         raise TypeError("this World cannot be pickled or copied: bodies were removed from it, so a new World would give other ids")
     pairs = ((a, b) for a in range(len(ids)) for b in range(a + 1, len(ids)))
     ignored = [(a, b) for a, b in pairs if world.is_pair(ids[a], ids[b]) != again.is_pair(ids[a], ids[b])]
-    return make_world, (options, bodies, ignored)
+    materials = [(a, tuple(world.material(body))) for a, body in enumerate(ids) if any(world.material(body))]
+    return make_world, (options, bodies, ignored, materials)
 
 
 def _refuse(why: str) -> Any:
@@ -71,7 +75,7 @@ def _refuse(why: str) -> Any:
 
 
 _REDUCERS = {
-    "Answer": _reduce_state, "Approach": _reduce_state, "Ellipsoid": _reduce_state, "Gradient": _reduce_state, "Impact": _reduce_state,
+    "Answer": _reduce_state, "Approach": _reduce_state, "Ellipsoid": _reduce_state, "Gradient": _reduce_state, "Impact": _reduce_state, "Manifold": _reduce_state,
     "Motion": _reduce_state, "RayHit": _reduce_state, "Smooth": _reduce_state, "SmoothValue": _reduce_state,
     "Bodies": lambda bodies: (_ovoid.Bodies, (bodies.shapes, bodies.poses)),
     "Prepared": lambda prepared: (_ovoid.Prepared, (prepared.shape, prepared.pose)),

@@ -28,6 +28,44 @@ class Contacts(NamedTuple):
     memory: int
 
 
+class ManifoldPolygon(NamedTuple):
+    """The whole polygon of a contact, counter-clockwise seen from the tip of the normal: 1 corner is a point, 2 are a segment.
+
+    points: an array of records point_a, point_b, separation, id. grown: as Manifold.grown. inner: the area that is in contact
+    for certain; outer: that of a polygon that holds every point of contact."""
+
+    points: Records
+    grown: float
+    inner: float
+    outer: float
+
+
+class Material(NamedTuple):
+    """What a body of a World brings to its contacts: a margin of its own, friction and restitution."""
+
+    margin: float
+    friction: float
+    restitution: float
+
+
+class WorldManifolds(NamedTuple):
+    """The contacts of a step of a World, pairs sorted by a, then b.
+
+    items: an array of records a, b (ids), user_a, user_b, status, stage, limit, iterations, lower, upper, margin, friction,
+    restitution, first, count (its manifolds in parts), event (0: begins, 1: stays). parts: an array of records part_a, part_b and
+    the fields of a Manifold. points, (n, 4), beside the parts: point_a, point_b, separation, id; as many as the part's count.
+    grown: beside the parts, as Manifold.grown. ended: pairs of the call before that are none any more, records a, b, user_a,
+    user_b. begun: how many items begin. kept: how many parts were taken over, as neither body moved."""
+
+    items: Records
+    parts: Records
+    points: Records
+    grown: Floats
+    ended: Records
+    begun: int
+    kept: int
+
+
 class Hit(NamedTuple):
     """A pair that a query of a world found: ids, or a: 0 of a probe, its number of several; the Answer.
 

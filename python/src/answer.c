@@ -1,4 +1,5 @@
 // Answer: what a query proved of two bodies, with its proof and what it takes to check it.
+#include "src/manifold.h"
 #include "src/query.h"
 #ifdef OVOID_PYTHON_ROBOT
 #include "src/robot/robot.h"
@@ -18,20 +19,23 @@ answer_object *answer_make(module_state *state, PyObject *a, PyObject *b, const 
     return self;
 }
 
-int answer_keep_cover(answer_object *to, const ovoid_cover *cover) {
+int cover_keep(kept_cover **to, const ovoid_cover *cover) {
+    free(*to);
+    *to = NULL;
     if (!cover->point_count) return 0;
     size_t points = cover->point_count * sizeof *cover->a, triangles = cover->triangle_count * sizeof *cover->triangles;
-    to->cover = malloc(sizeof *to->cover + 2 * points + triangles);
-    if (!to->cover) {
+    kept_cover *kept = malloc(sizeof *kept + 2 * points + triangles);
+    if (!kept) {
         PyErr_NoMemory();
         return -1;
     }
-    to->cover->point_count = cover->point_count;
-    to->cover->triangle_count = cover->triangle_count;
-    char *data = to->cover->data;
+    kept->point_count = cover->point_count;
+    kept->triangle_count = cover->triangle_count;
+    char *data = kept->data;
     memcpy(data, cover->a, points);
     memcpy(data + points, cover->b, points);
     memcpy(data + 2 * points, cover->triangles, triangles);
+    *to = kept;
     return 0;
 }
 
@@ -52,12 +56,13 @@ int answer_keep_exclusions(answer_object *to, ovoid_exclusions *exclusions) {
     return 0;
 }
 
-const ovoid_cover *answer_unpack_cover(const answer_object *self, ovoid_cover *to) {
-    if (!self->cover) return NULL;
-    to->point_count = self->cover->point_count;
-    to->triangle_count = self->cover->triangle_count;
+const ovoid_cover *cover_unpack(const kept_cover *kept, ovoid_cover *to) {
+    to->point_count = to->triangle_count = 0;
+    if (!kept) return NULL;
+    to->point_count = kept->point_count;
+    to->triangle_count = kept->triangle_count;
     size_t points = to->point_count * sizeof *to->a;
-    const char *data = self->cover->data;
+    const char *data = kept->data;
     memcpy(to->a, data, points);
     memcpy(to->b, data + points, points);
     memcpy(to->triangles, data + 2 * points, to->triangle_count * sizeof *to->triangles);
@@ -80,7 +85,7 @@ int limit_raise(module_state *state, ovoid_limit limit) {
 ovoid_code answer_verify(const answer_object *self, ovoid_error *error) {
     module_state *state = state_of((PyObject *)self);
     ovoid_cover unpacked;
-    const ovoid_cover *cover = answer_unpack_cover(self, &unpacked);
+    const ovoid_cover *cover = cover_unpack(self->cover, &unpacked);
     ovoid_body_pair bodies = {body_make(state, self->a, self->pose_a), body_make(state, self->b, self->pose_b)};
     if (bodies.a.shape && bodies.b.shape) {
         ovoid_pair pair = {bodies.a.shape, bodies.b.shape, self->pose_a, self->pose_b};
@@ -101,6 +106,7 @@ ovoid_code answer_verify(const answer_object *self, ovoid_error *error) {
 
 static ovoid_code verify_any(module_state *state, PyObject *what, ovoid_error *error) {
     if (Py_TYPE(what) == state->answer) return answer_verify((const answer_object *)what, error);
+    if (Py_TYPE(what) == state->manifold) return manifold_verify((const manifold_object *)what, error);
 #ifdef OVOID_PYTHON_ROBOT
     if (Py_TYPE(what) == state->robot_path) return path_verify(what, error);
 #endif
@@ -108,10 +114,10 @@ static ovoid_code verify_any(module_state *state, PyObject *what, ovoid_error *e
 }
 
 static int is_verifiable(module_state *state, PyObject *what) {
-    PyTypeObject *const types[] = {state->answer, state->impact, state->approach, state->robot_path};
+    PyTypeObject *const types[] = {state->answer, state->impact, state->approach, state->robot_path, state->manifold};
     for (size_t i = 0; i < sizeof types / sizeof *types; i++)
         if (Py_TYPE(what) == types[i]) return 1;
-    PyErr_Format(PyExc_TypeError, "an Answer, Impact, Approach or RobotPath is wanted, not %R",
+    PyErr_Format(PyExc_TypeError, "an Answer, Manifold, Impact, Approach or RobotPath is wanted, not %R",
                  (PyObject *)Py_TYPE(what));
     return 0;
 }
@@ -132,10 +138,12 @@ static PyObject *is_proven(PyObject *module, PyObject *what) {
 
 static PyMethodDef verify_methods[] = {
     {"verify", verify, METH_O,
-     "verify(answer: Answer | Impact | Approach | RobotPath, /) -> None\n--\n\nChecks an Answer, Impact, Approach or "
+     "verify(answer: Answer | Manifold | Impact | Approach | RobotPath, /) -> None\n--\n\nChecks an Answer, Manifold, "
+     "Impact, Approach or "
      "RobotPath by its proof alone, without any search; raises Error where\nthe proof does not hold."},
     {"is_proven", is_proven, METH_O,
-     "is_proven(answer: Answer | Impact | Approach | RobotPath, /) -> bool\n--\n\nTrue where verify(answer) finds "
+     "is_proven(answer: Answer | Manifold | Impact | Approach | RobotPath, /) -> bool\n--\n\nTrue where verify(answer) "
+     "finds "
      "nothing wrong."},
     {NULL, NULL, 0, NULL}};
 

@@ -21,6 +21,9 @@ typedef struct record {
 
 #define VERDICT_FIELDS "I:status:I:stage:I:limit:I:iterations:d:lower:d:upper:"
 #define SIDE_FIELDS(which) "I:link_" which ":I:element_" which ":Q:body_" which ":I:part_" which ":4x"
+#define MANIFOLD_FIELDS                                                                                                \
+    "I:status:I:limit:d:lower:d:upper:(3)d:normal:(4)I:id:I:feature_a:I:feature_b:I:facet_a:I:facet_b:I:axis:B:count:" \
+    "B:proof:H:corners:f:share:f:searched:(7)f:pose:I:flags:"
 // Robots may be left out of a build; collide.c and robot_path.c say that these are the sizes.
 enum { STATE_SIZE = 80, NEAR_SIZE = 152, ROBOT_STEP_SIZE = 48 };
 static const record records[RECORD_COUNT] = {
@@ -40,11 +43,22 @@ static const record records[RECORD_COUNT] = {
                                                             "(3)d:point_a:(3)d:point_b:(3)d:normal:I:has_gradient:4x}",
                      NEAR_SIZE},
     [RECORD_ROBOT_STEP] = {"T{d:begin:d:end:I:pair:H:kind:H:mask:(3)d:normal:}", ROBOT_STEP_SIZE},
+    [RECORD_MANIFOLD] = {"T{" MANIFOLD_FIELDS "}", sizeof(ovoid_manifold)},
+    [RECORD_MANIFOLD_POINT] = {"T{(3)d:point_a:(3)d:point_b:d:separation:I:id:4x}", sizeof(ovoid_manifold_point)},
+    [RECORD_BODY_MANIFOLD] = {"T{I:part_a:I:part_b:" MANIFOLD_FIELDS "}", sizeof(ovoid_body_manifold)},
+    [RECORD_WORLD_MANIFOLD] = {"T{Q:a:Q:b:Q:user_a:Q:user_b:" VERDICT_FIELDS
+                               "d:margin:d:friction:d:restitution:Q:first:I:count:I:event:}",
+                               sizeof(ovoid_world_manifold)},
+    [RECORD_PARTING] = {"T{Q:a:Q:b:Q:user_a:Q:user_b:}", sizeof(ovoid_world_parting)},
 };
 _Static_assert(sizeof(unsigned) == 4 && sizeof(ovoid_status) == 4, "a format names enumerations by I");
 _Static_assert(sizeof(ovoid_verdict) == 32 && sizeof(ovoid_witness) == 72 && sizeof(ovoid_proof) == 248 &&
                    sizeof(ovoid_contact) == 72 && sizeof(ovoid_step) == 40,
                "the formats name every byte");
+_Static_assert(sizeof(ovoid_manifold) == 128 && sizeof(ovoid_manifold_point) == 64 &&
+                   sizeof(ovoid_body_manifold) == 136 && sizeof(ovoid_world_manifold) == 104 &&
+                   sizeof(ovoid_world_parting) == 32,
+               "and those of manifolds do");
 
 const char *record_format(record_kind kind) { return records[kind].format; }
 Py_ssize_t record_size(record_kind kind) { return (Py_ssize_t)records[kind].size; }
@@ -235,7 +249,8 @@ int array_add(PyObject *module) { return type_add(module, &spec, &state_of_modul
 static const char *const made_by_name[RECORD_COUNT] = {[RECORD_VERDICT] = "verdicts",
                                                        [RECORD_WITNESS] = "witnesses",
                                                        [RECORD_PROOF] = "proofs",
-                                                       [RECORD_STATE] = "states"};
+                                                       [RECORD_STATE] = "states",
+                                                       [RECORD_MANIFOLD] = "manifolds"};
 
 static PyObject *zeros(PyObject *module, PyObject *arguments) {
     const char *name;
@@ -248,12 +263,13 @@ static PyObject *zeros(PyObject *module, PyObject *arguments) {
         if (made_by_name[kind] && !strcmp(name, made_by_name[kind]))
             return array_wrap(state, array_make(state, (record_kind)kind, 1, &count, NULL));
     return raise_code(state, OVOID_ERROR_ARGUMENT, -1,
-                      "zeros: 'verdicts', 'witnesses', 'proofs' or 'states' is wanted, not '%s'", name);
+                      "zeros: 'verdicts', 'witnesses', 'proofs', 'states' or 'manifolds' is wanted, not '%s'", name);
 }
 
-PyMethodDef array_methods[] = {
-    {"zeros", zeros, METH_VARARGS,
-     "zeros(kind: Literal['verdicts', 'witnesses', 'proofs', 'states'], count: int, /) -> Records\n--\n\nAn array of "
-     "zeros for the results of batches: kind is 'verdicts', 'witnesses', 'proofs' or,\nof a Cell's, 'states'. Proofs "
-     "of zeros say nothing, so they begin a series of batches."},
-    {NULL, NULL, 0, NULL}};
+PyMethodDef array_methods[] = {{"zeros", zeros, METH_VARARGS,
+                                "zeros(kind: Literal['verdicts', 'witnesses', 'proofs', 'states', 'manifolds'], count: "
+                                "int, /) -> Records\n--\n\nAn array of "
+                                "zeros for the results of batches: kind is 'verdicts', 'witnesses', 'proofs', "
+                                "'manifolds' or,\nof a Cell's, 'states'. Proofs "
+                                "and manifolds of zeros say nothing, so they begin a series of batches."},
+                               {NULL, NULL, 0, NULL}};

@@ -43,8 +43,9 @@ static int import_enum(PyObject *enums, const char *name, PyObject **to) {
 }
 
 static int import_python(module_state *state) {
-    static const char *const names[ENUM_COUNT] = {"Status",       "Stage",       "Limit", "Code",   "ProofKind",
-                                                  "ImpactStatus", "RobotStatus", "Touch", "Inside", "Agreement"};
+    static const char *const names[ENUM_COUNT] = {"Status",    "Stage",        "Limit",       "Code",
+                                                  "ProofKind", "ImpactStatus", "RobotStatus", "Touch",
+                                                  "Inside",    "Agreement",    "Axis",        "ManifoldProof"};
     state->dtype_name = PyUnicode_InternFromString("dtype");
     PyObject *enums = state->dtype_name ? PyImport_ImportModule("ovoid._enums") : NULL;
     if (!enums) return -1;
@@ -54,10 +55,11 @@ static int import_python(module_state *state) {
     Py_DECREF(enums);
     PyObject *values = failed ? NULL : PyImport_ImportModule("ovoid._values");
     if (!values) return -1;
-    static const char *const tuples[] = {"Contacts",   "Hit",         "Cast",       "Joint",
-                                         "Variable",   "Element",     "Side",       "StateAnswer",
-                                         "MatrixPair", "SphereAudit", "Obstacle",   "MotionRequest",
-                                         "Clearance",  "Comparison",  "PartsAudit", "Trajectory"};
+    static const char *const tuples[] = {
+        "Contacts",  "Hit",         "Cast",       "Joint",       "Variable",        "Element",
+        "Side",      "StateAnswer", "MatrixPair", "SphereAudit", "Obstacle",        "MotionRequest",
+        "Clearance", "Comparison",  "PartsAudit", "Trajectory",  "ManifoldPolygon", "WorldManifolds",
+        "Material"};
     enum { TUPLES = sizeof tuples / sizeof *tuples };
     _Static_assert(offsetof(module_state, enums) - offsetof(module_state, contacts) == TUPLES * sizeof(PyObject *),
                    "a name for each, in their order");
@@ -102,10 +104,10 @@ static int execute(PyObject *module) {
 #ifdef OVOID_PYTHON_ROBOT
                                                 robot_add,    cell_add,  robot_path_add,
 #endif
-                                                prepared_add, solid_add};
+                                                prepared_add, solid_add, manifold_add};
     PyMethodDef *const functions[] = {
         own_methods,        query_methods,  batch_methods,     impact_methods, smooth_methods,
-        array_methods,      bounds_methods, decompose_methods, state_methods,
+        array_methods,      bounds_methods, decompose_methods, state_methods,  manifold_methods,
 #ifdef OVOID_PYTHON_IO
         shape_file_methods, draw_methods,
 #endif

@@ -27,6 +27,8 @@ typedef enum enum_kind {
     ENUM_ROBOT_TOUCH,
     ENUM_INSIDE,
     ENUM_AGREEMENT,
+    ENUM_AXIS,
+    ENUM_MANIFOLD_PROOF,
     ENUM_COUNT
 } enum_kind;
 
@@ -43,6 +45,11 @@ typedef enum record_kind {
     RECORD_STATE,      ///< ovoid_robot_answer
     RECORD_NEAR,       ///< ovoid_robot_near
     RECORD_ROBOT_STEP, ///< ovoid_robot_step
+    RECORD_MANIFOLD,
+    RECORD_MANIFOLD_POINT,
+    RECORD_BODY_MANIFOLD,
+    RECORD_WORLD_MANIFOLD,
+    RECORD_PARTING, ///< ovoid_world_parting
     RECORD_COUNT
 } record_kind;
 
@@ -50,11 +57,12 @@ typedef enum record_kind {
 /// All before numpy_formats are references, one after the other.
 typedef struct module_state {
     PyTypeObject *array, *shape, *pose, *compound, *answer, *bodies, *world, *motion, *impact, *approach, *ray_hit,
-        *smooth, *smooth_value, *gradient, *fit, *prepared, *solid, *robot, *cell, *robot_path;
+        *smooth, *smooth_value, *gradient, *fit, *prepared, *solid, *robot, *cell, *robot_path, *manifold;
     PyObject *error; ///< ovoid.Error
     /// Named tuples of ovoid/_values.py.
     PyObject *contacts, *hit, *cast, *joint, *variable, *element, *side, *state_answer, *matrix_pair, *sphere_audit,
-        *obstacle, *motion_request, *clearance, *comparison, *parts_audit, *trajectory;
+        *obstacle, *motion_request, *clearance, *comparison, *parts_audit, *trajectory, *manifold_polygon,
+        *world_manifolds, *material;
     PyObject *enums[ENUM_COUNT]; ///< tuples
     PyObject *dtype_name;        ///< "dtype"
     PyObject *numpy_array;       ///< numpy.ndarray; None where it cannot be imported, NULL where not yet tried
@@ -188,7 +196,8 @@ typedef enum field_kind {
     FIELD_LIMIT = FIELD_ENUM + ENUM_LIMIT,
     FIELD_IMPACT_STATUS = FIELD_ENUM + ENUM_IMPACT_STATUS,
     FIELD_ROBOT_STATUS = FIELD_ENUM + ENUM_ROBOT_STATUS,
-    FIELD_INSIDE = FIELD_ENUM + ENUM_INSIDE
+    FIELD_INSIDE = FIELD_ENUM + ENUM_INSIDE,
+    FIELD_AXIS = FIELD_ENUM + ENUM_AXIS
 } field_kind;
 #define FIELD_TYPE_DOUBLE "float"
 #define FIELD_TYPE_UINT "int"
@@ -207,6 +216,7 @@ typedef enum field_kind {
 #define FIELD_TYPE_IMPACT_STATUS "ImpactStatus"
 #define FIELD_TYPE_ROBOT_STATUS "RobotStatus"
 #define FIELD_TYPE_INSIDE "Inside"
+#define FIELD_TYPE_AXIS "Axis"
 enum { FIELD_FACTS_MOST = 512 };
 typedef struct field {
     int kind;
@@ -313,12 +323,12 @@ int id_read(PyObject *from, void *to);
 /// An empty answer of two bodies at their poses.
 answer_object *answer_make(module_state *state, PyObject *a, PyObject *b, const ovoid_pose *pose_a,
                            const ovoid_pose *pose_b);
-/// Keeps of a depth's cover what is used of it.
-int answer_keep_cover(answer_object *to, const ovoid_cover *cover);
+/// Keeps of a cover what is used of it, in the place of what was kept; NULL where it is empty.
+int cover_keep(kept_cover **to, const ovoid_cover *cover);
 /// Keeps a copy of exclusions that grow, and releases them; -1 with MemoryError where memory was or is out.
 int answer_keep_exclusions(answer_object *to, ovoid_exclusions *exclusions);
-/// What was kept as the library reads it, in *to; NULL where there is none.
-const ovoid_cover *answer_unpack_cover(const answer_object *self, ovoid_cover *to);
+/// What was kept as the library reads it, in *to; NULL where there is none, and *to is empty.
+const ovoid_cover *cover_unpack(const kept_cover *kept, ovoid_cover *to);
 /// Raises where an answer was refused; -1 then.
 int limit_raise(module_state *state, ovoid_limit limit);
 /// Verifies an answer by its proof and the options of its query: OVOID_OK, or what ovoid_body_verify says.
@@ -339,14 +349,15 @@ int motion_add(PyObject *module);
 int impact_add(PyObject *module);
 int smooth_add(PyObject *module);
 int prepared_add(PyObject *module);
+int manifold_add(PyObject *module);
 int solid_add(PyObject *module);
 int robot_add(PyObject *module);
 int cell_add(PyObject *module);
 int robot_path_add(PyObject *module);
 
 extern PyMethodDef query_methods[], batch_methods[], impact_methods[], smooth_methods[], array_methods[],
-    bounds_methods[], shape_file_methods[], draw_methods[], decompose_methods[], state_methods[];
-extern PyMethodDef shape_constructors[], world_queries[], solid_decompositions[];
+    bounds_methods[], shape_file_methods[], draw_methods[], decompose_methods[], state_methods[], manifold_methods[];
+extern PyMethodDef shape_constructors[], world_queries[], world_manifold_methods[], solid_decompositions[];
 
 /// Joins two tables of methods in `all`, which the type keeps, and enters it in the slots.
 void slots_set_methods(PyType_Slot *slots, PyMethodDef *all, const PyMethodDef *first, const PyMethodDef *second);

@@ -183,7 +183,7 @@ static int query_shapes(const query_input *in, answer_object *to) {
     else
         *answer = ovoid_depth(&pair, &in->options, earlier, &cover);
     to->of = ovoid_body_answer_make(answer, 0, 0);
-    return answer_keep_cover(to, &cover);
+    return cover_keep(&to->cover, &cover);
 }
 
 // ---- compounds and solids
@@ -213,7 +213,7 @@ static int query_bodies(const query_input *in, answer_object *to) {
     Py_BEGIN_ALLOW_THREADS;
     to->of = query_once(in, &exclusions);
     Py_END_ALLOW_THREADS;
-    return answer_keep_exclusions(to, &exclusions) || answer_keep_cover(to, &cover) ? -1 : 0;
+    return answer_keep_exclusions(to, &exclusions) || cover_keep(&to->cover, &cover) ? -1 : 0;
 }
 
 // ---- what is called

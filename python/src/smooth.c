@@ -56,7 +56,7 @@ static PyObject *gradient(PyObject *module, PyObject *given) {
     gradient_object *made = object_make(state->gradient);
     if (!made) return NULL;
     ovoid_cover cover;
-    made->gradient = ovoid_answer_compute_gradient(&pair, &answer->of.deciding, answer_unpack_cover(answer, &cover));
+    made->gradient = ovoid_answer_compute_gradient(&pair, &answer->of.deciding, cover_unpack(answer->cover, &cover));
     return (PyObject *)made;
 }
 

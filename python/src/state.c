@@ -3,6 +3,7 @@
 //
 // What is read may be any bytes: lengths, indices of parts and poses are checked, so that an object is valid or
 // refused. Whether its numbers are true is the matter of verify().
+#include "src/manifold.h"
 #include "src/motion.h"
 #include "src/query.h"
 
@@ -101,6 +102,38 @@ static PyObject *read_answer(module_state *state, PyObject *objects, transfer *t
     return made;
 }
 
+// ---- manifolds
+
+// The points follow from the rest.
+static void pass_manifold(transfer *t, PyObject *object) {
+    manifold_object *self = (manifold_object *)object;
+    double options[4] = {self->options.margin, self->options.tolerance, self->options.keep, self->options.angle};
+    pass(t, &self->of, sizeof self->of);
+    pass(t, &self->pose_a, sizeof self->pose_a);
+    pass(t, &self->pose_b, sizeof self->pose_b);
+    pass(t, options, sizeof options);
+    pass_cover(t, &self->cover);
+    if (!t->is_reading || t->failed) return;
+    self->options = (ovoid_manifold_options){
+        .margin = options[0], .tolerance = options[1], .keep = options[2], .angle = options[3]};
+    t->failed = ovoid_pose_validate(&self->pose_a) != OVOID_OK || ovoid_pose_validate(&self->pose_b) != OVOID_OK ||
+                !has_parts(state_of(object), self->a, self->b, self->of.part_a, self->of.part_b);
+    if (!t->failed) t->failed = !manifold_set_points(self);
+}
+
+static PyObject *read_manifold(module_state *state, PyObject *objects, transfer *t) {
+    PyObject *a, *b;
+    ovoid_body_pair still;
+    if (!PyArg_ParseTuple(objects, "OO", &a, &b) || body_read(state, a, "a", &still.a) ||
+        body_read(state, b, "b", &still.b))
+        return NULL;
+    if (still.a.solid || still.b.solid) return PyErr_Format(PyExc_TypeError, "a Manifold is of Shapes and Compounds");
+    still.a.pose = still.b.pose = ovoid_pose_make_identity();
+    PyObject *made = (PyObject *)manifold_make(state, a, b, &still);
+    if (made) pass_manifold(t, made);
+    return made;
+}
+
 // ---- motions, impacts and approaches
 
 static void pass_motion(transfer *t, ovoid_motion *m, double **times, ovoid_pose **poses) {
@@ -189,6 +222,8 @@ static void pass_any(module_state *state, transfer *t, PyObject *object, size_t 
     motion_object *motion = (motion_object *)object;
     if (type == state->answer)
         pass_answer(t, object);
+    else if (type == state->manifold)
+        pass_manifold(t, object);
     else if (type == state->motion)
         pass_motion(t, &motion->motion, &motion->times, &motion->poses);
     else if (type == state->impact || type == state->approach)
@@ -200,14 +235,17 @@ static void pass_any(module_state *state, transfer *t, PyObject *object, size_t 
 static PyObject *get_objects(module_state *state, PyObject *object) {
     const answer_object *answer = (const answer_object *)object;
     const impact_object *impact = (const impact_object *)object;
+    const manifold_object *manifold = (const manifold_object *)object;
     if (Py_TYPE(object) == state->answer) return PyTuple_Pack(2, answer->a, answer->b);
+    if (Py_TYPE(object) == state->manifold) return PyTuple_Pack(2, manifold->a, manifold->b);
     if (Py_TYPE(object) != state->impact && Py_TYPE(object) != state->approach) return PyTuple_New(0);
     return PyTuple_Pack(4, impact->a, impact->b, impact->motion_a, impact->motion_b);
 }
 
 static int has_state(module_state *state, PyTypeObject *type, size_t *size) {
     int is_plain = find_plain(state, type, size) != NULL;
-    if (is_plain || type == state->answer || type == state->motion || type == state->impact || type == state->approach)
+    if (is_plain || type == state->answer || type == state->manifold || type == state->motion ||
+        type == state->impact || type == state->approach)
         return 1;
     if (!PyErr_Occurred()) PyErr_Format(PyExc_TypeError, "%R has no state as bytes", (PyObject *)type);
     return 0;
@@ -229,6 +267,7 @@ static PyObject *get_state(PyObject *module, PyObject *object) {
 
 static PyObject *read_any(module_state *state, PyTypeObject *type, PyObject *objects, transfer *t, size_t size) {
     if (type == state->answer) return read_answer(state, objects, t);
+    if (type == state->manifold) return read_manifold(state, objects, t);
     if (type == state->motion) return read_motion(state, objects, t);
     if (type == state->impact || type == state->approach) return read_impact(state, type, objects, t);
     PyObject *made = object_make(type);

@@ -66,6 +66,17 @@ class Values(unittest.TestCase):
                 again = self.check(answer)
                 ovoid.verify(again)
 
+    def test_manifolds(self):
+        near = ovoid.Pose((1.9, 0.2, 0.1))
+        made = [ovoid.find_manifold(a, b, None, pose, margin=0.5) for a, b in ((BOX, PILL), (PILL, BOX), (BOX, BOX)) for pose in (near, DEEP, TURNED)]
+        made += ovoid.find_manifolds(PAIR, BOX, None, DEEP, margin=0.5, angle=0.1)
+        self.assertGreater(len([m for m in made if m.proof == "search"]), 0)
+        for manifold in made:
+            with self.subTest(manifold=manifold):
+                again = self.check(manifold)
+                ovoid.verify(again)
+                self.assertEqual(repr(again.polygon().points.tolist()), repr(manifold.polygon().points.tolist()))
+
     def test_events(self):
         for event in make_events():
             with self.subTest(event=event):
@@ -97,7 +108,9 @@ class Values(unittest.TestCase):
         ids = [world.add(BOX, (3 * i, 0, 0), group=1, mask=1 + i % 2) for i in range(5)]
         world.add(PAIR, DEEP)
         world.set_ignored(ids[0], ids[2])
+        world.set_material(ids[3], margin=0.25, friction=0.5)
         again = pickle.loads(pickle.dumps(world))
+        self.assertEqual([again.material(i) for i in ids], [world.material(i) for i in ids])
         self.assertEqual(again.ids().tolist(), world.ids().tolist())
         self.assertEqual(again.contacts("distance", 3).items.tolist(), world.contacts("distance", 3).items.tolist())
         self.assertEqual([again.is_pair(a, b) for a in ids for b in ids], [world.is_pair(a, b) for a in ids for b in ids])

@@ -158,7 +158,7 @@ static PyObject *write_answer(PyObject *module, PyObject *given) {
                            .fields = OVOID_RECORD_PARTS,
                            .frame = NAN,
                            .answer = answer->of.deciding,
-                           .cover = answer_unpack_cover(answer, &cover),
+                           .cover = cover_unpack(answer->cover, &cover),
                            .exclusions = answer->exclusions,
                            .exclusion_count = answer->exclusion_count,
                            .kind_a = get_kind(state, answer->a),

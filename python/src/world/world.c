@@ -442,7 +442,7 @@ static PyObject *fill_proof(world_object *self, const ovoid_contact *contact, an
     made->options = self->asked;
     int failed = answer_keep_exclusions(made, &exclusions);
     if (!failed && code != OVOID_OK) raise_error(state_of((PyObject *)self), &error);
-    if (failed || code != OVOID_OK || answer_keep_cover(made, &cover)) Py_CLEAR(made);
+    if (failed || code != OVOID_OK || cover_keep(&made->cover, &cover)) Py_CLEAR(made);
     return (PyObject *)made;
 }
 
@@ -520,7 +520,8 @@ static PyType_Slot slots[] = {
 static PyType_Spec spec = {"ovoid.World", sizeof(world_object), 0, Py_TPFLAGS_DEFAULT, slots};
 
 int world_add(PyObject *module) {
-    static PyMethodDef all[40];
-    slots_set_methods(slots, all, methods, world_queries);
+    static PyMethodDef both[48], all[48];
+    slots_set_methods(slots, both, methods, world_queries);
+    slots_set_methods(slots, all, both, world_manifold_methods);
     return type_add(module, &spec, &state_of_module(module)->world);
 }
