@@ -57,7 +57,7 @@ expect() {
 passed=0 failed=0 skipped=0
 [ -x "$(dirname "$OVOID_TOOL")/ovoid-plan" ] || { skipped=1 && echo "skipped: robot plan, which needs libompl-dev (OMPL)"; }
 if [ $# -eq 0 ]; then
-    for page in tool first-steps tutorial-clearance tutorial-robot robot planning; do
+    for page in tool first-steps tutorial-clearance tutorial-contacts tutorial-robot robot planning; do
         if [ $page = planning ] && [ $skipped -eq 1 ]; then continue; fi
         awk '/^```/ { inside = /console/; next } inside' "$OVOID_SOURCE_DIR/docs/$page.md" >"$work/page"
         if [ $page = tool ]; then data=$cases/data; else data=$OVOID_SOURCE_DIR/examples/start; fi

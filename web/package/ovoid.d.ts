@@ -113,6 +113,36 @@ export interface Body { shape: Shape; pose?: Pose }
 /** A column of each; status, stage and limit are numbers of names. */
 export interface Batch { lower: Float64Array; upper: Float64Array; status: Uint8Array; stage: Uint8Array; limit: Uint8Array }
 
+/** A point of contact; the id stays as long as its features do: a vertex, or two edges. */
+export interface ContactPoint { id: number; point_a: number[]; point_b: number[]; separation: number }
+/** A contact as in the tool's JSON: `ovoid check --contacts --json` writes what `verifyManifold` takes. Without one the axis is 'none'. */
+export interface ManifoldFields {
+  /** Of a compound the part, else 0. */
+  part_a: number; part_b: number;
+  status: Status; limit: Limit;
+  /** lower is the gap along the normal, which is from a to b. */
+  lower: number; upper: number; normal: number[];
+  axis: 'none' | 'face a' | 'face b' | 'edges' | 'free'; feature_a: number; feature_b: number; facet_a: number; facet_b: number; flags: number;
+  /** Of the whole polygon, of whose area the points span this share; inner and outer bracket the area in contact. */
+  corners: number; share: number; inner: number; outer: number;
+  /** Each point lies on its body grown by this. */
+  grown: number;
+  /** Up to four. */
+  points: ContactPoint[];
+  proof: 'none' | 'points' | 'facets' | 'search'; cover?: { pairs: number[][]; triangles: number[][] };
+}
+export interface Manifold extends ManifoldFields { toJSON(): ManifoldFields }
+export interface ManifoldOptions {
+  /** Contacts are given up to this distance. */
+  margin?: number;
+  /** A kept contact is used again without a search while its bracket is at most this wide; 0: 1e-9 of the pair's size. */
+  tolerance?: number;
+  /** A kept corner stays while it is outside by at most this. */
+  keep?: number;
+  /** Facets turned from the plane of contact by more radians touch with an edge or a vertex alone; 0: 1.45. */
+  angle?: number;
+}
+
 export interface SmoothValue {
   value: number; error: number; condition: number; isSmooth: boolean; point_a: number[]; point_b: number[]; normal: number[];
   /** By translation of a (3), rotation of a (3), of b (6). */
@@ -190,7 +220,7 @@ export interface Ovoid {
   version: string;
   /** What the module has of memory; it grows and never shrinks. */
   readonly memoryBytes: number;
-  names: { status: Status[]; stage: Stage[]; limit: Limit[]; kind: string[] };
+  names: { status: Status[]; stage: Stage[]; limit: Limit[]; kind: string[]; axis: string[]; contactProof: string[] };
   Shape: typeof Shape; Compound: typeof Compound; Solid: typeof Solid; Robot: typeof Robot; OvoidError: typeof OvoidError; Status: typeof Status;
   /** Do they touch? Ends as soon as the sign is proven. */
   collide: Ask<AnyBody>;
@@ -203,6 +233,14 @@ export interface Ovoid {
   verify(a: AnyBody, b: AnyBody, poseA: Pose | null | undefined, poseB: Pose | null | undefined, answer: AnswerFields, options?: Options): OvoidError | null;
   /** Many couples [a, b] of bodies at once, eight in lanes; the bits of single queries. */
   batch(kind: 'collide' | 'within' | 'distance' | 'depth', bodies: readonly Body[], couples: Uint32Array | readonly (readonly [number, number])[], options?: Omit<Options, 'earlier'> & { margin?: number }): Batch;
+  /** The contact of two shapes. earlier: that of a moment ago, which is moved on and measured again where it still holds: ids stay. */
+  findManifold(a: Shape, b: Shape, poseA?: Pose | null, poseB?: Pose | null, options?: ManifoldOptions & { earlier?: ManifoldFields }): Manifold;
+  /** The contacts of all pairs of parts that are not proven farther apart than the margin, by their parts; of a solid none are known. */
+  findManifolds(a: Shape | Compound, b: Shape | Compound, poseA?: Pose | null, poseB?: Pose | null, options?: ManifoldOptions): Manifold[];
+  /** Checks a contact without a search, by the options that it was found with. null: it holds; else what does not. */
+  verifyManifold(a: Shape | Compound, b: Shape | Compound, poseA: Pose | null | undefined, poseB: Pose | null | undefined, manifold: ManifoldFields, options?: ManifoldOptions): OvoidError | null;
+  /** The whole polygon of a contact. */
+  computePolygon(a: Shape | Compound, b: Shape | Compound, poseA: Pose | null | undefined, poseB: Pose | null | undefined, manifold: ManifoldFields, options?: ManifoldOptions): { points: ContactPoint[]; grown: number; inner: number; outer: number };
   /** The signed distances of both ellipsoids: outer.value <= d <= inner.value. order 1: gradients, 2: Hessians too. */
   smooth(a: Shape, b: Shape, poseA?: Pose | null, poseB?: Pose | null, order?: 0 | 1 | 2): { limit: Limit; outer: SmoothValue; inner: SmoothValue };
   /** When two bodies that move from start to end (screw motions, time 0 to duration) first come within the margin. */

@@ -3,6 +3,7 @@ import { instantiate, Memory, OvoidError } from './memory.mjs';
 import { Answer, ANSWER, fromAnswer, fromProof, Names, PROOF, putPose, toPose, toVector } from './values.mjs';
 import { bindRobots } from './robots.mjs';
 import { bindBodies } from './bodies.mjs';
+import { bindManifolds } from './manifolds.mjs';
 import { checkFields, checkName, Status } from './words.mjs';
 
 export { OvoidError, Status };
@@ -28,7 +29,7 @@ export async function load(source) {
       return core.calls.memory.buffer.byteLength;
     },
     Shape, Compound, Solid, OvoidError, Status, version: memory.text(core.calls.get_version()), names: core.names,
-    ...bindQueries(core, bodies), ...bindMotions(core), ...bindRobots(core),
+    ...bindQueries(core, bodies), ...bindManifolds(core, kindOf, readCover, writeCover), ...bindMotions(core), ...bindRobots(core),
   };
 }
 

@@ -37,11 +37,13 @@ export function toPose(pose, what = 'pose') {
 export class Names {
   constructor(memory) {
     const list = (read, count) => Array.from({ length: count }, (_, i) => memory.text(read(i)));
-    const { get_status_name, get_stage_name, get_limit_name, get_proof_kind_name } = memory.exports;
+    const { get_status_name, get_stage_name, get_limit_name, get_proof_kind_name, get_axis_name, get_manifold_proof_name } = memory.exports;
     this.status = list(get_status_name, 4);
     this.stage = list(get_stage_name, 9);
     this.limit = list(get_limit_name, 12);
     this.kind = list(get_proof_kind_name, 6);
+    this.axis = list(get_axis_name, 5);
+    this.contactProof = list(get_manifold_proof_name, 4);
   }
 
   /** The number of a name, or what is none: 255. */

@@ -30,11 +30,11 @@ function makeScene(count) {
 }
 
 /** The lines of ovoid check of a scene and files beside it; some bodies overlap, whose exit status is 1. */
-function checkByTool(scene, files = {}) {
+function checkByTool(scene, files = {}, options = []) {
   const folder = mkdtempSync(join(tmpdir(), 'ovoid-'));
   try {
     for (const [name, text] of Object.entries({ 'scene.json': JSON.stringify(scene), ...files })) writeFileSync(join(folder, name), text);
-    const { status, stdout, stderr } = spawnSync(process.env.OVOID, ['check', join(folder, 'scene.json'), '--json'], { encoding: 'utf8', maxBuffer: 1 << 28 });
+    const { status, stdout, stderr } = spawnSync(process.env.OVOID, ['check', join(folder, 'scene.json'), '--json', ...options], { encoding: 'utf8', maxBuffer: 1 << 28 });
     assert.equal(status, 1, stderr);
     return stdout.trim().split('\n').map((line) => JSON.parse(line));
   } finally {
@@ -328,4 +328,56 @@ test('memory goes back', () => {
   const before = ovoid.memoryBytes;
   for (let i = 0; i < 2000; i++) Shape.fromPoints(points).free();
   assert.equal(ovoid.memoryBytes, before);
+});
+
+test('contacts have the numbers of the tool, points, ids and areas included; they hold, altered ones do not', () => {
+  const objects = makeScene(16).map((o, i) => (i % 4 ? o : { name: o.name, pose: o.pose, compound: [{ points: o.points }, { box: [1, 1, 1], pose: { xyz: [0.5, 0, 0] } }] }));
+  const bodies = new Map(objects.map(({ name, points, compound, pose }) => [name, {
+    body: points ? Shape.fromPoints(points) : new Compound([{ shape: Shape.fromPoints(compound[0].points) }, { shape: Shape.box([0.5, 0.5, 0.5]), pose: { xyz: [0.5, 0, 0] } }]), pose,
+  }]));
+  const options = { margin: 0.25, angle: 1.45 };
+  let count = 0, searched = 0;
+  for (const { a, b, contacts = [] } of checkByTool({ objects }, {}, ['--contacts', '--margin', '0.25'])) {
+    const [p, q] = [bodies.get(a), bodies.get(b)], pair = [p.body, q.body, p.pose, q.pose], found = ovoid.findManifolds(...pair, options);
+    assert.deepEqual(found.map((m) => m.toJSON()), contacts, `${a} ${b}`);
+    for (const m of contacts) {
+      count++;
+      searched += m.proof === 'search';
+      assert.equal(ovoid.verifyManifold(...pair, m, options), null);
+      const polygon = ovoid.computePolygon(...pair, m, options);
+      assert.deepEqual([polygon.points.length, polygon.inner, polygon.outer], [m.corners, m.inner, m.outer]);
+      assert.ok(polygon.grown >= m.grown);
+      for (const by of [1e-6, -1e-6]) assert.ok(ovoid.verifyManifold(...pair, moved(m, by), options), `moved by ${by}`);
+      assert.match(ovoid.verifyManifold(...pair, { ...m, points: [m.points[0], m.points[0]] }, options).message, /point/);
+      assert.ok(ovoid.verifyManifold(...pair, { ...m, part_a: 9 }, options));
+      if (m.cover) assert.match(ovoid.verifyManifold(...pair, { ...m, cover: undefined }, options).message, /cover/);
+    }
+    if (p.body instanceof Shape && q.body instanceof Shape && found.length) assert.deepEqual(ovoid.findManifold(...pair, options).toJSON(), contacts[0]);
+  }
+  assert.ok(count > 20 && searched > 0, `${count} contacts, ${searched} by search`);
+});
+
+test('a contact goes on from the earlier one, also from that of a file', () => {
+  const box = Shape.box([1, 1, 1]), at = (z) => ({ xyz: [0.5, 0.25, z] }), first = ovoid.findManifold(box, box, null, at(1.9));
+  assert.deepEqual([first.axis, first.proof, first.points.length, first.corners], ['face a', 'facets', 4, 4]);
+  assert.ok(Math.abs(first.outer - 1.5 * 1.75) < 1e-10 && first.inner <= 1.5 * 1.75);
+  for (const { separation, point_a, point_b } of first.points) assert.ok(Math.abs(separation + 0.1) < 1e-13 && Math.abs(point_a[2] - 1) < 1e-13 && Math.abs(point_b[2] - 0.9) < 1e-13);
+  for (const earlier of [first, JSON.parse(JSON.stringify(first))]) {
+    const next = ovoid.findManifold(box, box, null, at(1.9 + 1e-12), { earlier });
+    assert.deepEqual(next.points.map((p) => p.id), first.points.map((p) => p.id));
+    assert.equal(ovoid.verifyManifold(box, box, null, at(1.9 + 1e-12), next), null);
+  }
+  const apart = ovoid.findManifold(box, box, null, at(3));
+  assert.deepEqual([apart.axis, apart.points, apart.limit, apart.upper], ['none', [], 'cap', Infinity]);
+  assert.equal(ovoid.verifyManifold(box, box, null, at(3), apart), null);
+});
+
+test('what a contact cannot be asked of is refused', () => {
+  const box = Shape.box([1, 1, 1]), solid = Solid.fromTriangles([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]);
+  assert.throws(() => ovoid.findManifold(box, new Compound([{ shape: box }])), /findManifolds/);
+  assert.throws(() => ovoid.findManifolds(box, solid), /shape_b: a solid has no contacts/);
+  assert.throws(() => ovoid.findManifold(box, box, null, null, { margins: 1 }), /did you mean margin/);
+  assert.throws(() => ovoid.findManifold(box, box, null, null, { margin: -1 }), /margin, tolerance and keep/);
+  assert.throws(() => ovoid.findManifold(box, box, null, null, { angle: 2 }), /1.45/);
+  assert.throws(() => ovoid.computePolygon(box, box, null, null, { ...ovoid.findManifold(box, box), part_a: 3 }), /no such parts/);
 });

@@ -24,6 +24,9 @@ function say(text) {
 /** Most pairs of a motion that are asked about in each frame. */
 const LIVE_PAIRS = 50;
 
+/** Most pairs whose contacts are drawn at once. */
+const MOST_CONTACTS = 2000;
+
 class Page {
   constructor(model, renderer) {
     this.model = model;
@@ -69,7 +72,15 @@ class Page {
   }
   #showAnswer() {
     this.view.showAnswer(this.#shownAnswer().answer);
+    if (this.model.contactOptions) this.view.showContacts(this.#listContacts());
     this.panel.mark(this.model.pairs.length > 1 ? this.nearest : null);
+  }
+
+  // The contacts of the chosen pair, of the chosen body's pairs, or of all.
+  #listContacts() {
+    const { chosen } = this.panel ?? {}, { pairs, byBody } = this.model, shown = chosen ? [chosen] : this.chosenBody ? byBody.get(this.chosenBody) : pairs;
+    const answerOf = (pair) => (pair === chosen ? pair.answer : this.#answerNow(pair));
+    return shown.slice(0, MOST_CONTACTS).flatMap((pair) => this.model.listContacts(pair, answerOf(pair)));
   }
 
   get isIsolated() {
@@ -172,9 +183,12 @@ class Page {
   }
 
   #layers() {
-    const labels = { meshes: 'Meshes', hulls: 'Hulls', outer: 'Outer ellipsoids', inner: 'Inner ellipsoids', areas: 'Areas', witness: 'Witness points' };
-    const keys = { meshes: 'm', hulls: 'h', outer: 'o', inner: 'i', areas: 'a', witness: 'w' };
-    const { data, pairs } = this.model, has = (name) => (name === 'witness' ? pairs.length > 0 || data.robot !== undefined : Layer.has(this.model, name));
+    const labels = { meshes: 'Meshes', hulls: 'Hulls', outer: 'Outer ellipsoids', inner: 'Inner ellipsoids', areas: 'Areas', witness: 'Witness points', contacts: 'Contacts' };
+    const keys = { meshes: 'm', hulls: 'h', outer: 'o', inner: 'i', areas: 'a', witness: 'w', contacts: 'c' };
+    const { data, pairs } = this.model, has = (name) => {
+      if (name === 'contacts') return this.model.contactOptions !== undefined;
+      return name === 'witness' ? pairs.length > 0 || data.robot !== undefined : Layer.has(this.model, name);
+    };
     this.boxes = {};
     for (const [name, text] of Object.entries(labels)) {
       if (!has(name)) continue;

@@ -117,6 +117,9 @@ export class Model {
     this.shapes = data.shapes.map((shape) => new PageShape(ovoid, shape));
     this.bodies = data.bodies.map((body, i) => new Body(this, body, i));
     this.pairs = data.pairs.map(({ a, b, answer, frame }) => ({ a: this.bodies[a], b: this.bodies[b], answer, given: answer, frame, isLive: false }));
+    // The options of contacts, where the command was asked for them.
+    const asked = data.pairs.find(({ answer }) => answer.contact_margin !== undefined)?.answer;
+    this.contactOptions = asked && { margin: asked.contact_margin, angle: asked.contact_angle };
     this.byBody = new Map(this.bodies.map((body) => [body, []]));
     for (const pair of this.pairs) for (const body of [pair.a, pair.b]) this.byBody.get(body).push(pair);
     // Balls where bodies are at other times or in other states: a picture of all has room for them.
@@ -161,8 +164,19 @@ export class Model {
   /** The answer for where both bodies are now; null: the page has not got them. */
   ask(a, b) {
     if (!a.asked || !b.asked) return null;
-    const kind = a.isSolid || b.isSolid ? 'distance' : 'depth';
-    return this.ovoid[kind](a.asked, b.asked, a.pose, b.pose);
+    const hasSolid = a.isSolid || b.isSolid, answer = this.ovoid[hasSolid ? 'distance' : 'depth'](a.asked, b.asked, a.pose, b.pose);
+    if (this.contactOptions && !hasSolid) answer.contacts = this.ovoid.findManifolds(a.asked, b.asked, a.pose, b.pose, this.contactOptions);
+    return answer;
+  }
+
+  /** What is drawn of an answer's contacts: all corners of each polygon, and its points, between both bodies. */
+  listContacts({ a, b }, answer) {
+    if (!answer?.contacts || !a.asked || !b.asked) return [];
+    const between = ({ point_a: p, point_b: q }) => p.map((x, k) => (x + q[k]) / 2), radius = Math.min(a.radius, b.radius);
+    return answer.contacts.map((contact) => {
+      const { points } = this.ovoid.computePolygon(a.asked, b.asked, a.pose, b.pose, contact, this.contactOptions);
+      return { corners: points.map(between), points: contact.points.map(between), normal: contact.normal, radius };
+    });
   }
 
   askAgain(pair) {
@@ -191,6 +205,9 @@ export class Model {
     // What is near a robot comes without proofs, and those that were too many for the page.
     if (!pair.answer.proof) this.askAgain(pair);
     const error = this.ovoid.verify(a.asked, b.asked, a.pose, b.pose, pair.answer);
-    return { isVerified: true, holds: error === null, text: error ? error.message : 'The proof holds.' };
+    if (error) return { isVerified: true, holds: false, text: error.message };
+    const contacts = pair.answer.contacts ?? [], wrong = contacts.map((m) => this.ovoid.verifyManifold(a.asked, b.asked, a.pose, b.pose, m, this.contactOptions)).find(Boolean);
+    const text = contacts.length ? `The proof holds, and that of ${contacts.length === 1 ? 'the contact' : `${contacts.length} contacts`}.` : 'The proof holds.';
+    return { isVerified: true, holds: !wrong, text: wrong ? `A contact: ${wrong.message}` : text };
   }
 }

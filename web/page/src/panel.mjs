@@ -1,7 +1,7 @@
 // The list of pairs, what is known of the chosen one, and the bodies.
 
 import { countPairs, describeScene } from './headline.mjs';
-import { describeAnswer, formatBracket, formatLength, formatMiddle } from './text.mjs';
+import { describeAnswer, describeContact, describeId, formatBracket, formatLength, formatMiddle } from './text.mjs';
 
 const MOST_ROWS = 400;
 /** Of fewer pairs nothing needs to be sought by name. */
@@ -143,7 +143,20 @@ export class Panel {
         ...fact('normal', vector(answer.normal)),
         ...fact('decided by', answer.stage ?? ''),
       )),
+      ...this.#listContacts(answer),
     );
+  }
+
+  // The contacts of an answer, where the command was asked for them: of each what meets, its area and its points.
+  #listContacts({ contacts, contact_limit: limit }) {
+    const { contactOptions, unit } = this.model;
+    if (!contactOptions) return [];
+    if (!contacts?.length) return [element('p', { id: 'contacts', textContent: limit ? 'Solids and surfaces have no contacts.' : `No contact within ${formatLength(contactOptions.margin, unit)}.` })];
+    const rows = contacts.flatMap((m) => [
+      element('tr', {}, element('th', { colSpan: 3, textContent: describeContact(m, unit) })),
+      ...m.points.map((p) => element('tr', {}, ...[describeId(p.id), p.point_a.map((x) => Number(x.toPrecision(6))).join(', '), formatLength(p.separation, unit, 6)].map((textContent) => element('td', { textContent })))),
+    ]);
+    return [element('h3', { textContent: contacts.length === 1 ? 'The contact' : `${contacts.length} contacts` }), element('table', { id: 'contacts' }, element('tbody', {}, ...rows))];
   }
 
   /** What is known of a body. */

@@ -84,3 +84,20 @@ export function labelAnswer({ status, lower, upper }, unit) {
 export function describeBracket({ lower, upper }, unit) {
   return describeAnswer({ status: upper < 0 ? 'overlapping' : lower > 0 ? 'separated' : 'undecided', lower, upper }, unit);
 }
+
+/** What meets in a contact, by how much, and over which area. */
+export function describeContact({ axis, lower, upper, status, inner, outer, corners, points, part_a, part_b }, unit) {
+  const distance = formatBracket({ lower, upper, status }, unit), parts = part_a || part_b ? `, parts ${part_a} and ${part_b}` : '';
+  const area = corners > 2 ? `, area ${outer - inner <= 1e-6 * outer ? formatLength(inner, '') : `${formatLength(inner, '')} to ${formatLength(outer, '')}`}${unit ? ` ${unit}²` : ''}` : '';
+  const count = points.length === corners ? `${corners} point${corners === 1 ? '' : 's'}` : `${points.length} of ${corners} points`;
+  return `by ${axis}, ${count}: ${distance}${area}${parts}`;
+}
+
+const VERTEX_B = 0x40000000, CROSSING = 0x80000000, NEAREST = 0xc0000000;
+
+/** What stays the same while a point of contact does. */
+export function describeId(id) {
+  if (id >= NEAREST) return 'nearest';
+  if (id >= CROSSING) return `edges ${Math.floor((id - CROSSING) / 32768)}, ${(id - CROSSING) % 32768}`;
+  return id >= VERTEX_B ? `vertex ${id - VERTEX_B} of b` : `vertex ${id} of a`;
+}

@@ -5,6 +5,7 @@ import {
 } from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { TransformControls } from 'three/examples/jsm/controls/TransformControls.js';
+import { Contacts } from './contacts.mjs';
 import { makePoseMatrix } from './geometry.mjs';
 import { Layer, NAMES } from './layers.mjs';
 import { Outline } from './outline.mjs';
@@ -29,7 +30,7 @@ export class View {
     this.model = model;
     this.renderer = renderer;
     this.canvas = renderer.domElement;
-    this.shown = { meshes: true, ghosts: false, hulls: false, areas: false, outer: false, inner: false, witness: true };
+    this.shown = { meshes: true, ghosts: false, hulls: false, areas: false, outer: false, inner: false, witness: true, contacts: true };
     this.opacity = 1;
     this.only = null;
     this.layers = {};
@@ -40,7 +41,8 @@ export class View {
     this.camera.up.set(0, 0, 1);
     this.pairGroup = new Group();
     this.outline = new Outline(new Color(CHOSEN));
-    this.scene.add(this.pairGroup, this.outline.group);
+    this.contacts = new Contacts();
+    this.scene.add(this.pairGroup, this.outline.group, this.contacts.group);
     this.#light();
     this.show({});
     this.controls = new OrbitControls(this.camera, this.canvas);
@@ -113,6 +115,7 @@ export class View {
     paint('hulls', shown.meshes ? Math.min(0.3, isVeiled) : isVeiled);
     paint('areas', isVeiled);
     this.pairGroup.visible = shown.witness;
+    this.contacts.group.visible = shown.contacts;
     if (shown.ghosts !== wasGhosts) this.#placeAgain();
     this.#outlineChosen();
     this.draw();
@@ -156,6 +159,12 @@ export class View {
     tube.quaternion.setFromUnitVectors(UP, way.normalize());
     this.pairGroup.add(tube);
     this.pairGroup.traverse((object) => (object.renderOrder = 10));
+    this.draw();
+  }
+
+  /** Draws contacts. */
+  showContacts(list) {
+    this.contacts.set(list);
     this.draw();
   }
 
@@ -341,9 +350,9 @@ export class View {
     this.onPicture?.(sizes);
   }
 
-  // The lines of a picture that is painted: the witness points', and of what is held the handles.
+  // The lines of a picture that is painted: those of contacts, the witness points', and of what is held the handles.
   #listLines() {
-    return [...(this.line && this.shown.witness ? [this.line] : []), ...this.handleLines];
+    return [...(this.shown.contacts ? this.contacts.lines : []), ...(this.line && this.shown.witness ? [this.line] : []), ...this.handleLines];
   }
 
   /** The handles of what is held as lines: arrows or rings, as long as those of three.js. */
