@@ -54,7 +54,7 @@ export class Painter {
     }
     context.globalAlpha = 1;
     if (outlined.length) this.#drawOutline(outlined, camera, outlineColor);
-    for (const { points, color, isRing } of lines) this.#drawLine(points.map((p) => this.#project(p.clone().applyMatrix4(camera.matrixWorldInverse), camera)), color, isRing);
+    for (const { points, ...how } of lines) this.#drawLine(points.map((p) => this.#project(p.clone().applyMatrix4(camera.matrixWorldInverse), camera)), how);
   }
 
   // Around triangles a line, where they are not themselves: they are drawn wider on a canvas of its own, and taken out of it.
@@ -106,7 +106,7 @@ export class Painter {
   }
 
   // A line with dots at its ends, or a ring without.
-  #drawLine(points, color, isRing) {
+  #drawLine(points, { color, isRing, isBare }) {
     if (!points.every(Boolean)) return;
     const { context, ratio } = this;
     context.strokeStyle = context.fillStyle = color;
@@ -115,7 +115,7 @@ export class Painter {
     for (const [x, y] of points) context.lineTo(x, y);
     if (isRing) context.closePath();
     context.stroke();
-    for (const [x, y] of isRing ? [] : points) {
+    for (const [x, y] of isRing || isBare ? [] : points) {
       context.beginPath();
       context.arc(x, y, 4 * ratio, 0, 2 * Math.PI);
       context.fill();

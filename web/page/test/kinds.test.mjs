@@ -229,3 +229,42 @@ test('a chosen pair is seen through what stands before it', { skip }, async () =
     await page.close();
   }
 });
+
+test('contacts are drawn, listed, moved with the bodies and checked; without --contacts there are none', { skip }, async () => {
+  run('check', inStart('stack.json'), '--margin', '0.01', '--contacts', '--html', 'contacts.html');
+  const { page, errors } = await open('contacts.html', flat);
+  const count = () => at(page, () => window.ovoidPage.view.contacts.lines.length);
+  // Sides: two of the rod's segment are one; squares of four, three of them; an octagon; a normal of each of the six contacts.
+  assert.equal(await count(), 1 + 3 * 4 + 8 + 6);
+  await page.click('#pairs tr:nth-child(4)');
+  assert.equal(await page.textContent('#status'), 'They are 5e-4 apart, proven.');
+  assert.match(await page.textContent('#contacts'), /^by face b, 4 of 8 points: 5e-4, area 0.828427edges/);
+  assert.equal(await count(), 8 + 1);
+  await page.click('#check');
+  assert.equal(await page.textContent('#proof'), 'The proof holds, and that of the contact.');
+  await page.click('#layer-contacts');
+  assert.equal(await at(page, () => window.ovoidPage.view.contacts.group.visible), false);
+  // The lid is lifted beyond the margin, then pressed into the crate.
+  const move = (z) => at(page, (to) => {
+    const { ovoidPage } = window, body = ovoidPage.model.bodies.find(({ name }) => name === 'lid');
+    body.pose.xyz[2] = to;
+    ovoidPage.moved(body);
+    return ovoidPage.panel.chosen.answer.contacts.map(({ points, upper }) => [points.length, upper]);
+  }, z);
+  assert.deepEqual(await move(1.2), []);
+  assert.equal(await page.textContent('#contacts'), 'No contact within 0.01.');
+  const [[points, upper]] = await move(1.024);
+  assert.ok(points === 4 && Math.abs(upper + 0.1) < 1e-9);
+  assert.deepEqual(errors, []);
+  await page.close();
+  alter('contacts.html', (data) => (data.pairs[3].answer.contacts[0].points[0].id ^= 1));
+  const altered = await open('altered.html', flat);
+  await altered.page.click('#check-all');
+  await altered.page.waitForFunction(() => /hold/.test(document.getElementById('checked').textContent));
+  assert.match(await altered.page.textContent('#checked'), /^1 of 5 proofs do not hold/);
+  await altered.page.close();
+  run('check', inStart('stack.json'), '--margin', '0.01', '--html', 'plain.html');
+  const plain = await open('plain.html', flat);
+  assert.equal(await plain.page.$('#layer-contacts'), null);
+  await plain.page.close();
+});
