@@ -21,6 +21,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     while ((got = ovoid_results_reader_read(reader, &record, &error)) == 1) {
         fuzz_require(ovoid_results_reader_get_line(reader) > 0);
         (void)ovoid_answer_verify(&pair, &record.answer, &(ovoid_answer_basis){.cover = record.cover}, &error);
+        for (size_t i = 0; i < record.contact_count; i++) {
+            const ovoid_record_contact *contact = &record.contacts[i];
+            const ovoid_manifold_options options = {.margin = 2.5, .cover = (ovoid_cover *)contact->cover};
+            (void)ovoid_manifold_verify(&pair, &contact->manifold, &options, &error);
+            fuzz_require(ovoid_manifold_compute_points(&pair, &contact->manifold).count <= 4);
+        }
         fuzz_require(ovoid_record_write_json(nowhere, &record) == OVOID_OK);
         fuzz_require(ovoid_record_write_csv(nowhere, &record) == OVOID_OK);
     }

@@ -1,5 +1,5 @@
 // Answer: what a query proved of two bodies, with its proof and what it takes to check it.
-#include "src/manifold.h"
+#include "src/manifold/manifold.h"
 #include "src/query.h"
 #ifdef OVOID_PYTHON_ROBOT
 #include "src/robot/robot.h"

@@ -3,7 +3,7 @@
 //
 // What is read may be any bytes: lengths, indices of parts and poses are checked, so that an object is valid or
 // refused. Whether its numbers are true is the matter of verify().
-#include "src/manifold.h"
+#include "src/manifold/manifold.h"
 #include "src/motion.h"
 #include "src/query.h"
 

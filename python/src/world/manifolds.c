@@ -1,5 +1,5 @@
 // The contacts of a World's step, with their points, and the materials of its bodies.
-#include "src/manifold.h"
+#include "src/manifold/manifold.h"
 #include "src/world/world.h"
 
 // The arrays of a step belong to the world until its next call: copies.

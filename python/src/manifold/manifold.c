@@ -1,7 +1,7 @@
 // Manifold: the contact of two Shapes, or of each two parts of Compounds: up to four points, a normal, a bracket.
 //
 // The cover of a search goes with the manifold that it proves, and on to those that are moved on from it.
-#include "src/manifold.h"
+#include "src/manifold/manifold.h"
 #include "src/bodies.h"
 #include "src/query.h"
 
