@@ -54,6 +54,8 @@ tests_of() {
     lanes) echo "test_simd_octet test_simd_gjk8 test_query_batch" ;;
     robot) echo "test_robot_model test_robot_poses test_robot_balls test_robot_hits test_robot_collide test_robot_matrix test_robot_path test_robot_path_altered test_robot_path_bounds test_robot_judge test_robot_clearance test_robot_motion" ;;
     io) echo "test_io_numbers test_io_json test_io_convexity test_io_motion test_io_scene test_io_pairs test_io_mesh test_io_limits test_io_results test_io_solid" ;;
+    contact_faces) echo "test_io_contacts test_cli.sh:check test_cli_lies.sh" ;;
+    contact_python) echo "test_python_manifold test_python_pickle" ;;
     robot_read) echo "test_robot_urdf test_robot_srdf test_robot_packages test_robot_scenes test_robot_place test_robot_known" ;;
     robot_solid) echo "test_robot_solid test_robot_urdf test_robot_scenes test_cli.sh:robot_solid" ;;
     robot_cover) echo "test_robot_cover test_robot_edges test_robot_path test_robot_solid" ;;

@@ -82,6 +82,15 @@ class Pairs(unittest.TestCase):
                 seen += m.proof == "search"
         self.assertGreater(seen, 0)
 
+    def test_foreign(self):
+        """What a search proved of one pair is not taken for another, whose features have the same numbers."""
+        deep = ovoid.Pose.from_rpy((0.3, 0.2, 0.9), (0.3, 0.7, 0.1))
+        m = ovoid.find_manifold(BOX, ovoid.Shape.cylinder(0.5, 1), None, deep)
+        self.assertEqual(m.proof, "search")
+        other = ovoid.find_manifold(BOX, ovoid.Shape.cylinder(0.25, 0.5), None, deep, earlier=m, tolerance=10)
+        ovoid.verify(other)
+        self.assertEqual((other.lower, other.upper), (lambda c: (c.lower, c.upper))(ovoid.find_manifold(BOX, other.b, None, deep, tolerance=10)))
+
     def test_swapped(self):
         random.seed(5)
         for _ in range(40):
@@ -132,6 +141,19 @@ class Parts(unittest.TestCase):
         again = ovoid.find_manifolds(TEE, BOX, None, ovoid.Pose((0.5, 0.25, 1.9 + 1e-12)), margin=0.1, earlier=found[::-1])
         self.assertEqual([m.ids.tolist() for m in again], [m.ids.tolist() for m in found])
         self.assertEqual(ovoid.find_manifolds(TEE, BOX, None, (9, 0, 0)), [])
+
+    def test_earlier(self):
+        """A list in another order is as good: what a search proved goes on with each part."""
+        can, at = ovoid.Shape.cylinder(0.5, 1), lambda by: ovoid.Pose.from_rpy((0.3, 0.2, 0.9 + by), (0.3, 0.7, 0.1))
+        pair = ovoid.Compound([can, BOX], [None, (0.2, 0, 0)])
+        first = ovoid.find_manifolds(pair, can, None, at(0), tolerance=0.01)
+        self.assertIn("search", [m.proof for m in first])
+        found = [ovoid.find_manifolds(pair, can, None, at(1e-4), tolerance=0.01, earlier=given) for given in (first, first[::-1], None)]
+        brackets = [[(m.lower, m.upper) for m in one] for one in found]
+        self.assertEqual(brackets[0], brackets[1])
+        self.assertNotEqual(brackets[0], brackets[2])
+        for m in found[1]:
+            ovoid.verify(m)
 
 
 class Batches(unittest.TestCase):

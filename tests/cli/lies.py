@@ -145,7 +145,7 @@ def find_false_contact(told, honest, pair, margin):
     is_free = told["axis"] == "free" and all(told[k] == honest[k] for k in ("feature_a", "feature_b"))
     if told["axis"] != honest["axis"] and not is_free:
         return "axis of a contact"
-    for key in ("part_a", "part_b", "facet_a", "facet_b", "corners", "share"):
+    for key in ("part_a", "part_b", "facet_a", "facet_b", "corners", "share", "grown"):
         if told.get(key) != honest[key]:
             return f"{key} of a contact"
     # A facet makes the axis; what is beside it is the vertex below it, of which there may be several.
