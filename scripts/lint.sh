@@ -6,7 +6,7 @@ set -u
 . "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.." || exit 1
 
-sources() { find src include cli judge bench examples fuzz packaging python tests web/src \( -name '*.[ch]' -o -name '*.[ch]pp' \) -print; }
+sources() { find src include adapters cli judge bench examples fuzz packaging python tests web/src \( -name '*.[ch]' -o -name '*.[ch]pp' \) -print; }
 
 run_step() {
     case $1 in

@@ -31,7 +31,7 @@ class OvoidConan(ConanFile):
         self.version = ".".join(re.findall(r"#define OVOID_VERSION_(?:MAJOR|MINOR|PATCH) (\d+)", header))
 
     def export_sources(self):
-        for pattern in ("CMakeLists.txt", "LICENSE", "cmake/*", "include/*", "src/*", "judge/*", "cli/*"):
+        for pattern in ("CMakeLists.txt", "LICENSE", "cmake/*", "adapters/*", "include/*", "src/*", "judge/*", "cli/*"):
             copy(self, pattern, src=self._root, dst=self.export_sources_folder)
 
     def configure(self):

@@ -7,7 +7,7 @@ work=$OVOID_BUILD_DIR/test_skipped
 
 # count FOLDER: the tests of a build folder, with those that placeholders stand for.
 count() {
-    for part in bench examples fuzz python tests; do
+    for part in adapters bench examples fuzz python tests; do
         [ -f "$1/$part/CTestTestfile.cmake" ] && cat "$1/$part/CTestTestfile.cmake"
     done | awk '/^add_test\(/ { n = 1; if (match($0, /0 failed, [0-9]+ skipped/)) n = substr($0, RSTART + 10) + 0; sum += n } END { print sum + 0 }'
 }
