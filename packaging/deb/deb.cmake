@@ -48,6 +48,16 @@ ${about}This package has the shared library.")
 ovoid_deb(dev libovoid-dev libdevel "libovoid${so} (= ${full})" "proximity queries between convex bodies (development)
 ${about}This package has the headers, the static library, the CMake package
 and the pkg-config file.")
+# Headers for engines, where these are.
+foreach(name Bullet MuJoCo DART)
+  string(TOLOWER ${name} engine)
+  if(TARGET ovoid_${engine})
+    set(depends "libovoid-dev (= ${full}), lib${engine}-dev")
+    ovoid_deb(${engine}_dev libovoid-${engine}-dev libdevel "${depends}" "proven contacts in ${name} (development)
+${about}This package has the header that lets the physics engine ${name} take its
+contacts from libovoid.")
+  endif()
+endforeach()
 if(TARGET ovoid_io_shared)
   ovoid_deb(io libovoid-io${so} libs "" "meshes, scenes and results for ovoid
 ${about}This package has the shared library that reads meshes and scenes and

@@ -26,6 +26,12 @@ mkdir -p "$folder"
 check "build, with lintian" "$OVOID_SOURCE_DIR/scripts/deb.sh" "$folder/build"
 so=$(define MAJOR).$(define MINOR)
 packages="libovoid$so libovoid-dev libovoid-io$so libovoid-io-dev libovoid-robot$so libovoid-robot-dev libovoid-ompl-dev ovoid ovoid-plan"
+# The headers for engines, where these are.
+engines=
+for engine in bullet mujoco dart; do
+    dpkg-query -W "lib$engine-dev" >/dev/null 2>&1 && engines="$engines libovoid-$engine-dev"
+done
+packages="$engines $packages"
 for package in $packages; do
     file=$(find "$folder/build" -maxdepth 1 -name "${package}_$version-1_*.deb")
     check "package $package" [ -f "$file" ]
@@ -70,7 +76,8 @@ check "the tool runs" "$root/usr/bin/ovoid" --version
 check "the tool says its version" [ "$("$root/usr/bin/ovoid" --version | head -n 1)" = "ovoid $version" ]
 
 # Without libovoid-io-dev, and libovoid-robot-dev, which needs it, the core is still found, and its absence is said.
-in_root -r libovoid-ompl-dev libovoid-robot-dev libovoid-io-dev >/dev/null 2>&1
+# shellcheck disable=SC2086 # a list of packages
+in_root -r $engines libovoid-ompl-dev libovoid-robot-dev libovoid-io-dev >/dev/null 2>&1
 check "CMake: the core alone" cmake -S "$outside" -B "$folder/out_core" -DCMAKE_C_COMPILER="$cc" -DCMAKE_PREFIX_PATH="$root/usr"
 check "CMake: a component that is not there" fails cmake -S "$outside" -B "$folder/out_none" -DCMAKE_C_COMPILER="$cc" \
     -DCMAKE_PREFIX_PATH="$root/usr" -DOUTSIDE_COMPONENTS=io
