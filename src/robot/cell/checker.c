@@ -54,6 +54,8 @@ static const struct {
               ARRAY(ball_stamps, PER_ITEM),
               ARRAY(spheres8, PER_GROUP),
               ARRAY(filter.parts, PER_GROUP_AND_PART),
+              ARRAY(pair_tables, PER_PAIR),
+              ARRAY(group_tables, PER_GROUP_PAIR),
               ARRAY(filter.pairs, PER_GROUP_PAIR)};
 
 static void release_all(ovoid_robot_checker *checker) {
@@ -96,6 +98,23 @@ static void set_world(frame8 *f) {
         for (int k = 0; k < ROBOT8; k++) f->column[ones[i]][k] = 1;
 }
 
+// The tables hold for the elements of two links, whichever of them are queried; attached bodies have none. A pair of
+// groups has one where all its pairs do.
+static void set_tables(ovoid_robot_checker *checker, const pair_tables *tables) {
+    const ovoid_robot_cell *c = checker->cell;
+    for (uint32_t i = 0; i < c->group_pairs.count; i++) {
+        const group_pair *both = &cell_group_pairs(c)[i];
+        const pair_table *table = pair_tables_find(tables, cell_groups(c)[both->a].link, cell_groups(c)[both->b].link);
+        checker->group_tables[i] = table;
+        for (uint32_t k = both->first; k < both->end; k++) {
+            item_pair items = cell_pairs(c)[k];
+            int is_known = !cell_items(c)[items.a].side.body && !cell_items(c)[items.b].side.body;
+            checker->pair_tables[k] = is_known ? table : NULL;
+            if (!is_known) checker->group_tables[i] = NULL;
+        }
+    }
+}
+
 ovoid_code checker_renew(ovoid_robot_checker *made, ovoid_error *error) {
     const ovoid_robot_cell *c = made->cell;
     if (!c->is_whole)
@@ -113,7 +132,10 @@ ovoid_code checker_renew(ovoid_robot_checker *made, ovoid_error *error) {
                                          [TWO_PER_PAIR] = 2 * checker_count_pairs(made),
                                          [PER_GROUP_AND_PART] = c->groups.count * c->parts.count,
                                          [PER_GROUP_PAIR] = c->group_pairs.count};
-    if (!make_arrays(made, counts)) return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for a checker");
+    const pair_tables *tables = robot_get_pair_tables(c->robot);
+    if (!tables || !make_arrays(made, counts))
+        return error_set(error, OVOID_ERROR_MEMORY, -1, "no memory for a checker");
+    set_tables(made, tables);
     made->version = c->version;
     made->level = made->lane = -1;
     made->frames[c->robot->root] = frame_make_world();
@@ -274,6 +296,7 @@ int checker_is_part_far(ovoid_robot_checker *checker, uint32_t item, uint32_t pa
 
 int checker_is_pair_far(ovoid_robot_checker *checker, uint32_t pair, double margin) {
     item_pair p = cell_pairs(checker->cell)[pair];
+    if (checker_is_table_far(checker, checker->pair_tables[pair], margin)) return 1;
     oriented_box a = place_box(checker, p.a), b = place_box(checker, p.b);
     return oriented_boxes_are_far(&a, &b, margin);
 }
@@ -459,7 +482,9 @@ static void visit_pairs(const checker_search *s) {
     ovoid_robot_checker *checker = s->checker;
     for (uint32_t i = 0; i < checker->cell->group_pairs.count; i++) {
         const group_pair *both = &cell_group_pairs(checker->cell)[i];
-        if (spheres_are_far(&checker->places[both->a], &checker->places[both->b], *s->margin)) continue;
+        if (spheres_are_far(&checker->places[both->a], &checker->places[both->b], *s->margin) ||
+            checker_is_table_far(checker, checker->group_tables[i], *s->margin))
+            continue;
         if (!is_expected(s, &checker->pair_nears[both->first])) {
             oriented_box a = place_group_box(checker, both->a), b = place_group_box(checker, both->b);
             if (oriented_boxes_are_far(&a, &b, *s->margin)) continue;

@@ -4,6 +4,7 @@
 
 #include "robot/cell/cell.h"
 #include "robot/cell/near_list.h"
+#include "robot/model/pair_table.h"
 
 /// The place of a sphere around items.
 typedef struct sphere_place {
@@ -77,15 +78,16 @@ struct ovoid_robot_checker {
     sphere_place *places;             ///< of each group
     inner_balls *balls;               ///< of each item, in the world, where `ball_stamps` say so
     uint64_t *ball_stamps;
-    double *errors;                    ///< of each item: what its points may be off by
-    double *group_errors;              ///< of each group: what its points may be off by
-    ovoid_proof *part_proofs;          ///< of item i and part k at i part_count + k
-    ovoid_proof *pair_proofs;          ///< of each pair of items
-    near_key *near_keys;               ///< two of each pair that there is
-    double *near_row;                  ///< a row of gradients
-    uint64_t *part_nears, *pair_nears; ///< of each pair: the last state in which it was found near
-    void *block;                       ///< the memory of all these arrays
-    path_memory *path;                 ///< NULL: no path was searched since the cell has changed
+    double *errors;                                 ///< of each item: what its points may be off by
+    double *group_errors;                           ///< of each group: what its points may be off by
+    ovoid_proof *part_proofs;                       ///< of item i and part k at i part_count + k
+    ovoid_proof *pair_proofs;                       ///< of each pair of items
+    near_key *near_keys;                            ///< two of each pair that there is
+    double *near_row;                               ///< a row of gradients
+    uint64_t *part_nears, *pair_nears;              ///< of each pair: the last state in which it was found near
+    const pair_table **pair_tables, **group_tables; ///< of each pair of items, of groups; NULL: there is none
+    void *block;                                    ///< the memory of all these arrays
+    path_memory *path;                              ///< NULL: no path was searched since the cell has changed
     void (*path_destroy)(path_memory *memory);
 };
 
@@ -145,7 +147,14 @@ typedef struct checker_pair {
 checker_pair checker_make_part_pair(ovoid_robot_checker *checker, uint32_t item, uint32_t part);
 checker_pair checker_make_item_pair(ovoid_robot_checker *checker, uint32_t pair);
 
-/// 1 where the boxes of a pair prove it farther apart than the margin; padding is added.
+/// 1 where a table proves it of a state, by itself or in its lane.
+static inline int checker_is_table_far(const ovoid_robot_checker *checker, const pair_table *table, double margin) {
+    if (!table) return 0;
+    if (checker->lane < 0) return pair_table_is_far(table, checker->values, 1, margin);
+    return pair_table_is_far(table, checker->values8[0] + checker->lane, ROBOT8, margin);
+}
+
+/// 1 where the boxes of a pair, or its table, prove it farther apart than the margin; padding is added.
 int checker_is_part_far(ovoid_robot_checker *checker, uint32_t item, uint32_t part, double margin);
 int checker_is_pair_far(ovoid_robot_checker *checker, uint32_t pair, double margin);
 

@@ -1,5 +1,6 @@
 // Eight states side by side: their frames and spheres, and which groups their spheres and boxes part, all of which is
 // the same arithmetic as for one state, in lanes (simd/robot/robot8.h). What is left goes state by state.
+#include "base/compiler.h"
 #include "robot/cell/checker.h"
 
 static void place_values(ovoid_robot_checker *checker, const double *q, double slack, uint32_t k, lane_state *state) {
@@ -59,12 +60,23 @@ static linked_box8 get_linked_box(const ovoid_robot_checker *checker, uint32_t g
     return (linked_box8){&checker->frames8[g->link], g->middle, g->half, g->radius + checker->group_errors[group]};
 }
 
+// The states in which a table does not part a pair.
+static unsigned leave_open(const ovoid_robot_checker *checker, const pair_table *table, unsigned near, double margin) {
+    unsigned open = near;
+    for (; table && near; near &= near - 1) {
+        unsigned k = compiler_count_low_zeros(near);
+        if (pair_table_is_far(table, checker->values8[0] + k, ROBOT8, margin)) open &= ~(1u << k);
+    }
+    return open;
+}
+
 static void filter_pairs(ovoid_robot_checker *checker, double margin) {
     const ovoid_robot_cell *c = checker->cell;
     size_t count = 0;
     for (uint32_t i = 0; i < c->group_pairs.count; i++) {
         const group_pair *p = &cell_group_pairs(c)[i];
         unsigned near = checker->kernels->near_spheres(&checker->spheres8[p->a], &checker->spheres8[p->b], margin);
+        near = leave_open(checker, checker->group_tables[i], near, margin);
         if (!near) continue;
         linked_box8 a = get_linked_box(checker, p->a), b = get_linked_box(checker, p->b);
         near &= checker->kernels->near_linked_boxes(&a, &b, margin);

@@ -1,5 +1,5 @@
 // Robots: a description checked, copied into one block and compiled; what it is made of.
-#include "robot/model/robot.h"
+#include "robot/model/pair_table.h"
 
 #include "base/allocator.h"
 #include "base/environment.h"
@@ -18,7 +18,7 @@ static size_t advance(size_t *at, size_t count, size_t size) {
 // The places of the arrays in the block.
 typedef struct layout {
     size_t links, joints, elements, disabled, link_names, joint_names, parent_joint, order, joint_variable, variables,
-        leads, steps, step_of, value_first, sources, element_inside, free_values, followers, text, size;
+        leads, steps, step_of, value_first, sources, element_inside, free_values, followers, tables, text, size;
 } layout;
 
 static size_t text_size(const char *text) { return text ? strlen(text) + 1 : 0; }
@@ -67,6 +67,7 @@ static layout make_layout(const ovoid_robot_description *d) {
     l.followers = advance(&l.size, d->joint_count, sizeof(uint32_t));
     l.free_values = advance(&l.size, d->joint_count, sizeof(uint32_t));
     l.element_inside = advance(&l.size, d->element_count, sizeof(uint32_t));
+    l.tables = advance(&l.size, 1, sizeof(pair_tables_once));
     l.text = advance(&l.size, compute_text_size(d), 1);
     return l;
 }
@@ -145,6 +146,8 @@ static ovoid_robot *create_copy(const ovoid_robot_description *d, const ovoid_al
     r->free_values = (void *)(block + l.free_values);
     r->followers = (void *)(block + l.followers);
     r->sources = (void *)(block + l.sources);
+    r->tables = (void *)(block + l.tables);
+    pair_tables_begin(r->tables);
     r->element_inside = (void *)(block + l.element_inside);
     copy_items(r->links, d->links, d->link_count, sizeof *r->links);
     copy_items(r->joints, d->joints, d->joint_count, sizeof *r->joints);
@@ -226,6 +229,7 @@ static ovoid_code compile(ovoid_robot *r, ovoid_error *error) {
 
 static void release(ovoid_robot *r) {
     ovoid_allocator memory = r->allocator;
+    pair_tables_end(r);
     allocator_release(&memory, r->insides);
     allocator_release(&memory, r);
 }

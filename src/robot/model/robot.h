@@ -53,6 +53,7 @@ struct ovoid_robot {
     double magnitude;         ///< the largest that variables of limited joints can have, where errors grow with them
     shape_inside *insides;    ///< of each shape once, in a block of its own
     uint32_t *element_inside; ///< of each element: which
+    struct pair_tables_once *tables; ///< in the block; made where they are first asked for
     int takes_shapes;
     ovoid_allocator allocator;
 };
