@@ -37,6 +37,8 @@ typedef struct cell_part {
     inner_region inside; ///< in the world
     double inside_size;  ///< the lengths that its centre is made of, summed
     double gap;          ///< as of shape_inside
+    body_slabs slabs;    ///< in its own frame
+    double size;         ///< the lengths that they are made of
     ovoid_robot_side side;
 } cell_part;
 

@@ -218,8 +218,13 @@ static void add_parts_of(compiler *state, uint32_t slot) {
         ovoid_posed_shape posed = {b->body.solid ? b->hull : b->body.shape, b->body.pose};
         if (b->body.compound) posed = ovoid_compound_get_part(b->body.compound, i);
         side.part = (uint32_t)i;
-        cell_part part = {
-            .shape = posed.shape, .solid = b->body.solid, .pose = posed.pose, .gap = b->gap, .side = side};
+        cell_part part = {.shape = posed.shape,
+                          .solid = b->body.solid,
+                          .pose = posed.pose,
+                          .gap = b->gap,
+                          .slabs = slabs_find_of_shape(posed.shape),
+                          .size = 3 * (posed.shape->extent + vec3_max_abs(posed.shape->origin)),
+                          .side = side};
         append(state, &state->cell->parts, &part, sizeof part);
     }
 }

@@ -254,7 +254,7 @@ static void load_frame(const frame8 *from, int k, link_frame *f) {
 // ---- items
 
 // A frame, computed where it is first asked for: those fixed to links; of states in lanes, those of links too.
-static const link_frame *get_frame(ovoid_robot_checker *checker, uint32_t which) {
+const link_frame *checker_get_frame(ovoid_robot_checker *checker, uint32_t which) {
     uint32_t links = checker->cell->robot->link_count;
     if (checker->stamps[which] == checker->state || (which < links && checker->lane < 0))
         return &checker->frames[which];
@@ -265,25 +265,25 @@ static const link_frame *get_frame(ovoid_robot_checker *checker, uint32_t which)
     }
     const chain_step *s = (const chain_step *)checker->cell->own.items + (which - links);
     const link_frame *parent =
-        get_frame(checker, s->parent == OVOID_ROBOT_NONE ? checker->cell->robot->root : s->parent);
+        checker_get_frame(checker, s->parent == OVOID_ROBOT_NONE ? checker->cell->robot->root : s->parent);
     step_apply(s, parent, checker->values, (turn){1, 0}, &checker->frames[which]);
     return &checker->frames[which];
 }
 
 static ovoid_pose get_pose(ovoid_robot_checker *checker, const cell_item *item) {
-    const link_frame *f = get_frame(checker, item->frame);
+    const link_frame *f = checker_get_frame(checker, item->frame);
     return (ovoid_pose){f->position, f->rotation};
 }
 
 static oriented_box place_box(ovoid_robot_checker *checker, uint32_t item) {
     const cell_item *it = &cell_items(checker->cell)[item];
-    return item_place_box(it, get_frame(checker, it->frame), checker->errors[item]);
+    return item_place_box(it, checker_get_frame(checker, it->frame), checker->errors[item]);
 }
 
 // The box of a group.
 static oriented_box place_group_box(ovoid_robot_checker *checker, uint32_t group) {
     const cell_group *g = &cell_groups(checker->cell)[group];
-    const link_frame *f = get_frame(checker, g->link);
+    const link_frame *f = checker_get_frame(checker, g->link);
     vec3 center = vec3_add(f->position, mat3_mul_vec3(f->matrix, g->middle));
     return (oriented_box){f->matrix, center, g->half, g->radius + checker->group_errors[group]};
 }
@@ -309,7 +309,7 @@ static const inner_balls *get_balls(ovoid_robot_checker *checker, uint32_t item)
     if (checker->ball_stamps[item] == checker->state) return world;
     checker->ball_stamps[item] = checker->state;
     const cell_item *it = &cell_items(checker->cell)[item];
-    const link_frame *f = get_frame(checker, it->frame);
+    const link_frame *f = checker_get_frame(checker, it->frame);
     const double position[3] = {f->position.x, f->position.y, f->position.z};
     checker->kernels->place_balls(&f->matrix, position, &it->inside->balls, world);
     return world;
@@ -326,7 +326,7 @@ static double compute_depth(ovoid_robot_checker *checker, uint32_t item, const i
 
 static double get_size(ovoid_robot_checker *checker, uint32_t item) {
     const cell_item *it = &cell_items(checker->cell)[item];
-    return it->inside->size + vec3_sum_abs(get_frame(checker, it->frame)->position);
+    return it->inside->size + vec3_sum_abs(checker_get_frame(checker, it->frame)->position);
 }
 
 // How deep the balls of two items come into one another.
@@ -381,7 +381,7 @@ checker_pair checker_make_item_pair(ovoid_robot_checker *checker, uint32_t pair)
                       .near = &checker->pair_nears[pair]};
     p.pair = (ovoid_pair){a->shape, b->shape, get_pose(checker, a), get_pose(checker, b)};
     p.solids = cell_get_item_solids(a, b);
-    p.rotation = &get_frame(checker, a->frame)->matrix;
+    p.rotation = &checker_get_frame(checker, a->frame)->matrix;
     p.error = checker->errors[both.a] + checker->errors[both.b];
     return p;
 }

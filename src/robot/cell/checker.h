@@ -158,6 +158,13 @@ static inline int checker_is_table_far(const ovoid_robot_checker *checker, const
 int checker_is_part_far(ovoid_robot_checker *checker, uint32_t item, uint32_t part, double margin);
 int checker_is_pair_far(ovoid_robot_checker *checker, uint32_t pair, double margin);
 
+/// The frame of an item of the state that is placed.
+const link_frame *checker_get_frame(ovoid_robot_checker *checker, uint32_t which);
+
+/// 1 where balls that cover one body prove it farther apart than the margin from the slabs around the other; padding is
+/// added.
+int checker_is_cover_far(ovoid_robot_checker *checker, const checker_pair *pair, pair_name name, double margin);
+
 /// 1 where what is known to lie inside both bodies overlaps: then a bracket of the signed
 /// distance as the poses are, the upper bound below zero.
 int checker_prove_overlap(ovoid_robot_checker *checker, pair_name name, double *lower, double *upper);

@@ -63,6 +63,7 @@ static int ask_pair(state_search *s, const checker_pair *p, pair_name name, cons
 // Takes the earlier proof if that separated the bodies: a proof of an overlap seldom holds for a state that is not
 // close.
 static int ask_candidate(state_search *s, const checker_pair *p, pair_name name) {
+    if (checker_is_cover_far(s->checker, p, name, s->margin)) return 1;
     return ask_pair(s, p, name, pair_was_apart(s->checker, p) ? pair_get_earlier(s->checker, p) : NULL);
 }
 

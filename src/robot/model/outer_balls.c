@@ -165,7 +165,16 @@ static void cover_solid(const ovoid_shape *s, const ovoid_polytope *p, cutter *c
     for (uint32_t i = 0; i < c->count && c->count > 1; i++) outer->balls[i] = grow(s, c->pieces[i].ball);
 }
 
-int outer_balls_find(const ovoid_shape *s, const ovoid_allocator *memory, outer_balls *outer) {
+// Side by side; the first is repeated.
+static void set_lanes(outer_balls *outer) {
+    for (uint32_t i = 0; i < COVER8; i++) {
+        const outer_ball *b = &outer->balls[i < outer->count ? i : 0];
+        const double all[BALLS8_COLUMNS] = {b->center.x, b->center.y, b->center.z, b->radius};
+        for (int k = 0; k < BALLS8_COLUMNS; k++) outer->lanes.column[k][i] = all[k];
+    }
+}
+
+static int find_balls(const ovoid_shape *s, const ovoid_allocator *memory, outer_balls *outer) {
     ovoid_polytope p = ovoid_shape_get_polytope(s);
     sphere all = sphere_compute_smallest(p.vertices, p.vertex_count);
     all.center = vec3_add(all.center, s->origin);
@@ -181,4 +190,11 @@ int outer_balls_find(const ovoid_shape *s, const ovoid_allocator *memory, outer_
     allocator_release(memory, c.below);
     allocator_release(memory, c.pool);
     return has_memory;
+}
+
+int outer_balls_find(const ovoid_shape *s, const ovoid_allocator *memory, outer_balls *outer) {
+    if (!find_balls(s, memory, outer)) return 0;
+    outer->slabs = slabs_find_of_shape(s);
+    set_lanes(outer);
+    return 1;
 }

@@ -4,6 +4,7 @@
 
 #include "base/allocator.h"
 #include "linear/vec3.h"
+#include "robot/model/slabs.h"
 #include "shape/block.h"
 
 enum { OUTER_BALLS = 8 };
@@ -19,6 +20,8 @@ typedef struct outer_balls {
     outer_ball one;                ///< around all of it
     outer_ball balls[OUTER_BALLS]; ///< each point of the body is in one of them
     uint32_t count;                ///< of the balls, at least 1
+    balls8 lanes;                  ///< the balls side by side
+    body_slabs slabs;
 } outer_balls;
 
 /// Cost: seven cuts of the hull's triangles, and a smallest ball for each piece. 0: no memory.

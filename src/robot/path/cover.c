@@ -18,42 +18,6 @@ static outer_ball place_ball(const cell_item *item, outer_ball own, double lengt
     return (outer_ball){ovoid_pose_compute_point(&item->in_link, own.center), (own.radius + CELL_SLACK * lengths) * UP};
 }
 
-// The thirteen directions of a point.
-static void find_along(vec3 v, double along[SLABS]) {
-    const double all[SLABS] = {v.x,
-                               v.y,
-                               v.z,
-                               v.x + v.y,
-                               v.x - v.y,
-                               v.x + v.z,
-                               v.x - v.z,
-                               v.y + v.z,
-                               v.y - v.z,
-                               v.x + v.y + v.z,
-                               v.x + v.y - v.z,
-                               v.x - v.y + v.z,
-                               v.x - v.y - v.z};
-    memcpy(along, all, sizeof all);
-}
-
-static body_slabs find_slabs(const cover_item *item) {
-    static const double norms[3] = {1, 1.4142135624, 1.7320508076}; // above 1, sqrt 2, sqrt 3
-    double low[SLABS], high[SLABS], along[SLABS];
-    for (uint32_t i = 0; i < item->vertex_count; i++) {
-        find_along(vec3_at(item->vertices, i), along);
-        for (int k = 0; k < SLABS; k++) {
-            low[k] = i ? min2(low[k], along[k]) : along[k];
-            high[k] = i ? max2(high[k], along[k]) : along[k];
-        }
-    }
-    body_slabs slabs;
-    for (int k = 0; k < SLABS; k++) {
-        slabs.middle[k] = 0.5 * (low[k] + high[k]);
-        slabs.half[k] = (0.5 * (high[k] - low[k]) + item->hull * norms[k < 3 ? 0 : k < 9 ? 1 : 2]) * UP;
-    }
-    return slabs;
-}
-
 static uint32_t find_nearest(const cover_item *item, vec3 x) {
     uint32_t nearest = 0;
     double least = INFINITY;
@@ -106,7 +70,7 @@ static double *set_item(path_cover *c, uint32_t which, double *vertices) {
     to->far *= UP;
     vertices = set_vertices(to, item, vertices);
     to->hull = (item->shape->lower_radius + 2 * CELL_SLACK * lengths) * UP;
-    to->slabs = find_slabs(to);
+    to->slabs = slabs_find(to->vertices, to->vertex_count, to->hull);
     return vertices;
 }
 

@@ -54,6 +54,18 @@ typedef struct body_slabs {
     double middle[SLABS], half[SLABS];
 } body_slabs;
 
+/// Eight balls that cover a body, in its frame: centres and radii.
+enum { BALLS8_CENTER = 0, BALLS8_RADIUS = 3, BALLS8_COLUMNS = 4 };
+typedef struct balls8 {
+    _Alignas(64) double column[BALLS8_COLUMNS][COVER8];
+} balls8;
+
+/// Where a body's frame is in another body's.
+typedef struct body_place {
+    mat3 rotation;
+    vec3 position;
+} body_place;
+
 /// A frame and its rates in eight lanes.
 typedef struct moving8 {
     const struct frame8 *frame;

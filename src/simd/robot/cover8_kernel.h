@@ -235,6 +235,24 @@ LANES_TARGET static unsigned run_near_slabs(const motion8 *m, const moving8 *bod
     return bits & ((1u << ROBOT8) - 1);
 }
 
+LANES_TARGET static unsigned run_near_resting(const balls8 *balls, const body_place *place, const body_slabs *s,
+                                              double reach) {
+    lane9 rotation = spread9(&place->rotation);
+    lane3 to = spread3(place->position), still = {lane_set(0), lane_set(0), lane_set(0)};
+    lane zero = lane_set(0);
+    for (int at = 0; at < ROBOT8; at += LANES) {
+        lane3 p = lane3_add(to, lane9_mul3(rotation, get3(balls->column, at)));
+        lane limit = get(balls->column[BALLS8_RADIUS], at) + lane_set(reach);
+        lane3 out = {lane_max(find_slab_gap(s, 0, p.x, zero), zero), lane_max(find_slab_gap(s, 1, p.y, zero), zero),
+                     lane_max(find_slab_gap(s, 2, p.z, zero), zero)};
+        lane_mask near = lane_not(is_far(lane3_dot(out, out), limit));
+        if (!lane_bits(near)) continue;
+        lane most = find_most_gap(s, p, still, still) * lane_set(1 - 0x1p-40);
+        if (lane_bits(lane_and(near, lane_not(lane_greater(most, limit))))) return 1;
+    }
+    return 0;
+}
+
 // Along n a vertex c of the link's frame is at f(c) + g(c) t + 2 k(c) t^2, all linear in c: at least f - |g| + 2 min(k,
 // 0). A linear form: its value at the link's origin, and its vector in the link's frame.
 typedef struct form {
@@ -297,5 +315,6 @@ LANES_TARGET static unsigned run_near_hull(const moving_hull *h, const double re
     {                                                                                                                  \
         run_chain, run_place, run_half_turns, run_near_boxes, run_near_boxes8, run_near_spheres,                       \
             run_near_linked_boxes, run_place_balls, run_balls_in_region, run_balls_in_balls, run_rates, run_move,      \
-            run_enclose, run_near_moving, run_near_points, run_near_point, run_near_slabs, run_near_hull               \
+            run_enclose, run_near_moving, run_near_points, run_near_point, run_near_slabs, run_near_hull,              \
+            run_near_resting                                                                                           \
     }

@@ -117,6 +117,8 @@ typedef struct robot8_kernels {
                            const double reach[ROBOT8]);
     /// The same for the vertices of a body along a normal; reach: what both bodies stand out of their vertices.
     unsigned (*near_hull)(const moving_hull *hull, const double reach[ROBOT8]);
+    /// 1 where one of eight balls that are at rest is not proven farther than reach from a body between slabs.
+    unsigned (*near_resting)(const balls8 *balls, const body_place *place, const body_slabs *slabs, double reach);
 } robot8_kernels;
 
 /// The kernels of the widest instruction set of this machine.
