@@ -59,7 +59,7 @@ tests_of() {
     robot_read) echo "test_robot_urdf test_robot_srdf test_robot_packages test_robot_scenes test_robot_place test_robot_known" ;;
     robot_solid) echo "test_robot_solid test_robot_urdf test_robot_scenes test_cli.sh:robot_solid" ;;
     robot_cover) echo "test_robot_cover test_robot_edges test_robot_path test_robot_solid" ;;
-    robot_table) echo "test_robot_table test_robot_apart" ;;
+    robot_table) echo "test_robot_table test_robot_apart test_robot_reach" ;;
     robot_compare) echo "test_robot_compare" ;;
     robot_watch) echo "test_robot_watch" ;;
     ompl) echo "test_hpp_ompl" ;;

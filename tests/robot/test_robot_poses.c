@@ -207,7 +207,7 @@ static void compare_near(const robot8_kernels *kernels, const frame8 frames[2], 
     }
     unsigned near_spheres = kernels->near_spheres(&spheres[0], &spheres[1], more[0]);
     unsigned near_linked = kernels->near_linked_boxes(&linked[0], &linked[1], more[0]);
-    kernels->near_boxes8(&all, 5, &spheres[0], more, near);
+    kernels->near_boxes8(&all, 0x1f, &spheres[0], more, near);
     for (int k = 0; k < ROBOT8; k++) {
         sphere_place places[2];
         for (int i = 0; i < 2; i++) {

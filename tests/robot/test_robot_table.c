@@ -283,6 +283,18 @@ static void check_status(arm *a, const double q[2], double margin, ovoid_robot_s
     CHECK_EQ(answer.status, status);
 }
 
+// Edges that meet the base at their end, at their beginning, nearly.
+static void check_fold(arm *a) {
+    static const double edges[4][4] = {{0, 0, 0, 2.9}, {0, 2.9, 0, 0}, {0, -2.9, 0, 1}, {0, -1.5, 0, 1.5}};
+    const ovoid_robot_path_options options = {.any_hit = 1};
+    for (int i = 0; i < 4; i++) {
+        const ovoid_robot_path_query query = {&(ovoid_robot_path){edges[i], 2}, &options};
+        ovoid_robot_path_answer answer;
+        CHECK_EQ(ovoid_robot_path_find_hit(a->checker, &query, &answer, &error), OVOID_OK);
+        CHECK_EQ(answer.status, i < 3 ? OVOID_ROBOT_HIT : OVOID_ROBOT_FREE);
+    }
+}
+
 // The tip is 0.6 from the base at 0 and 0, and meets it at 0 and 2.9; neighbours are always 0.1 apart.
 static void test_cells(void) {
     const double straight[2] = {0, 0}, folded[2] = {0, 2.9}, values[2] = {0, 0};
@@ -293,6 +305,7 @@ static void test_cells(void) {
     CHECK(t && pair_table_is_far(t, values, 1, 0));
     check_status(&a, straight, 0, OVOID_ROBOT_FREE);
     check_status(&a, folded, 0, OVOID_ROBOT_HIT);
+    check_fold(&a);
     check_status(&a, straight, 0.0999, OVOID_ROBOT_FREE);
     check_status(&a, straight, 0.1001, OVOID_ROBOT_HIT);
     for (uint32_t i = 0; i < 2; i++) CHECK_EQ(ovoid_robot_cell_add_allowed(a.cell, i, i + 1, &error), OVOID_OK);
@@ -341,6 +354,48 @@ static void test_limits(void) {
     destroy_arm(&a);
 }
 
+// A long arm that slides, on a turning joint, past a ball that only the farthest reach meets: each cell is asked at its
+// corners and its middle. A lever without what slides would call cells apart that are not.
+static void test_slide(void) {
+    const ovoid_pose same = ovoid_pose_make_identity(), ball = {{2.1, 0, 0}, {1, 0, 0, 0}};
+    const ovoid_robot_link links[3] = {{"base"}, {"turning"}, {"sliding"}};
+    ovoid_robot_joint joints[2];
+    for (uint32_t i = 0; i < 2; i++)
+        joints[i] = (ovoid_robot_joint){.name = i ? "slide" : "turn",
+                                        .type = i ? OVOID_JOINT_PRISMATIC : OVOID_JOINT_REVOLUTE,
+                                        .parent = i,
+                                        .child = i + 1,
+                                        .origin = same,
+                                        .axis = {i, 0, !i},
+                                        .lower = i ? 0 : -3,
+                                        .upper = i ? 2 : 3,
+                                        .mimic = OVOID_ROBOT_NONE};
+    const ovoid_robot_element elements[2] = {{0, NULL, shapes[2], ball, NULL}, {2, NULL, shapes[2], same, NULL}};
+    const ovoid_robot_description d = {
+        .links = links, .link_count = 3, .joints = joints, .joint_count = 2, .elements = elements, .element_count = 2};
+    ovoid_robot *r = ovoid_robot_create(&d, NULL, &error);
+    const pair_table *t = pair_tables_find(robot_get_pair_tables(r), 0, 2);
+    CHECK(t && t->codes);
+    long proven = 0, count = (long)t->axes[0].count * t->axes[1].count;
+    for (uint32_t k = 0; k < t->axes[1].count; k++)
+        for (uint32_t i = 0; i < t->axes[0].count; i++) {
+            uint32_t code = t->codes[(size_t)k * t->axes[0].count + i];
+            proven += code > 0;
+            // The spheres' distance in closed form, at five places of the cell.
+            for (int n = 0; code > 0 && n < 5; n++) {
+                double q[2];
+                q[t->axes[0].variable] = t->axes[0].low + (i + (n == 4 ? 0.5 : n % 2)) / t->axes[0].scale;
+                q[t->axes[1].variable] = t->axes[1].low + (k + (n == 4 ? 0.5 : n / 2)) / t->axes[1].scale;
+                double angle = q[0], slide = q[1];
+                double apart = hypot(slide * cos(angle) - 2.1, slide * sin(angle)) - 0.4;
+                if (!(apart > (code - 1) * t->unit - near_enough)) CHECK_LE((code - 1) * t->unit, apart);
+            }
+        }
+    // Of all states less than 0.01 hit.
+    CHECK(proven > 0.98 * (double)count && proven < count);
+    ovoid_robot_destroy(r);
+}
+
 // ---- threads and memory
 
 static void *get_tables(void *robot) { return (void *)(uintptr_t)robot_get_pair_tables(robot); }
@@ -386,6 +441,7 @@ int main(void) {
     test_tables();
     test_cells();
     test_limits();
+    test_slide();
     test_threads();
     test_memory();
     for (int i = 0; i < SHAPES; i++) ovoid_shape_destroy(shapes[i]);

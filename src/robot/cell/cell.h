@@ -81,7 +81,7 @@ struct ovoid_robot_cell {
     const ovoid_robot *robot;
     ovoid_allocator allocator;
     uint64_t version;          ///< changes with everything that checkers keep memory for
-    uint64_t moved;            ///< changes where an obstacle moves
+    uint64_t moved;            ///< changes where an obstacle moves, or a padding does
     uint32_t used;             ///< all slots before this one are used
     int ignores_disabled;      ///< 1: what the description disables is queried: a scene says what is allowed
     int is_whole;              ///< 0: memory ended while the arrays were made; nothing is said of a state

@@ -332,6 +332,7 @@ ovoid_code ovoid_robot_cell_set_padding(ovoid_robot_cell *cell, uint32_t link, d
     if (!(padding >= 0 && padding <= OVOID_LENGTH_MAX))
         return error_set(error, OVOID_ERROR_RADIUS, -1, "a padding is a length from 0 to 1e50");
     cell->padding[link] = padding;
+    cell->moved++;
     return OVOID_OK;
 }
 

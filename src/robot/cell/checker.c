@@ -22,6 +22,7 @@ typedef enum array_count {
     PER_PAIR,
     TWO_PER_PAIR,
     PER_GROUP_AND_PART,
+    PER_GROUP_AND_BOXES,
     PER_GROUP_PAIR,
     ARRAY_COUNTS
 } array_count;
@@ -55,6 +56,9 @@ static const struct {
               ARRAY(spheres8, PER_GROUP),
               ARRAY(filter.parts, PER_GROUP_AND_PART),
               ARRAY(pair_tables, PER_PAIR),
+              ARRAY(reaches, PER_GROUP),
+              ARRAY(reach_masks, PER_GROUP_AND_BOXES),
+              ARRAY(reach_gaps, PER_GROUP_AND_BOXES),
               ARRAY(group_tables, PER_GROUP_PAIR),
               ARRAY(filter.pairs, PER_GROUP_PAIR)};
 
@@ -131,6 +135,7 @@ ovoid_code checker_renew(ovoid_robot_checker *made, ovoid_error *error) {
                                          [PER_PAIR] = c->pairs.count,
                                          [TWO_PER_PAIR] = 2 * checker_count_pairs(made),
                                          [PER_GROUP_AND_PART] = c->groups.count * c->parts.count,
+                                         [PER_GROUP_AND_BOXES] = c->groups.count * c->boxes.count,
                                          [PER_GROUP_PAIR] = c->group_pairs.count};
     const pair_tables *tables = robot_get_pair_tables(c->robot);
     if (!tables || !make_arrays(made, counts))
@@ -140,6 +145,8 @@ ovoid_code checker_renew(ovoid_robot_checker *made, ovoid_error *error) {
     made->level = made->lane = -1;
     made->frames[c->robot->root] = frame_make_world();
     set_world(&made->frames8[c->robot->root]);
+    made->reach_key.level = -1;
+    (void)checker_find_reaches(made);
     forget(made);
     return OVOID_OK;
 }
@@ -211,7 +218,7 @@ void checker_set_level(ovoid_robot_checker *checker, double magnitude) {
 }
 
 // The frames of the links.
-static void compute_frames(ovoid_robot_checker *checker) {
+void checker_compute_frames(ovoid_robot_checker *checker) {
     const ovoid_robot_cell *c = checker->cell;
     uint32_t padded = (c->robot->value_count + ROBOT8 - 1) / ROBOT8 * ROBOT8;
     checker->kernels->half_turns(checker->values, padded, checker->cosines, checker->sines);
@@ -239,7 +246,8 @@ ovoid_code checker_place(ovoid_robot_checker *checker, const double *q, double l
     checker->state++;
     checker->lane = -1;
     checker->filter.is_on = 0;
-    compute_frames(checker);
+    checker->has_limits = limit_slack == 0;
+    checker_compute_frames(checker);
     place_groups(checker);
     return OVOID_OK;
 }
@@ -394,11 +402,13 @@ static int is_expected(const checker_search *s, const uint64_t *near) {
 // The boxes of a lane group that a group of items is near, by its sphere.
 static unsigned find_near_boxes(const checker_search *s, uint32_t items, uint32_t group) {
     const ovoid_robot_checker *checker = s->checker;
+    unsigned mask = checker_get_mask(checker, items, group);
+    if (!mask) return 0;
     const ovoid_robot_cell *c = checker->cell;
     const sphere_place *sphere = &checker->places[items];
     double reach = add_up(sphere->reach, *s->margin, c->padding[cell_groups(c)[items].link]);
     unsigned near = checker->kernels->near_boxes(&cell_boxes(c)[group], sphere->center, reach);
-    return group + 1 < c->boxes.count ? near : near & ((1u << (c->parts.count - group * ROBOT8)) - 1);
+    return near & mask;
 }
 
 static int visit_part(const checker_search *s, uint32_t item, uint32_t part) {
@@ -430,6 +440,7 @@ static int visit_near_part(const checker_search *s, const cell_group *g, const o
 
 static int visit_parts(const checker_search *s) {
     const ovoid_robot_cell *c = s->checker->cell;
+    checker_renew_masks(s->checker, *s->margin);
     for (uint32_t i = 0; i < c->groups.count; i++) {
         const cell_group *g = &cell_groups(c)[i];
         for (uint32_t group = 0; group < c->boxes.count; group++) {

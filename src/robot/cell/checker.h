@@ -39,6 +39,18 @@ typedef struct pair_name {
 /// What the checker's searches of paths work with; made by the first of them.
 typedef struct path_memory path_memory;
 
+/// Where the centre of a group's sphere stays within the limits: `wander` from the anchor, in the world.
+typedef struct group_reach {
+    vec3 anchor;
+    double wander;
+} group_reach;
+
+/// What the masks of reach are for; level below zero: they are not made yet.
+typedef struct reach_key {
+    double margin, level;
+    uint64_t moved; ///< of the cell
+} reach_key;
+
 /// What is near in some of eight states: a group and a part, or a pair of groups.
 typedef struct near_lanes {
     uint32_t group;
@@ -78,13 +90,18 @@ struct ovoid_robot_checker {
     sphere_place *places;             ///< of each group
     inner_balls *balls;               ///< of each item, in the world, where `ball_stamps` say so
     uint64_t *ball_stamps;
-    double *errors;                                 ///< of each item: what its points may be off by
-    double *group_errors;                           ///< of each group: what its points may be off by
-    ovoid_proof *part_proofs;                       ///< of item i and part k at i part_count + k
-    ovoid_proof *pair_proofs;                       ///< of each pair of items
-    near_key *near_keys;                            ///< two of each pair that there is
-    double *near_row;                               ///< a row of gradients
-    uint64_t *part_nears, *pair_nears;              ///< of each pair: the last state in which it was found near
+    double *errors;                    ///< of each item: what its points may be off by
+    double *group_errors;              ///< of each group: what its points may be off by
+    ovoid_proof *part_proofs;          ///< of item i and part k at i part_count + k
+    ovoid_proof *pair_proofs;          ///< of each pair of items
+    near_key *near_keys;               ///< two of each pair that there is
+    double *near_row;                  ///< a row of gradients
+    uint64_t *part_nears, *pair_nears; ///< of each pair: the last state in which it was found near
+    group_reach *reaches;              ///< of each group
+    double (*reach_gaps)[ROBOT8];      ///< of each group and eight parts: how far they stay apart, at least
+    uint8_t *reach_masks;              ///< and which it may come near
+    reach_key reach_key;
+    int has_limits; ///< the state that is placed, or the states, are within their limits
     const pair_table **pair_tables, **group_tables; ///< of each pair of items, of groups; NULL: there is none
     void *block;                                    ///< the memory of all these arrays
     path_memory *path;                              ///< NULL: no path was searched since the cell has changed
@@ -110,6 +127,21 @@ ovoid_code query_options_validate(const ovoid_robot_query_options *options, ovoi
 
 /// Makes errors those of states of that magnitude.
 void checker_set_level(ovoid_robot_checker *checker, double magnitude);
+
+/// The frames of the links, from the values.
+void checker_compute_frames(ovoid_robot_checker *checker);
+
+/// Sets the reaches of all groups; 0: they are infinite.
+int checker_find_reaches(ovoid_robot_checker *checker);
+/// Makes the masks fit the obstacles, the errors and the margin.
+void checker_renew_masks(ovoid_robot_checker *checker, double margin);
+
+/// The parts of a block that a group may come near; all, where states may be beyond their limits.
+static inline unsigned checker_get_mask(const ovoid_robot_checker *checker, uint32_t group, uint32_t block) {
+    const ovoid_robot_cell *c = checker->cell;
+    if (checker->has_limits) return checker->reach_masks[group * c->boxes.count + block];
+    return block + 1 < c->boxes.count ? 0xff : (1u << (c->parts.count - block * ROBOT8)) - 1;
+}
 
 /// Frames, places and errors of a state; options: the limits. The codes of a refused state, with its variable as
 /// place.

@@ -23,6 +23,7 @@ void checker_place_lanes(ovoid_robot_checker *checker, const double *q, size_t c
         if (first == ROBOT8 && states[k].code == OVOID_OK) first = k;
     }
     checker->filter.is_made = 0;
+    checker->has_limits = limit_slack == 0;
     if (first == ROBOT8) return;
     // The errors of the first; states of another level have their spheres made again.
     checker_set_level(checker, states[first].magnitude);
@@ -41,15 +42,17 @@ void checker_place_lanes(ovoid_robot_checker *checker, const double *q, size_t c
 
 static void filter_parts(ovoid_robot_checker *checker, double margin) {
     const ovoid_robot_cell *c = checker->cell;
+    checker_renew_masks(checker, margin);
     size_t count = 0;
     for (uint32_t i = 0; i < c->groups.count; i++) {
         const double more[2] = {margin, c->padding[cell_groups(c)[i].link]};
-        for (uint32_t first = 0; first < c->parts.count; first += ROBOT8) {
-            uint32_t here = c->parts.count - first < ROBOT8 ? (uint32_t)c->parts.count - first : ROBOT8;
+        for (uint32_t block = 0; block < c->boxes.count; block++) {
+            unsigned mask = checker_get_mask(checker, i, block);
             unsigned char near[ROBOT8];
-            checker->kernels->near_boxes8(&cell_boxes(c)[first / ROBOT8], here, &checker->spheres8[i], more, near);
-            for (uint32_t k = 0; k < here; k++)
-                if (near[k]) checker->filter.parts[count++] = (near_lanes){i, first + k, near[k]};
+            if (!mask) continue;
+            checker->kernels->near_boxes8(&cell_boxes(c)[block], mask, &checker->spheres8[i], more, near);
+            for (uint32_t k = 0; k < ROBOT8; k++)
+                if (near[k]) checker->filter.parts[count++] = (near_lanes){i, block * ROBOT8 + k, near[k]};
         }
     }
     checker->filter.part_count = count;

@@ -81,9 +81,9 @@ typedef struct robot8_kernels {
     /// One bit for each box that is not proven farther than reach from a point. Reach and radii count what rounding
     /// does to the lengths that point and centres are made of.
     unsigned (*near_boxes)(const box8 *boxes, const double point[3], double reach);
-    /// One bit for each state in which a sphere is near a box, for each of `count` boxes, as near_boxes has it; both
-    /// numbers of `more` are added to the sphere's reach.
-    void (*near_boxes8)(const box8 *boxes, uint32_t count, const sphere8 *sphere, const double more[2],
+    /// One bit for each state in which a sphere is near a box, for each of the boxes of a mask, as near_boxes has it;
+    /// both numbers of `more` are added to the sphere's reach.
+    void (*near_boxes8)(const box8 *boxes, unsigned mask, const sphere8 *sphere, const double more[2],
                         unsigned char near[ROBOT8]);
     /// One bit for each state in which two spheres are not proven farther apart than the margin.
     unsigned (*near_spheres)(const sphere8 *a, const sphere8 *b, double margin);

@@ -202,15 +202,17 @@ LANES_INLINE unsigned find_near_states(const box8 *box, uint32_t k, lane3 center
     return lane_bits(lane_and(near, lane_not(is_far(square, reach + lane_set(c[BOX8_RADIUS][k])))));
 }
 
-LANES_TARGET static void run_near_boxes8(const box8 *boxes, uint32_t count, const sphere8 *sphere, const double more[2],
+LANES_TARGET static void run_near_boxes8(const box8 *boxes, unsigned mask, const sphere8 *sphere, const double more[2],
                                          unsigned char near[ROBOT8]) {
     const double(*c)[ROBOT8] = sphere->column;
     for (uint32_t k = 0; k < ROBOT8; k++) near[k] = 0;
     for (int at = 0; at < ROBOT8; at += LANES) {
         lane reach = (get(c[SPHERE8_REACH], at) + lane_set(more[0])) + lane_set(more[1]);
         lane3 center = get3(c, at);
-        for (uint32_t k = 0; k < count; k++)
+        for (unsigned left = mask; left; left &= left - 1) {
+            uint32_t k = compiler_count_low_zeros(left);
             near[k] |= (unsigned char)(find_near_states(boxes, k, center, reach * lane_set(1 + 0x1p-50)) << at);
+        }
     }
 }
 
