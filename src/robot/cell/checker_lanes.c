@@ -3,6 +3,7 @@
 #include "base/compiler.h"
 #include "robot/cell/checker.h"
 
+// One state of the eight, and what is wrong with it.
 static void place_values(ovoid_robot_checker *checker, const double *q, double slack, uint32_t k, lane_state *state) {
     const ovoid_robot *r = checker->cell->robot;
     ovoid_error refused;
@@ -14,14 +15,61 @@ static void place_values(ovoid_robot_checker *checker, const double *q, double s
     if (state->code != OVOID_OK) state->variable = (uint32_t)refused.place;
 }
 
+// The states in which a variable is beyond its limits; NaN is nowhere.
+static unsigned find_outside(const ovoid_robot *r, const double *const q[ROBOT8], double slack) {
+    unsigned char is_outside[ROBOT8] = {0};
+    for (uint32_t i = 0; i < r->variable_count; i++) {
+        double low = r->variables[i].lower - slack, high = r->variables[i].upper + slack;
+        for (int k = 0; k < ROBOT8; k++) is_outside[k] |= !(q[k][i] >= low) | !(q[k][i] <= high);
+    }
+    unsigned outside = 0;
+    for (int k = 0; k < ROBOT8; k++) outside |= (unsigned)is_outside[k] << k;
+    return outside;
+}
+
+// The values of all eight, as robot_compute_values has them where nothing is wrong; the states of which something is.
+static unsigned compute_values(ovoid_robot_checker *checker, const double *const q[ROBOT8], double magnitudes[ROBOT8]) {
+    const ovoid_robot *r = checker->cell->robot;
+    unsigned char is_bad[ROBOT8] = {0};
+    for (uint32_t i = 0; i < r->value_count; i++) {
+        const value_source from = r->sources[i];
+        double *values = checker->values8[i];
+        for (int k = 0; k < ROBOT8; k++) {
+            double variable = q[k][from.variable], value = from.factor * variable + from.offset;
+            is_bad[k] |= !(fabs(value) <= from.most);
+            values[k] = value;
+        }
+        if (from.scale > 0)
+            for (int k = 0; k < ROBOT8; k++) magnitudes[k] = max2(fabs(q[k][from.variable]), magnitudes[k]);
+    }
+    unsigned bad = 0;
+    for (int k = 0; k < ROBOT8; k++) bad |= (unsigned)is_bad[k] << k;
+    return bad;
+}
+
+// States of which something is wrong, or whose quaternions or followers are to be looked at, one by one.
+static void place_all(ovoid_robot_checker *checker, const double *q, size_t count, double slack,
+                      lane_state states[ROBOT8]) {
+    const ovoid_robot *r = checker->cell->robot;
+    const double *each[ROBOT8];
+    double magnitudes[ROBOT8] = {0};
+    for (uint32_t k = 0; k < ROBOT8; k++) each[k] = q + (k < count ? k : 0) * r->variable_count;
+    unsigned bad = compute_values(checker, each, magnitudes);
+    if (slack < INFINITY) bad |= r->follower_count ? ~0u : find_outside(r, each, slack);
+    if (r->free_count) bad = ~0u;
+    for (uint32_t k = 0; k < count; k++) {
+        states[k] = (lane_state){OVOID_OK, 0, magnitudes[k]};
+        if (bad >> k & 1) place_values(checker, each[k], slack, k, &states[k]);
+    }
+}
+
 void checker_place_lanes(ovoid_robot_checker *checker, const double *q, size_t count, double limit_slack,
                          lane_state states[ROBOT8]) {
     const ovoid_robot_cell *c = checker->cell;
     uint32_t first = ROBOT8;
-    for (uint32_t k = 0; k < count; k++) {
-        place_values(checker, q + k * c->robot->variable_count, limit_slack, k, &states[k]);
-        if (first == ROBOT8 && states[k].code == OVOID_OK) first = k;
-    }
+    place_all(checker, q, count, limit_slack, states);
+    for (uint32_t k = (uint32_t)count; k-- > 0;)
+        if (states[k].code == OVOID_OK) first = k;
     checker->filter.is_made = 0;
     checker->has_limits = limit_slack == 0;
     if (first == ROBOT8) return;
