@@ -290,7 +290,11 @@ typedef struct ovoid_robot_checker_options {
     const ovoid_allocator *allocator; /**< NULL: malloc and free; copied */
 } ovoid_robot_checker_options;
 
-/** A checker; NULL on failure: MEMORY. Its queries allocate only after the cell has changed. */
+/**
+ * A checker; NULL on failure: MEMORY. Its queries allocate only after the cell has changed. The first checker of a robot
+ * makes tables for pairs of its links, shared by all its checkers, by the robot's allocator: some tens of milliseconds
+ * and about a megabyte for an arm (docs/robot-states.md).
+ */
 OVOID_API ovoid_robot_checker *ovoid_robot_checker_create(const ovoid_robot_cell *cell,
                                                           const ovoid_robot_checker_options *options,
                                                           ovoid_error *error);

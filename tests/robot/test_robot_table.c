@@ -396,6 +396,16 @@ static void test_slide(void) {
     ovoid_robot_destroy(r);
 }
 
+static void test_left_out(void) {
+    uint64_t s = 4;
+    random_robot a;
+    ovoid_robot *r = make_robot(&s, &a, NULL);
+    robot_leave_out_pair_tables(r);
+    const pair_tables *tables = robot_get_pair_tables(r);
+    CHECK(tables && tables->count == 0 && !pair_tables_find(tables, 0, 1));
+    ovoid_robot_destroy(r);
+}
+
 // ---- threads and memory
 
 static void *get_tables(void *robot) { return (void *)(uintptr_t)robot_get_pair_tables(robot); }
@@ -442,6 +452,7 @@ int main(void) {
     test_cells();
     test_limits();
     test_slide();
+    test_left_out();
     test_threads();
     test_memory();
     for (int i = 0; i < SHAPES; i++) ovoid_shape_destroy(shapes[i]);

@@ -5,6 +5,7 @@
 
 #include "base/environment.h"
 #include "base/error.h"
+#include "robot/model/pair_table.h"
 
 #include <string.h>
 
@@ -166,6 +167,8 @@ static ovoid_code fill_with_cell(matrix_work *w, const ovoid_robot *robot, ovoid
     all.disabled = NULL, all.disabled_count = 0;
     ovoid_error why = {.code = OVOID_OK};
     ovoid_robot *copy = ovoid_robot_create(&all, &(ovoid_robot_options){.allocator = &w->allocator}, &why);
+    // Tables of all pairs take as long as some ten thousand states.
+    if (copy) robot_leave_out_pair_tables(copy);
     ovoid_robot_cell *cell =
         copy ? ovoid_robot_cell_create(copy, &(ovoid_robot_cell_options){&w->allocator}, &why) : NULL;
     ovoid_code code = why.code;

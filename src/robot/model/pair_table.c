@@ -183,12 +183,17 @@ static pair_tables *create(const ovoid_robot *r) {
     return NULL;
 }
 
-void pair_tables_begin(pair_tables_once *once) { atomic_init(&once->made, NULL); }
+void pair_tables_begin(pair_tables_once *once) {
+    atomic_init(&once->made, NULL);
+    once->is_off = 0;
+}
+void robot_leave_out_pair_tables(const ovoid_robot *r) { r->tables->is_off = 1; }
 void pair_tables_end(const ovoid_robot *r) { destroy(r, atomic_load(&r->tables->made)); }
 
 const pair_tables *robot_get_pair_tables(const ovoid_robot *r) {
+    static const pair_tables none = {0, 0, NULL, 0};
     pair_tables *made = atomic_load(&r->tables->made);
-    if (made) return made;
+    if (made || r->tables->is_off) return made ? made : &none;
     pair_tables *own = create(r), *first = NULL;
     if (!own || atomic_compare_exchange_strong(&r->tables->made, &first, own)) return own;
     destroy(r, own);

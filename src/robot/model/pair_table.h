@@ -41,6 +41,7 @@ typedef struct pair_tables {
 /// The tables of a robot that is shared by threads; NULL: nobody has asked for them yet.
 typedef struct pair_tables_once {
     _Atomic(pair_tables *) made;
+    int is_off; ///< 1: there are none
 } pair_tables_once;
 
 /// By how many cells a place may be beyond the one that is looked up: rounding is less, and cells are proven with more.
@@ -48,6 +49,9 @@ typedef struct pair_tables_once {
 
 /// The tables, made by the first call; NULL: no memory. Any number of threads may call it.
 const pair_tables *robot_get_pair_tables(const ovoid_robot *r);
+/// For a robot of few states, which would not repay them: it has no tables. Before the first call of the function
+/// above.
+void robot_leave_out_pair_tables(const ovoid_robot *r);
 /// The table of two links; NULL: there is none.
 const pair_table *pair_tables_find(const pair_tables *tables, uint32_t a, uint32_t b);
 /// Before the first use, and at the end.
