@@ -7,8 +7,8 @@
 #include "ovoid/query.h"
 #include "robot/cell/checker.h"
 
-enum { SHAPES = 7, TRIALS = 400, STATES = 25 };
-static ovoid_shape *shapes[SHAPES];
+enum { SHAPES = 7, FAR = SHAPES, ALL, TRIALS = 400, STATES = 25 };
+static ovoid_shape *shapes[ALL]; // the last one, far from its frame, for slabs alone
 static ovoid_error error;
 static long asked[2], parted[2], wide[2], parted_wide[2];
 
@@ -23,8 +23,11 @@ static void make_shapes(void) {
     shapes[4] = ovoid_shape_create_cylinder(0.1, 0.2, NULL, &error);
     shapes[5] = ovoid_shape_create_from_points(xyz, 4, NULL, &error);
     shapes[6] = ovoid_shape_create_from_points(xyz, 3, NULL, &error);
-    for (int i = 0; i < SHAPES; i++)
+    for (int i = 0; i < 60; i++) xyz[i] += 1000;
+    shapes[FAR] = ovoid_shape_create_from_points(xyz, 20, NULL, &error);
+    for (int i = 0; i < ALL; i++)
         if (!shapes[i]) exit(1);
+    CHECK(shapes[FAR]->origin.x > 900);
 }
 
 // ---- slabs
@@ -39,7 +42,7 @@ static void find_along(const long double v[3], long double along[SLABS]) {
 // Each vertex, thickened, is within each slab, and some vertex is at its edge.
 static void test_slabs(void) {
     static const long double norms[3] = {1, 1.41421356237309504880L, 1.73205080756887729353L};
-    for (int i = 0; i < SHAPES; i++) {
+    for (int i = 0; i < ALL; i++) {
         body_slabs slabs = slabs_find_of_shape(shapes[i]);
         ovoid_polytope p = ovoid_shape_get_polytope(shapes[i]);
         long double most[SLABS], along[SLABS];
@@ -148,6 +151,6 @@ int main(void) {
     make_shapes();
     test_slabs();
     test_pairs();
-    for (int i = 0; i < SHAPES; i++) ovoid_shape_destroy(shapes[i]);
+    for (int i = 0; i < ALL; i++) ovoid_shape_destroy(shapes[i]);
     return check_end();
 }

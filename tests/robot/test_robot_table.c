@@ -192,6 +192,26 @@ static void check_ranges(uint64_t *s, const pair_table *t) {
     }
 }
 
+// Eight cells of a whole turn, of which cell 1 alone is open: ranges that go around end before it, in it, beyond it.
+static void test_around(void) {
+    uint8_t codes[8] = {1, 0, 1, 1, 1, 1, 1, 1};
+    uint32_t sums[18] = {0};
+    for (int i = 0; i < 9; i++) sums[9 + i] = i > 1;
+    const pair_table t = {.axes = {{.count = 8, .low = 0, .scale = 1, .period = 8, .most = 64},
+                                   {.variable = OVOID_ROBOT_NONE, .count = 1, .most = INFINITY}},
+                          .unit = 1,
+                          .codes = codes,
+                          .sums = sums};
+    static const struct {
+        double low, high;
+        int is_apart;
+    } all[] = {{2.5, 2.6, 1}, {2.5, 3.9, 1},  {0.5, 0.9, 1}, {0.5, 1.1, 0},  {1.9, 2.1, 0},
+               {3.5, 8.9, 1}, {3.5, 9.1, 0},  {3.5, 9.9, 0}, {3.5, 11.4, 0}, {2.5, 60, 0},
+               {2.5, 65, 0},  {-5.5, 0.9, 1}, {-5.5, 1.1, 0}};
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+        CHECK_EQ(pair_table_is_apart(&t, &(table_range){{all[i].low, 0}, {all[i].high, 0}}), all[i].is_apart);
+}
+
 static void test_tables(void) {
     for (uint64_t seed = 1; seed <= ROBOTS; seed++) {
         uint64_t s = check_seed = seed;
@@ -448,6 +468,7 @@ static void test_memory(void) {
 
 int main(void) {
     make_shapes();
+    test_around();
     test_tables();
     test_cells();
     test_limits();
