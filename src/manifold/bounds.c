@@ -20,6 +20,7 @@
 #include "manifold/manifold.h"
 
 #include "linear/rotation.h"
+#include "simd/box8.h"
 
 // A frustum of which sides are added.
 typedef struct frustum {
@@ -155,7 +156,7 @@ void memory_set_search(ovoid_manifold_memory *m, const ovoid_pair *pair, const p
     if (!quat_is_plain(quat_norm_squared(b))) b = quat_scaled(b);
     double scale = 1 / sqrt(quat_norm_squared(a) * quat_norm_squared(b));
     vec3 place = get_place(f);
-    m->searched = nextafterf((float)upper, INFINITY);
+    m->searched = box8_round_up(upper);
     m->pose[0] = (float)((a.w * b.w + a.x * b.x + a.y * b.y + a.z * b.z) * scale);
     m->pose[1] = (float)((a.w * b.x - a.x * b.w - a.y * b.z + a.z * b.y) * scale);
     m->pose[2] = (float)((a.w * b.y + a.x * b.z - a.y * b.w - a.z * b.x) * scale);

@@ -104,9 +104,10 @@ typedef struct cover_query {
     const uint8_t *queried;
     uint32_t mask_groups;
     double margin;
-    path_state state;         ///< memory for one
-    const ovoid_watch *watch; ///< asked before each block but the first
-    uint32_t generation;      ///< of what a checker remembers: what an earlier one left is forgotten
+    path_state state;          ///< memory for one
+    const pair_table **tables; ///< of each pair, NULL where it has none; or NULL
+    const ovoid_watch *watch;  ///< asked before each block but the first
+    uint32_t generation;       ///< of what a checker remembers: what an earlier one left is forgotten
 } cover_query;
 
 /// The memory, in one block, and the segments that were added.

@@ -254,9 +254,55 @@ static unsigned find_near_ones(path_cover *c, uint32_t pair) {
     return near & c->kernels->near_point(b, a, &body, all);
 }
 
-// By what parted the pair last, by balls and slabs, by hulls.
+// What a variable is at a place of a segment.
+static double get_variable(const cover_segment *segment, uint32_t variable, double at) {
+    if (variable == OVOID_ROBOT_NONE) return 0;
+    return segment->q0[variable] + at * (segment->q1[variable] - segment->q0[variable]);
+}
+
+// Does the pair's table show that it stays apart between two places of a segment?
+static int is_apart_between(const cover_segment *segment, const pair_table *table, double begin, double end) {
+    table_range range;
+    for (int k = 0; k < 2; k++) {
+        double from = get_variable(segment, table->axes[k].variable, begin),
+               to = get_variable(segment, table->axes[k].variable, end);
+        range.low[k] = min2(from, to);
+        range.high[k] = max2(from, to);
+    }
+    return pair_table_is_apart(table, &range);
+}
+
+// The table of a pair, if it says something of this query: that bodies are apart, by no margin.
+static const pair_table *get_table(const path_cover *c, uint32_t pair) {
+    return c->query.tables && c->query.margin == 0 ? c->query.tables[pair] : NULL;
+}
+
+// 1 if a pair's table shows that it stays apart in all segments.
+static int is_apart_everywhere(const path_cover *c, uint32_t pair) {
+    const pair_table *table = get_table(c, pair);
+    uint32_t apart = 0;
+    while (table && apart < c->segment_count && is_apart_between(&c->segments[apart], table, 0, 1)) apart++;
+    return table && apart == c->segment_count;
+}
+
+// The lanes that a pair's table leaves open.
+static unsigned test_table(const path_cover *c, uint32_t pair, unsigned lanes) {
+    const pair_table *table = get_table(c, pair);
+    unsigned open = lanes;
+    for (; table && lanes; lanes &= lanes - 1) {
+        unsigned k = compiler_count_low_zeros(lanes);
+        const cover_segment *segment = &c->segments[c->current->segment[k]];
+        double begin = c->middle[k] - c->half[k], end = c->middle[k] + c->half[k];
+        if (is_apart_between(segment, table, begin, end)) open &= ~(1u << k);
+    }
+    return open;
+}
+
+// By its table, by what parted the pair last, by balls and slabs, by hulls.
 static unsigned test_pair(path_cover *c, uint32_t pair, unsigned lanes) {
     int is_from_b = cover_is_from_b(c, pair);
+    lanes = test_table(c, pair, lanes);
+    if (!lanes) return 0;
     uint32_t number = (uint32_t)(c->w->cell->items.count * c->w->cell->parts.count) + pair;
     unsigned open = cover_test_known(c, number, lanes);
     if (open) open = find_near_slabs(c, get_pair(c, pair, is_from_b), cover_get_rest(c, pair), open);
@@ -268,7 +314,7 @@ static void test_pairs(path_cover *c, cover_list *to) {
     const uint8_t *masks = c->query.queried + cell->items.count * c->query.mask_groups;
     uint32_t first = (uint32_t)(cell->items.count * cell->parts.count);
     for (uint32_t i = 0; i < cell->pairs.count && c->wanted; i++) {
-        if (!(masks[i / ROBOT8] >> i % ROBOT8 & 1)) continue;
+        if (!(masks[i / ROBOT8] >> i % ROBOT8 & 1) || is_apart_everywhere(c, i)) continue;
         unsigned near = find_near_ones(c, i);
         uint32_t before = to->count;
         if (near) cover_list_add(to, first + i, test_pair(c, i, near));

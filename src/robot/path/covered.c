@@ -34,6 +34,7 @@ static void add_segments(path_search *s, pack *p) {
                                            .mask_groups = s->memory->groups,
                                            .margin = s->margin,
                                            .state = search_get_state(s, SEARCH_LEVELS + 2),
+                                           .tables = s->checker->pair_tables,
                                            .watch = &s->options->watch,
                                            .generation = s->checker->generation});
     p->code = OVOID_OK;
