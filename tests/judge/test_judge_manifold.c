@@ -1,9 +1,10 @@
 // Contacts before the exact judge: boxes, prisms and hulls on one another and in random poses, cold and warm. Truth:
 // the facets clipped in exact arithmetic, the bodies' exact supports along the normal, and the exact distance of each
 // point from its body; of `upper`, the lower bounds of ovoid_depth, each shown by its own normal in exact arithmetic.
-// An argument is the number of contacts: test_judge_manifold 1000000.
+// A longer run: test_judge_manifold --contacts 1e6.
 #include "judge.h"
 #include "manifolds.h"
+#include "options.h"
 
 enum { SHAPES = 40, FRAMES = 4 };
 static ovoid_shape *shapes[SHAPES];
@@ -87,11 +88,15 @@ static void check_judge(judge *context, const ovoid_pair *pair, const ovoid_mani
 }
 
 int main(int argc, char **argv) {
-    long wanted = argc > 1 ? strtol(argv[1], NULL, 10) : 2000;
+    double wanted = 2000;
+    const test_option options[] = {{"contacts", "ends after so many (2000)", NULL, &wanted, NULL, NULL},
+                                   {NULL, NULL, NULL, NULL, NULL, NULL}};
+    int code = options_read(options, argc, argv);
+    if (code >= 0) return code;
     judge *context = judge_create();
     uint64_t s = 1;
     for (int i = 0; i < SHAPES; i++) shapes[i] = create(i % 5, &s);
-    for (uint64_t seed = 1; judged < wanted && check_failed < 20; seed++) {
+    for (uint64_t seed = 1; (double)judged < wanted && check_failed < 20; seed++) {
         s = check_seed = seed;
         ovoid_pair pair = {shapes[random_next(&s) % SHAPES],
                            shapes[random_next(&s) % SHAPES],
