@@ -1,5 +1,5 @@
 # Installation: headers, libraries, tool, CMake package and pkg-config files. Its components are those of packages: runtime
-# and dev of the core, io and io_dev of libovoid_io, robot and robot_dev of libovoid_robot, ompl_dev of the header for OMPL, bullet_dev, mujoco_dev and dart_dev of those for engines, tool, plan of `ovoid robot plan`.
+# and dev of the core, io and io_dev of libovoid_io, robot and robot_dev of libovoid_robot, ompl_dev and fcl_dev of the headers for OMPL and FCL, fcl of libovoid_fcl, bullet_dev, mujoco_dev and dart_dev of those for engines, tool, plan of `ovoid robot plan`.
 
 # install_library(NAME RUNTIME DEV NEEDED): a library in its kinds, its part of the CMake package, its pkg-config file;
 # NEEDED is what its archive needs.
@@ -24,7 +24,7 @@ endfunction()
 
 install_library(ovoid runtime dev "-lm -lpthread")
 install(DIRECTORY include/ovoid TYPE INCLUDE COMPONENT dev FILES_MATCHING PATTERN "*.h" PATTERN "*.hpp" PATTERN io.h EXCLUDE
-  PATTERN io.hpp EXCLUDE PATTERN ompl.hpp EXCLUDE PATTERN "robot*" EXCLUDE)
+  PATTERN io.hpp EXCLUDE PATTERN ompl.hpp EXCLUDE PATTERN fcl.hpp EXCLUDE PATTERN fcl EXCLUDE PATTERN "robot*" EXCLUDE)
 # Headers for engines need nothing to install; what they include is the engine's and the core's.
 set(adapters_folder ${PROJECT_SOURCE_DIR}/adapters/include/ovoid)
 install(FILES ${adapters_folder}/adapter.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/ovoid COMPONENT dev)
@@ -33,6 +33,12 @@ install(FILES ${adapters_folder}/bullet.hpp ${adapters_folder}/bullet_shapes.hpp
 install(FILES ${adapters_folder}/mujoco.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/ovoid COMPONENT mujoco_dev)
 install(FILES ${adapters_folder}/dart.hpp ${adapters_folder}/dart_shapes.hpp
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/ovoid COMPONENT dart_dev)
+# Needs nothing to install; what it includes is FCL's and the core's.
+install(FILES include/ovoid/fcl.hpp DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/ovoid COMPONENT fcl_dev)
+install(DIRECTORY include/ovoid/fcl DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/ovoid COMPONENT fcl_dev)
+if(TARGET ovoid_fcl)
+  install(TARGETS ovoid_fcl LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}/ovoid COMPONENT fcl)
+endif()
 if(TARGET ovoid_io_static)
   set(needed -ljansson)
   if(TARGET ovoid_assimp)

@@ -1,5 +1,6 @@
 # What ovoid stands on. The core: libm. libovoid_io: jansson and Assimp. libovoid_robot, where it reads: expat and libyaml. The exact judge: GMP. One test: Qhull, as a peer.
 # <ovoid/ompl.hpp>, which is a header alone, is tested, and `ovoid robot plan` and Python's `Cell.plan` are built, where OMPL and a C++ compiler are.
+# <ovoid/fcl.hpp> is tested and libovoid_fcl is built where FCL and a C++ compiler are.
 
 # ovoid_find(NAME header library package): an interface target ovoid_NAME, or a sentence that names what is missing.
 function(ovoid_find name header library package required)
@@ -45,5 +46,18 @@ if(OVOID_IO AND OVOID_ROBOT AND (OVOID_CLI OR OVOID_PYTHON OR OVOID_TESTS OR OVO
     add_library(ovoid_ompl INTERFACE)
     target_include_directories(ovoid_ompl SYSTEM INTERFACE ${OVOID_OMPL_FOLDER} ${OVOID_EIGEN_FOLDER})
     target_link_libraries(ovoid_ompl INTERFACE ${OVOID_OMPL_LIBRARY})
+  endif()
+endif()
+# FCL: the target `fcl`.
+if(OVOID_FCL)
+  include(CheckLanguage)
+  check_language(CXX)
+  if(CMAKE_CXX_COMPILER)
+    enable_language(CXX)
+    find_package(fcl QUIET)
+  endif()
+  if(NOT fcl_FOUND)
+    message(STATUS "libovoid_fcl is not built, it needs libfcl-dev and a C++ compiler")
+    set(OVOID_FCL OFF)
   endif()
 endif()

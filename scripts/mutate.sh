@@ -17,7 +17,7 @@ cd "$(dirname "$0")/.." || exit 1
 jobs=${JOBS:-2}
 copy=build/mutate
 tree=$copy/tree
-groups="allowance query prepared growth boxes exact hull shape ellipsoid simd environment tools world world_manifolds compound solid solid_body solid_files decompose motion smooth paper manifold table lanes io robot robot_read robot_solid robot_spheres robot_cover robot_table robot_compare ompl robot_cli robot_spheres_cli shard verify page report python python_solid decompose_watch robot_watch hostile hostile_cli"
+groups="allowance query prepared growth boxes exact hull shape ellipsoid simd environment tools world world_manifolds compound solid solid_body solid_files decompose motion smooth paper manifold table lanes io robot robot_read robot_solid robot_spheres robot_cover robot_table robot_compare ompl fcl robot_cli robot_spheres_cli shard verify page report python python_solid decompose_watch robot_watch hostile hostile_cli"
 
 # The tests of a group, fastest first; arguments after a colon.
 tests_of() {
@@ -63,6 +63,7 @@ tests_of() {
     robot_compare) echo "test_robot_compare" ;;
     robot_watch) echo "test_robot_watch" ;;
     ompl) echo "test_hpp_ompl" ;;
+    fcl) echo "test_hpp_fcl test_hpp_fcl_cache test_fcl_preload.sh" ;;
     robot_cli) echo "test_cli.sh:robot:robot_check:robot_path:robot_states:robot_attach test_cli_altered_paths.sh" ;;
     robot_spheres_cli) echo "test_cli.sh:robot_spheres:robot_matrix" ;;
     shard) echo "test_io_pairs test_cli_shard.sh" ;;

@@ -10,9 +10,9 @@ packages_of() {
     for job in "$@"; do
         case $job in
         build) echo build-essential cmake pkgconf libjansson-dev libassimp-dev libexpat1-dev libyaml-dev libgmp-dev ;;
-        check) packages_of build deb python page site && echo libqhull-dev libcgal-demo libeigen3-dev libglm-dev libompl-dev libbullet-dev libmujoco-dev clang libclang-rt-14-dev clang-format clang-tidy shellcheck mandoc doxygen locales musl-tools gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user parallel abigail-tools ;;
+        check) packages_of build deb python page site && echo libqhull-dev libcgal-demo libeigen3-dev libglm-dev libompl-dev libfcl-dev libbullet-dev libmujoco-dev clang libclang-rt-14-dev clang-format clang-tidy shellcheck mandoc doxygen locales musl-tools gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user parallel abigail-tools ;;
         coverage) packages_of check && echo gcovr ;;
-        deb) packages_of build && echo dpkg-dev lintian libompl-dev libbullet-dev libmujoco-dev ;;
+        deb) packages_of build && echo dpkg-dev lintian libompl-dev libfcl-dev libbullet-dev libmujoco-dev ;;
         deb-root) packages_of deb && echo debootstrap ;;
         demo) packages_of build && echo libcgal-demo ;;
         engines) packages_of build && echo libbullet-dev libmujoco-dev libdart-dev libeigen3-dev ;;

@@ -37,7 +37,7 @@ function(strip_files root)
   foreach(archive ${archives})
     run(strip --strip-debug --remove-section=.comment --remove-section=.note --enable-deterministic-archives ${archive})
   endforeach()
-  file(GLOB linked ${root}/usr/${CPACK_OVOID_LIBDIR}/*.so.* ${root}/usr/bin/*)
+  file(GLOB linked ${root}/usr/${CPACK_OVOID_LIBDIR}/*.so.* ${root}/usr/${CPACK_OVOID_LIBDIR}/ovoid/*.so ${root}/usr/bin/*)
   foreach(file ${linked})
     if(NOT IS_SYMLINK ${file})
       run(strip --strip-unneeded --remove-section=.comment --remove-section=.note ${file})
@@ -66,7 +66,7 @@ endfunction()
 
 # add_depends(COMPONENT ROOT): the libraries that its programs and libraries need, before what was set.
 function(add_depends component root)
-  file(GLOB linked ${root}/usr/${CPACK_OVOID_LIBDIR}/*.so.*.*.* ${root}/usr/bin/*)
+  file(GLOB linked ${root}/usr/${CPACK_OVOID_LIBDIR}/*.so.*.*.* ${root}/usr/${CPACK_OVOID_LIBDIR}/ovoid/*.so ${root}/usr/bin/*)
   if(linked)
     run(dpkg-shlibdeps -O -L${work}/shlibs.local -l${CPACK_TEMPORARY_DIRECTORY}/runtime/usr/${CPACK_OVOID_LIBDIR}
       -l${CPACK_TEMPORARY_DIRECTORY}/io/usr/${CPACK_OVOID_LIBDIR} ${linked})

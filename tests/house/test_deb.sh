@@ -25,7 +25,7 @@ rm -rf "$root" "$folder"/out_*
 mkdir -p "$folder"
 check "build, with lintian" "$OVOID_SOURCE_DIR/scripts/deb.sh" "$folder/build"
 so=$(define MAJOR).$(define MINOR)
-packages="libovoid$so libovoid-dev libovoid-io$so libovoid-io-dev libovoid-robot$so libovoid-robot-dev libovoid-ompl-dev ovoid ovoid-plan"
+packages="libovoid$so libovoid-dev libovoid-io$so libovoid-io-dev libovoid-robot$so libovoid-robot-dev libovoid-ompl-dev libovoid-fcl-dev ovoid-fcl ovoid ovoid-plan"
 # The headers for engines, where these are.
 engines=
 for engine in bullet mujoco dart; do

@@ -1,0 +1,324 @@
+/**
+ * @file fcl.hpp
+ * The calls of FCL 0.7, the Flexible Collision Library, answered by ovoid over FCL's own types: geometries, objects,
+ * requests and results stay, and namespace ovoid::fcl takes the place of namespace fcl at the calls. With
+ * OVOID_FCL_REPLACE defined before this header, the calls of namespace fcl go to ovoid without another change of the
+ * program, except for those that name their template argument (fcl::collide<double>). Links libovoid and libfcl.
+ *
+ * Geometries are translated once and kept (<ovoid/fcl/cache.hpp>). Calls are safe from several threads.
+ *
+ * FCL answers what ovoid does not: octrees, clouds of points, cost sources, num_max_contacts = 0, a plane or halfspace
+ * against another one, geometries that ovoid refuses (a side below 0, NaN), transforms that are no rigid motions,
+ * spline motions, and continuous collision with a plane. docs/coming-from-fcl.md has the differences in the answers.
+ */
+#ifndef OVOID_FCL_HPP
+#define OVOID_FCL_HPP
+
+#include "ovoid/body_impact.h"
+#include "ovoid/fcl/cache.hpp"
+#include "ovoid/fcl/contacts.hpp"
+#include "ovoid/fcl/motions.hpp"
+#include "ovoid/fcl/planes.hpp"
+
+#include <fcl/fcl.h>
+
+#include <cstddef>
+#include <memory>
+
+/** @cond */
+#ifndef OVOID_FCL_ITSELF
+#define OVOID_FCL_ITSELF ::ovoid::fcl::detail::fcl_itself
+#endif
+/** @endcond */
+
+namespace ovoid {
+/** FCL's functions, answered by ovoid. */
+namespace fcl {
+
+namespace detail {
+
+/// FCL's own answers. A library that stands in the place of FCL's names another class, which finds them elsewhere.
+struct fcl_itself {
+    template <class S, class... T> static std::size_t collide(T &&...arguments) {
+        return ::fcl::collide<S>(std::forward<T>(arguments)...);
+    }
+    template <class S, class... T> static S distance(T &&...arguments) {
+        return ::fcl::distance<S>(std::forward<T>(arguments)...);
+    }
+    template <class S, class... T> static S continuous_collide(T &&...arguments) {
+        return ::fcl::continuousCollide<S>(std::forward<T>(arguments)...);
+    }
+};
+
+/// A geometry, its pose, and what owns it, where that is known.
+template <class S> struct posed {
+    const geometry<S> *of;
+    const ::fcl::Transform3<S> &pose;
+    const std::shared_ptr<const geometry<S>> &owner;
+};
+template <class S> const std::shared_ptr<const geometry<S>> &no_owner() {
+    static const std::shared_ptr<const geometry<S>> none;
+    return none;
+}
+template <class S> posed<S> pose_of(const ::fcl::CollisionObject<S> *o) {
+    return {o->collisionGeometry().get(), o->getTransform(), o->collisionGeometry()};
+}
+
+/// Fills the couple; false if FCL has to answer. What is in it stays until this thread's next call.
+template <class S> bool make_couple(const posed<S> &a, const posed<S> &b, body_couple &couple) {
+    if (!to_pose<S>(a.pose, couple.pose_a) || !to_pose<S>(b.pose, couple.pose_b)) return false;
+    table &mine = table::get();
+    mine.begin();
+    couple.a = mine.find<S>(a.of, a.owner);
+    couple.b = mine.find<S>(b.of, b.owner);
+    return couple.a && couple.b && !couple.a->is_empty() && !couple.b->is_empty();
+}
+
+/// A plane and another geometry: the answer from a to b, or false if FCL has to answer.
+template <class S> bool make_plane_answer(const posed<S> &a, const posed<S> &b, plane_answer &answer) {
+    const bool is_a = is_flat(a.of);
+    const posed<S> &other = is_a ? b : a;
+    ovoid_pose unused;
+    if (is_flat(other.of) || !to_pose<S>(a.pose, unused) || !to_pose<S>(b.pose, unused)) return false;
+    answer = ask_plane(other.of, other.pose, is_a ? make_plane(a.of, a.pose) : make_plane(b.of, b.pose));
+    return std::isfinite(answer.distance);
+}
+
+/// Adds the contacts of a plane (is_a: it is the first) and another geometry.
+template <class S> class plane_contacts {
+  public:
+    plane_contacts(contact_list<S> &to, bool is_a) : to_(to), is_a_(is_a) {}
+    bool add(const plane_answer &at) {
+        const int i = is_a_ ? -1 : at.i, j = is_a_ ? at.i : -1;
+        const auto vec = [](const vector &v) { return ovoid_vec3{v[0], v[1], v[2]}; };
+        if (to_.is_detailed())
+            to_.add(i, j, {vec(at.point), vec(at.on_plane), at.distance, 0},
+                    vec(is_a_ ? vector(-at.normal) : at.normal));
+        else
+            to_.add(i, j);
+        return to_.room() > 0;
+    }
+
+  private:
+    contact_list<S> &to_;
+    bool is_a_;
+};
+
+/// The contacts with a plane: of a mesh one for each triangle, else the deepest. False if FCL has to answer.
+template <class S> bool collide_plane(contact_list<S> &to, const posed<S> &a, const posed<S> &b) {
+    plane_answer answer;
+    if (!make_plane_answer(a, b, answer)) return false;
+    if (answer.distance > 0) return true;
+    const bool is_a = is_flat(a.of);
+    const posed<S> &flat = is_a ? a : b, &other = is_a ? b : a;
+    plane_contacts<S> contacts(to, is_a);
+    if (other.of->getObjectType() != ::fcl::OT_BVH || to.room() == 1)
+        contacts.add(answer);
+    else
+        list_plane(other.of, other.pose, make_plane(flat.of, flat.pose),
+                   [&](const plane_answer &at) { return contacts.add(at); });
+    return true;
+}
+
+template <class S>
+std::size_t collide(const posed<S> &a, const posed<S> &b, const ::fcl::CollisionRequest<S> &request,
+                    ::fcl::CollisionResult<S> &result) {
+    if (!request.enable_cost && request.isSatisfied(result)) return result.numContacts();
+    contact_list<S> to(a.of, b.of, request, result);
+    body_couple couple;
+    if (request.enable_cost || request.num_max_contacts == 0)
+        return OVOID_FCL_ITSELF::template collide<S>(a.of, a.pose, b.of, b.pose, request, result);
+    if (is_flat(a.of) || is_flat(b.of)) {
+        if (!collide_plane(to, a, b))
+            return OVOID_FCL_ITSELF::template collide<S>(a.of, a.pose, b.of, b.pose, request, result);
+    } else if (!make_couple(a, b, couple)) {
+        return OVOID_FCL_ITSELF::template collide<S>(a.of, a.pose, b.of, b.pose, request, result);
+    } else if (couple.has_mesh()) {
+        collide_meshes(to, couple);
+    } else {
+        collide_shapes(to, couple);
+    }
+    return result.numContacts();
+}
+
+/// A distance in FCL's terms, before it is written to a result.
+struct distance_answer {
+    double distance;
+    ovoid_vec3 point_a, point_b;
+    int i, j;
+};
+
+/// Of shapes that overlap FCL's distance is -1, unless the signed one is wanted.
+inline distance_answer measure_shapes(const body_couple &of, bool is_signed) {
+    const ovoid_pair pair = of.shapes();
+    const ovoid_answer x =
+        is_signed ? ovoid_depth(&pair, nullptr, nullptr, nullptr) : ovoid_distance(&pair, nullptr, nullptr);
+    const bool is_apart = x.status == OVOID_SEPARATED || (x.status == OVOID_UNDECIDED && !is_hit(x));
+    const double apart = is_apart || is_signed ? middle(x) : x.status == OVOID_TOUCHING ? 0 : -1;
+    return {apart, x.point_a, x.point_b, -1, -1};
+}
+
+/// Of meshes that cross the signed distance is minus the length of a translation that is proven to part them; the
+/// unsigned one is FCL's: 0 of two meshes, -1 of a mesh and a shape.
+inline distance_answer measure_meshes(const body_couple &of, bool is_signed) {
+    const ovoid_body_pair pair = of.bodies();
+    const ovoid_body_answer x = ovoid_body_distance(&pair, nullptr, nullptr);
+    const double crossing = is_signed ? std::min(0.0, x.lower) : of.a->solid() && of.b->solid() ? 0 : -1;
+    return {is_hit(x.deciding) ? crossing : middle(x.deciding), x.deciding.point_a, x.deciding.point_b,
+            of.a->solid() ? static_cast<int>(x.part_a) : -1, of.b->solid() ? static_cast<int>(x.part_b) : -1};
+}
+
+/// Of a plane. The unsigned distance of an overlap is -1.
+inline distance_answer measure_plane(const plane_answer &x, bool is_a, bool is_signed) {
+    const ovoid_vec3 point = {x.point[0], x.point[1], x.point[2]},
+                     on_plane = {x.on_plane[0], x.on_plane[1], x.on_plane[2]};
+    const double distance = is_signed || x.distance >= 0 ? x.distance : -1;
+    return {distance, is_a ? on_plane : point, is_a ? point : on_plane, is_a ? -1 : x.i, is_a ? x.i : -1};
+}
+
+template <class S>
+S distance(const posed<S> &a, const posed<S> &b, const ::fcl::DistanceRequest<S> &request,
+           ::fcl::DistanceResult<S> &result) {
+    if (request.isSatisfied(result)) return result.min_distance;
+    distance_answer found;
+    plane_answer plane;
+    body_couple couple;
+    if (is_flat(a.of) || is_flat(b.of)) {
+        if (!make_plane_answer(a, b, plane))
+            return OVOID_FCL_ITSELF::template distance<S>(a.of, a.pose, b.of, b.pose, request, result);
+        found = measure_plane(plane, is_flat(a.of), request.enable_signed_distance);
+    } else if (!make_couple(a, b, couple)) {
+        return OVOID_FCL_ITSELF::template distance<S>(a.of, a.pose, b.of, b.pose, request, result);
+    } else {
+        found = couple.has_mesh() ? measure_meshes(couple, request.enable_signed_distance)
+                                  : measure_shapes(couple, request.enable_signed_distance);
+    }
+    // Points are written whether or not they were asked for, as FCL does.
+    result.update(static_cast<S>(found.distance), a.of, b.of, found.i, found.j, from_vec3<S>(found.point_a),
+                  from_vec3<S>(found.point_b));
+    return result.min_distance;
+}
+
+/// A moving geometry: how it moves, and what owns it.
+template <class S> struct moved {
+    const geometry<S> *of;
+    ovoid_motion motion;
+    const std::shared_ptr<const geometry<S>> &owner;
+};
+
+/// The first time of contact, up to request.toc_err; false if FCL has to answer. The time is one of contact, or where
+/// that is not proven the first that is not proven free.
+template <class S>
+bool continuous_collide(const moved<S> &a, const moved<S> &b, const ::fcl::ContinuousCollisionRequest<S> &request,
+                        ::fcl::ContinuousCollisionResult<S> &result) {
+    table &mine = table::get();
+    mine.begin();
+    const body *x = mine.find<S>(a.of, a.owner), *y = mine.find<S>(b.of, b.owner);
+    if (!x || !y || x->is_empty() || y->is_empty()) return false;
+    const ovoid_moving_body_pair pair = {
+        {x->shape(), nullptr, a.motion, x->solid()}, {y->shape(), nullptr, b.motion, y->solid()}, 0};
+    ovoid_motion_options options{};
+    options.end = 1;
+    options.tolerance = std::min(1e-6, std::max(1e-12, static_cast<double>(request.toc_err)));
+    const ovoid_impact impact = ovoid_body_impact_find(&pair, &options).impact;
+    if (impact.limit >= OVOID_LIMIT_POSE_A && impact.limit <= OVOID_LIMIT_SHAPE_B) return false;
+    result.is_collide = impact.status != OVOID_IMPACT_FREE;
+    const double time = !result.is_collide ? 1 : impact.status == OVOID_IMPACT_HIT ? impact.hit_at : impact.free_until;
+    result.time_of_contact = static_cast<S>(time);
+    result.contact_tf1 = from_pose<S>(ovoid_motion_compute_pose(&a.motion, time));
+    result.contact_tf2 = from_pose<S>(ovoid_motion_compute_pose(&b.motion, time));
+    return true;
+}
+
+} // namespace detail
+
+/** Forgets the translation of a geometry whose arrays were written to without FCL's own functions. */
+template <class S> void forget(const ::fcl::CollisionGeometry<S> *geometry) { detail::store::get().forget(geometry); }
+/** Drops the translations of geometries that are not known to be alive; the next calls make those that are wanted. */
+inline void trim() { detail::store::get().trim(true); }
+/** The number of translations that are kept. */
+inline std::size_t count_kept() { return detail::store::get().count(); }
+
+/**
+ * fcl::collide. Contacts: of two shapes one, or with num_max_contacts above 1 the points of their manifold, deepest
+ * first; of a mesh the triangles that decide, or each pair that touches. Normals go from o1 to o2.
+ */
+template <class S>
+std::size_t collide(const ::fcl::CollisionGeometry<S> *o1, const ::fcl::Transform3<S> &tf1,
+                    const ::fcl::CollisionGeometry<S> *o2, const ::fcl::Transform3<S> &tf2,
+                    const ::fcl::CollisionRequest<S> &request, ::fcl::CollisionResult<S> &result) {
+    return detail::collide<S>({o1, tf1, detail::no_owner<S>()}, {o2, tf2, detail::no_owner<S>()}, request, result);
+}
+/** fcl::collide of objects. */
+template <class S>
+std::size_t collide(const ::fcl::CollisionObject<S> *o1, const ::fcl::CollisionObject<S> *o2,
+                    const ::fcl::CollisionRequest<S> &request, ::fcl::CollisionResult<S> &result) {
+    return detail::collide<S>(detail::pose_of(o1), detail::pose_of(o2), request, result);
+}
+
+/** fcl::distance. The nearest points are in the world, on o1 and on o2, and always written. */
+template <class S>
+S distance(const ::fcl::CollisionGeometry<S> *o1, const ::fcl::Transform3<S> &tf1,
+           const ::fcl::CollisionGeometry<S> *o2, const ::fcl::Transform3<S> &tf2,
+           const ::fcl::DistanceRequest<S> &request, ::fcl::DistanceResult<S> &result) {
+    return detail::distance<S>({o1, tf1, detail::no_owner<S>()}, {o2, tf2, detail::no_owner<S>()}, request, result);
+}
+/** fcl::distance of objects. */
+template <class S>
+S distance(const ::fcl::CollisionObject<S> *o1, const ::fcl::CollisionObject<S> *o2,
+           const ::fcl::DistanceRequest<S> &request, ::fcl::DistanceResult<S> &result) {
+    return detail::distance<S>(detail::pose_of(o1), detail::pose_of(o2), request, result);
+}
+
+/**
+ * fcl::continuousCollide, from time 0 to 1. Doubles alone: FCL's motions of floats do not compile. The whole motion is
+ * proven free, or the time found is the first one of contact; of the request, the kind of motion and toc_err count.
+ */
+template <class S>
+S continuousCollide(const ::fcl::CollisionGeometry<S> *o1, const ::fcl::MotionBase<S> *motion1,
+                    const ::fcl::CollisionGeometry<S> *o2, const ::fcl::MotionBase<S> *motion2,
+                    const ::fcl::ContinuousCollisionRequest<S> &request, ::fcl::ContinuousCollisionResult<S> &result) {
+    detail::moved<S> a{o1, {}, detail::no_owner<S>()}, b{o2, {}, detail::no_owner<S>()};
+    if (detail::make_motion(motion1, a.motion) && detail::make_motion(motion2, b.motion) &&
+        detail::continuous_collide(a, b, request, result))
+        return result.time_of_contact;
+    return OVOID_FCL_ITSELF::template continuous_collide<S>(o1, motion1, o2, motion2, request, result);
+}
+/** fcl::continuousCollide between transforms, by motions of request.ccd_motion_type. */
+template <class S>
+S continuousCollide(const ::fcl::CollisionGeometry<S> *o1, const ::fcl::Transform3<S> &tf1_beg,
+                    const ::fcl::Transform3<S> &tf1_end, const ::fcl::CollisionGeometry<S> *o2,
+                    const ::fcl::Transform3<S> &tf2_beg, const ::fcl::Transform3<S> &tf2_end,
+                    const ::fcl::ContinuousCollisionRequest<S> &request, ::fcl::ContinuousCollisionResult<S> &result) {
+    detail::moved<S> a{o1, {}, detail::no_owner<S>()}, b{o2, {}, detail::no_owner<S>()};
+    if (detail::make_motion<S>(request.ccd_motion_type, tf1_beg, tf1_end, a.motion) &&
+        detail::make_motion<S>(request.ccd_motion_type, tf2_beg, tf2_end, b.motion) &&
+        detail::continuous_collide(a, b, request, result))
+        return result.time_of_contact;
+    return OVOID_FCL_ITSELF::template continuous_collide<S>(o1, tf1_beg, tf1_end, o2, tf2_beg, tf2_end, request,
+                                                            result);
+}
+/** fcl::continuousCollide of objects, from where they are. */
+template <class S>
+S continuousCollide(const ::fcl::CollisionObject<S> *o1, const ::fcl::Transform3<S> &tf1_end,
+                    const ::fcl::CollisionObject<S> *o2, const ::fcl::Transform3<S> &tf2_end,
+                    const ::fcl::ContinuousCollisionRequest<S> &request, ::fcl::ContinuousCollisionResult<S> &result) {
+    return fcl::continuousCollide<S>(o1->collisionGeometry().get(), o1->getTransform(), tf1_end,
+                                     o2->collisionGeometry().get(), o2->getTransform(), tf2_end, request, result);
+}
+/** fcl::collide of objects that move. */
+template <class S>
+S collide(const ::fcl::ContinuousCollisionObject<S> *o1, const ::fcl::ContinuousCollisionObject<S> *o2,
+          const ::fcl::ContinuousCollisionRequest<S> &request, ::fcl::ContinuousCollisionResult<S> &result) {
+    return fcl::continuousCollide<S>(o1->collisionGeometry().get(), o1->getMotion(), o2->collisionGeometry().get(),
+                                     o2->getMotion(), request, result);
+}
+
+} // namespace fcl
+} // namespace ovoid
+
+#ifdef OVOID_FCL_REPLACE
+#include "ovoid/fcl/replace.hpp"
+#endif
+
+#endif

@@ -1,0 +1,236 @@
+/**
+ * @file body.hpp
+ * FCL's geometries as bodies of ovoid, for <ovoid/fcl.hpp>. Box, Sphere, Capsule, Convex and TriangleP are shapes
+ * without an allowance; Cylinder, Cone and Ellipsoid are inscribed polyhedra with an allowance; a BVHModel is the
+ * surface of its triangles.
+ */
+#ifndef OVOID_FCL_BODY_HPP
+#define OVOID_FCL_BODY_HPP
+
+#include "ovoid/body.h"
+#include "ovoid/fcl/pose.hpp"
+#include "ovoid/fcl/print.hpp"
+#include "ovoid/motion.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace ovoid {
+namespace fcl {
+namespace detail {
+
+/// How far the prism of a cylinder and the pyramid of a cone may be from it, as a part of the radius.
+constexpr double round_tolerance = 1e-4;
+/// The rows of vertices from one pole of an ellipsoid to the other.
+constexpr int ellipsoid_rows = 48;
+
+struct shape_deleter {
+    void operator()(ovoid_shape *shape) const { ovoid_shape_destroy(shape); }
+};
+struct solid_deleter {
+    void operator()(ovoid_solid *solid) const { ovoid_solid_destroy(solid); }
+};
+using shape_owner = std::unique_ptr<ovoid_shape, shape_deleter>;
+using solid_owner = std::unique_ptr<ovoid_solid, solid_deleter>;
+
+/// A tree of boxes over the triangles of a solid, in the solid's own order: the halves of a range of n triangles are
+/// the node after it, of the first n / 2, and the node 2 (n / 2) after it, of the others. A shape has one box.
+struct box_tree {
+    std::vector<ovoid_box> boxes;
+    std::vector<std::uint32_t> order;
+    std::size_t count() const { return order.size(); }
+};
+
+/// A geometry of FCL as a shape or a solid; neither of them if ovoid refused it: then FCL answers.
+class body {
+  public:
+    body() = default;
+    explicit body(shape_owner shape) : shape_(std::move(shape)) {}
+    explicit body(solid_owner solid) : solid_(std::move(solid)), pieces_(count_triangles()) {}
+    ~body() {
+        for (auto &piece : pieces_) ovoid_shape_destroy(piece.load(std::memory_order_relaxed));
+    }
+    body(const body &) = delete;
+    body &operator=(const body &) = delete;
+
+    const ovoid_shape *shape() const { return shape_.get(); }
+    const ovoid_solid *solid() const { return solid_.get(); }
+    bool is_empty() const { return !shape_ && !solid_; }
+    std::size_t size() const {
+        return shape_ ? ovoid_shape_get_size(shape_.get()) : solid_ ? ovoid_solid_get_size(solid_.get()) : 0;
+    }
+
+    /// The shape, or triangle i of the solid as a shape, which is made when it is first wanted. NULL: no memory is
+    /// left.
+    const ovoid_shape *piece(std::uint32_t i) const {
+        if (shape_) return shape_.get();
+        ovoid_shape *made = pieces_[i].load(std::memory_order_acquire);
+        if (made) return made;
+        const double *points = ovoid_solid_get_points(solid_.get());
+        std::uint32_t corners[3];
+        ovoid_solid_get_triangle(solid_.get(), i, corners);
+        double xyz[9];
+        for (std::size_t k = 0; k < 9; k++) xyz[k] = points[3 * std::size_t{corners[k / 3]} + k % 3];
+        ovoid_shape *mine = ovoid_shape_create_from_points(xyz, 3, nullptr, nullptr);
+        if (pieces_[i].compare_exchange_strong(made, mine, std::memory_order_acq_rel)) return mine;
+        ovoid_shape_destroy(mine);
+        return made;
+    }
+
+    /// The tree of boxes, which is made when it is first wanted.
+    const box_tree &tree() const {
+        std::call_once(once_, [this] {
+            if (shape_) return make_box();
+            const std::uint32_t *order = ovoid_solid_get_order(solid_.get());
+            tree_.order.assign(order, order + pieces_.size());
+            tree_.boxes.resize(2 * pieces_.size() - 1);
+            fill(0, 0, pieces_.size());
+        });
+        return tree_;
+    }
+
+  private:
+    std::size_t count_triangles() const {
+        return solid_ ? static_cast<std::size_t>(ovoid_solid_get_report(solid_.get()).triangles) : 0;
+    }
+    void make_box() const {
+        ovoid_moving_shape still{};
+        still.shape = shape_.get();
+        still.motion = ovoid_motion_make_still(ovoid_pose_make_identity());
+        ovoid_box box = ovoid_moving_shape_compute_box(&still, 0, 0);
+        const double outside = ovoid_shape_get_allowance(shape_.get()).outside;
+        box.min = {box.min.x - outside, box.min.y - outside, box.min.z - outside};
+        box.max = {box.max.x + outside, box.max.y + outside, box.max.z + outside};
+        tree_.order.assign(1, 0);
+        tree_.boxes.assign(1, box);
+    }
+    ovoid_box fill(std::size_t node, std::size_t first, std::size_t end) const {
+        const std::size_t half = (end - first) / 2;
+        const ovoid_box box = half == 0
+                                  ? box_of_triangle(tree_.order[first])
+                                  : join(fill(node + 1, first, first + half), fill(node + 2 * half, first + half, end));
+        return tree_.boxes[node] = box;
+    }
+    ovoid_box box_of_triangle(std::uint32_t i) const {
+        const double *points = ovoid_solid_get_points(solid_.get());
+        std::uint32_t corners[3];
+        ovoid_solid_get_triangle(solid_.get(), i, corners);
+        const auto at = [&](int k) {
+            const double *xyz = points + 3 * std::size_t{corners[k]};
+            return ovoid_box{{xyz[0], xyz[1], xyz[2]}, {xyz[0], xyz[1], xyz[2]}};
+        };
+        return join(join(at(0), at(1)), at(2));
+    }
+    static ovoid_box join(const ovoid_box &a, const ovoid_box &b) {
+        return {{std::min(a.min.x, b.min.x), std::min(a.min.y, b.min.y), std::min(a.min.z, b.min.z)},
+                {std::max(a.max.x, b.max.x), std::max(a.max.y, b.max.y), std::max(a.max.z, b.max.z)}};
+    }
+
+    shape_owner shape_;
+    solid_owner solid_;
+    mutable std::vector<std::atomic<ovoid_shape *>> pieces_;
+    mutable std::once_flag once_;
+    mutable box_tree tree_;
+};
+
+/// A polyhedron inscribed in the ellipsoid: rows of vertices at equal angles of the unit sphere, scaled. Every point of
+/// the sphere is within half the diagonal of a cell of a vertex, so the ball of radius cos(that angle) is inside.
+inline ovoid_shape *make_ellipsoid(const ovoid_vec3 &radii) {
+    const double step = 3.14159265358979323846 / ellipsoid_rows;
+    std::vector<double> xyz;
+    for (int i = 0; i <= ellipsoid_rows; i++) {
+        const double ring = std::sin(i * step);
+        const int count = std::max(1, static_cast<int>(std::ceil(2 * ellipsoid_rows * ring - 1e-9)));
+        for (int k = 0; k < count; k++) {
+            const double angle = 2 * 3.14159265358979323846 * k / count;
+            xyz.insert(xyz.end(), {radii.x * ring * std::cos(angle), radii.y * ring * std::sin(angle),
+                                   radii.z * std::cos(i * step)});
+        }
+    }
+    ovoid_shape_options options{};
+    const double reach = step / 2 * 1.41421356237309515 * (1 + 1e-6);
+    options.allowance.outside = (1 - std::cos(reach)) * std::max(radii.x, std::max(radii.y, radii.z));
+    return ovoid_shape_create_from_points(xyz.data(), xyz.size() / 3, &options, nullptr);
+}
+
+/// The hull of points of FCL.
+template <class S> ovoid_shape *make_hull(const ::fcl::Vector3<S> *points, std::size_t count) {
+    std::vector<double> xyz;
+    xyz.reserve(3 * count);
+    for (std::size_t i = 0; i < count; i++)
+        for (int k = 0; k < 3; k++) xyz.push_back(static_cast<double>(points[i][k]));
+    return ovoid_shape_create_from_points(xyz.data(), count, nullptr, nullptr);
+}
+
+/// A surface of triangles. FCL's meshes have no inside: where they are closed, one triangle is turned over, so that
+/// ovoid's solid has none either. A triangle without area would change nothing, so the next one is tried.
+template <class S> ovoid_solid *make_surface(const mesh_view<S> &view) {
+    std::vector<double> xyz;
+    std::vector<std::uint32_t> indices;
+    for (int i = 0; i < view.vertex_count; i++)
+        for (int k = 0; k < 3; k++) xyz.push_back(static_cast<double>(view.vertices[i][k]));
+    for (int i = 0; i < view.triangle_count; i++)
+        for (int k = 0; k < 3; k++) indices.push_back(static_cast<std::uint32_t>(view.triangles[i][k]));
+    const ovoid_triangles triangles = {xyz.data(), xyz.size() / 3, indices.data(), indices.size() / 3};
+    solid_owner solid(ovoid_solid_create_from_triangles(&triangles, nullptr, nullptr));
+    for (std::size_t i = 0; i < triangles.count && solid && ovoid_solid_get_report(solid.get()).is_closed; i++) {
+        std::swap(indices[3 * i + 1], indices[3 * i + 2]);
+        solid.reset(ovoid_solid_create_from_triangles(&triangles, nullptr, nullptr));
+    }
+    return solid.release();
+}
+
+/// Translates a geometry. What ovoid refuses, for example a box with a negative side, becomes an empty body.
+template <class S> std::shared_ptr<const body> make_body(const geometry<S> *g) {
+    const auto hold = [](ovoid_shape *shape) { return std::make_shared<const body>(shape_owner(shape)); };
+    ovoid_shape_options options{};
+    switch (g->getNodeType()) {
+    case ::fcl::GEOM_BOX: {
+        const ovoid_vec3 side = to_vec3<S>(static_cast<const ::fcl::Box<S> *>(g)->side);
+        return hold(ovoid_shape_create_box({side.x / 2, side.y / 2, side.z / 2}, nullptr, nullptr));
+    }
+    case ::fcl::GEOM_SPHERE:
+        return hold(ovoid_shape_create_sphere(static_cast<const ::fcl::Sphere<S> *>(g)->radius, nullptr, nullptr));
+    case ::fcl::GEOM_ELLIPSOID:
+        return hold(make_ellipsoid(to_vec3<S>(static_cast<const ::fcl::Ellipsoid<S> *>(g)->radii)));
+    case ::fcl::GEOM_CAPSULE: {
+        const auto *s = static_cast<const ::fcl::Capsule<S> *>(g);
+        return hold(ovoid_shape_create_capsule(s->radius, static_cast<double>(s->lz) / 2, nullptr, nullptr));
+    }
+    case ::fcl::GEOM_CYLINDER: {
+        const auto *s = static_cast<const ::fcl::Cylinder<S> *>(g);
+        options.tolerance = static_cast<double>(s->radius) * round_tolerance;
+        return hold(ovoid_shape_create_cylinder(s->radius, static_cast<double>(s->lz) / 2, &options, nullptr));
+    }
+    case ::fcl::GEOM_CONE: {
+        const auto *s = static_cast<const ::fcl::Cone<S> *>(g);
+        options.tolerance = static_cast<double>(s->radius) * round_tolerance;
+        return hold(ovoid_shape_create_cone(s->radius, static_cast<double>(s->lz) / 2, &options, nullptr));
+    }
+    case ::fcl::GEOM_TRIANGLE: {
+        const auto *s = static_cast<const ::fcl::TriangleP<S> *>(g);
+        const ::fcl::Vector3<S> points[3] = {s->a, s->b, s->c};
+        return hold(make_hull<S>(points, 3));
+    }
+    case ::fcl::GEOM_CONVEX: {
+        const auto &vertices = static_cast<const ::fcl::Convex<S> *>(g)->getVertices();
+        return hold(make_hull<S>(vertices.data(), vertices.size()));
+    }
+    default: break;
+    }
+    mesh_view<S> view;
+    if (!view_mesh(g, view)) return std::make_shared<const body>();
+    solid_owner surface(make_surface(view));
+    return surface ? std::make_shared<const body>(std::move(surface)) : std::make_shared<const body>();
+}
+
+} // namespace detail
+} // namespace fcl
+} // namespace ovoid
+
+#endif

@@ -1,0 +1,207 @@
+/**
+ * @file cache.hpp
+ * The translations of FCL's geometries that <ovoid/fcl.hpp> keeps. A translation is found by the address of its
+ * geometry and used while the geometry's print is the same. Each thread has a table of what it used last, which it
+ * reads without a lock; behind it is one table for all threads.
+ *
+ * Translations go by a sweep, each time that their number or their bytes have doubled since the last one: those whose
+ * geometry is dead, which is known of geometries that came in a CollisionObject; and of the others those that nobody
+ * used since the last sweep. A thread lets go of what was swept at its next call, or when it ends.
+ */
+#ifndef OVOID_FCL_CACHE_HPP
+#define OVOID_FCL_CACHE_HPP
+
+#include "ovoid/fcl/body.hpp"
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <unordered_map>
+
+namespace ovoid {
+namespace fcl {
+namespace detail {
+
+/// A translation, and what is known of its geometry.
+struct entry {
+    print of;
+    std::shared_ptr<const body> made;
+    std::weak_ptr<const void> owner;   ///< guarded by the store's lock
+    std::atomic<bool> is_owned{false}; ///< `owner` is set
+    std::atomic<bool> is_used{true};   ///< since the last sweep
+    std::atomic<bool> is_swept{false}; ///< not in the store any more
+    std::size_t size = 0;              ///< in bytes
+};
+
+/// The translations of all threads.
+class store {
+  public:
+    /// It is never destroyed, so that calls of FCL from destructors at the end of the program are answered too.
+    static store &get() {
+        static store *all = new store;
+        return *all;
+    }
+
+    /// The entry of this address if it has this print, with its owner noted; or NULL.
+    std::shared_ptr<entry> find(const void *address, const print &p, const std::shared_ptr<const void> &owner) {
+        const std::lock_guard<std::mutex> hold(lock_);
+        const auto found = entries_.find(address);
+        if (found == entries_.end() || !(found->second->of == p)) return nullptr;
+        note(*found->second, owner);
+        return found->second;
+    }
+
+    /// Adds an entry in the place of one of the same address.
+    void add(const void *address, const std::shared_ptr<entry> &made, const std::shared_ptr<const void> &owner) {
+        const std::lock_guard<std::mutex> hold(lock_);
+        if (entries_.size() >= most_ || size_ >= most_size_) sweep(false);
+        std::shared_ptr<entry> &place = entries_[address];
+        if (place) let_go(*place);
+        place = made;
+        size_ += made->size;
+        note(*made, owner);
+    }
+
+    /// Drops the entries of dead geometries; if all, also those whose geometry is not known to live.
+    void trim(bool all) {
+        const std::lock_guard<std::mutex> hold(lock_);
+        sweep(all);
+    }
+    void forget(const void *address) {
+        const std::lock_guard<std::mutex> hold(lock_);
+        const auto found = entries_.find(address);
+        if (found == entries_.end()) return;
+        let_go(*found->second);
+        entries_.erase(found);
+        sweeps_.fetch_add(1, std::memory_order_release);
+    }
+    std::size_t count() {
+        const std::lock_guard<std::mutex> hold(lock_);
+        return entries_.size();
+    }
+    /// Changes when entries were swept.
+    std::uint64_t sweeps() const { return sweeps_.load(std::memory_order_acquire); }
+
+  private:
+    static void note(entry &e, const std::shared_ptr<const void> &owner) {
+        if (!owner) return;
+        e.owner = owner;
+        e.is_owned.store(true, std::memory_order_relaxed);
+    }
+    void let_go(entry &e) {
+        e.is_swept.store(true, std::memory_order_release);
+        size_ -= e.size;
+    }
+    void sweep(bool all) {
+        for (auto at = entries_.begin(); at != entries_.end();) {
+            entry &e = *at->second;
+            const bool was_used = e.is_used.exchange(false, std::memory_order_relaxed);
+            const bool stays = e.is_owned.load(std::memory_order_relaxed) ? !e.owner.expired() : was_used && !all;
+            if (!stays) let_go(e);
+            at = stays ? std::next(at) : entries_.erase(at);
+        }
+        most_ = std::max<std::size_t>(64, 2 * entries_.size());
+        most_size_ = std::max<std::size_t>(std::size_t{64} << 20, 2 * size_);
+        sweeps_.fetch_add(1, std::memory_order_release);
+    }
+
+    std::mutex lock_;
+    std::unordered_map<const void *, std::shared_ptr<entry>> entries_;
+    std::size_t most_ = 64, size_ = 0, most_size_ = std::size_t{64} << 20;
+    std::atomic<std::uint64_t> sweeps_{0};
+};
+
+/// What one thread used last: sets of two places. The place that was used last stays when its set takes a new entry, so
+/// the two bodies of a call keep each other.
+class table {
+  public:
+    /// This thread's table. A thread that calls FCL while it ends, after its table, gets one that is not freed.
+    static table &get() {
+        static thread_local table *mine = nullptr;
+        if (!mine) {
+            static thread_local struct ender {
+                ~ender() {
+                    delete mine;
+                    mine = nullptr;
+                }
+            } at_end;
+            (void)at_end;
+            mine = new table;
+        }
+        return *mine;
+    }
+
+    /// To be called once at the start of each call: lets go of what was swept.
+    void begin() {
+        const std::uint64_t sweeps = store::get().sweeps();
+        if (sweeps == sweeps_) return;
+        sweeps_ = sweeps;
+        for (set &s : sets_)
+            for (place &p : s.places)
+                if (p.held && p.held->is_swept.load(std::memory_order_acquire)) p = place();
+    }
+
+    /// The body of a geometry, which stays until the second find after this one; NULL if it has none. owner: empty
+    /// where it is not known.
+    template <class S> const body *find(const geometry<S> *g, const std::shared_ptr<const geometry<S>> &owner) {
+        print p;
+        if (!make_print(g, p)) return nullptr;
+        const auto address = reinterpret_cast<std::uintptr_t>(g);
+        set &s = sets_[(address >> 4 ^ address >> 12) % set_count];
+        for (std::uint32_t i = 0; i < 2; i++) {
+            const place &at = s.places[i];
+            if (at.address != g || !(at.held->of == p)) continue;
+            entry &e = *at.held;
+            if (owner && !e.is_owned.load(std::memory_order_relaxed)) break;
+            if (!e.is_used.load(std::memory_order_relaxed)) e.is_used.store(true, std::memory_order_relaxed);
+            s.last = i;
+            return e.made.get();
+        }
+        place &to = s.places[s.pick(g)];
+        to = {g, make_entry(g, p, owner)};
+        s.last = static_cast<std::uint32_t>(&to - s.places);
+        return to.held->made.get();
+    }
+
+  private:
+    struct place {
+        const void *address = nullptr;
+        std::shared_ptr<entry> held;
+    };
+    struct set {
+        place places[2];
+        std::uint32_t last = 0;
+        /// The place for an address: its own, or the one that was not used last.
+        std::uint32_t pick(const void *address) const {
+            for (std::uint32_t i = 0; i < 2; i++)
+                if (places[i].address == address) return i;
+            return 1 - last;
+        }
+    };
+    static constexpr std::size_t set_count = 256;
+
+    template <class S>
+    static std::shared_ptr<entry> make_entry(const geometry<S> *g, const print &p,
+                                             const std::shared_ptr<const geometry<S>> &owner) {
+        store &all = store::get();
+        std::shared_ptr<entry> e = all.find(g, p, owner);
+        if (e) return e;
+        e = std::make_shared<entry>();
+        e->of = p;
+        e->made = make_body(g);
+        e->size = e->made->size();
+        all.add(g, e, owner);
+        return e;
+    }
+
+    set sets_[set_count];
+    std::uint64_t sweeps_ = 0;
+};
+
+} // namespace detail
+} // namespace fcl
+} // namespace ovoid
+
+#endif

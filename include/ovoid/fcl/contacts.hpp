@@ -1,0 +1,223 @@
+/**
+ * @file contacts.hpp
+ * The contacts of two bodies in FCL's terms, for <ovoid/fcl.hpp>: of two shapes the points of their contact manifold,
+ * of a mesh a contact for each of its triangles that meets the other body.
+ */
+#ifndef OVOID_FCL_CONTACTS_HPP
+#define OVOID_FCL_CONTACTS_HPP
+
+#include "ovoid/fcl/body.hpp"
+#include "ovoid/manifold.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+namespace ovoid {
+namespace fcl {
+namespace detail {
+
+/// Where FCL has an answer of yes or no, and ovoid a bracket: a sign that is not proven is that of the middle.
+inline bool is_hit(const ovoid_answer &answer) {
+    if (answer.status == OVOID_UNDECIDED) return !(answer.lower + answer.upper > 0);
+    return answer.status != OVOID_SEPARATED;
+}
+inline double middle(const ovoid_answer &answer) { return (answer.lower + answer.upper) / 2; }
+inline ovoid_vec3 between(const ovoid_vec3 &a, const ovoid_vec3 &b) {
+    return {(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2};
+}
+
+/// Two bodies at their poses.
+struct body_couple {
+    const body *a, *b;
+    ovoid_pose pose_a, pose_b;
+
+    ovoid_pair pieces(std::uint32_t i, std::uint32_t j) const { return {a->piece(i), b->piece(j), pose_a, pose_b}; }
+    ovoid_pair shapes() const { return {a->shape(), b->shape(), pose_a, pose_b}; }
+    ovoid_body_pair bodies() const {
+        return {{a->shape(), nullptr, pose_a, a->solid()}, {b->shape(), nullptr, pose_b, b->solid()}};
+    }
+    bool has_mesh() const { return a->solid() || b->solid(); }
+};
+
+/// A box of body b in the frame of a, as centre and half sizes of both frames' axes.
+class box_test {
+  public:
+    explicit box_test(const body_couple &of) {
+        const ovoid_pose inverse = ovoid_pose_compute_inverse(&of.pose_a);
+        const ovoid_pose b_in_a = ovoid_pose_compute_product(&inverse, &of.pose_b);
+        ovoid_pose_compute_matrix(&b_in_a, turn_);
+        const double at[3] = {b_in_a.position.x, b_in_a.position.y, b_in_a.position.z};
+        for (int i = 0; i < 3; i++) at_[i] = at[i];
+        // Rounding: a part in 1e12 of every length that enters the sums.
+        for (int i = 0; i < 9; i++) size_[i] = std::fabs(turn_[i]) + 1e-12;
+        reach_ = 1e-12 * (std::fabs(at[0]) + std::fabs(at[1]) + std::fabs(at[2]));
+    }
+    /// May the boxes have a common point? Separating axes are the axes of both frames.
+    bool operator()(const ovoid_box &a, const ovoid_box &b) const {
+        const double ca[3] = {(a.min.x + a.max.x) / 2, (a.min.y + a.max.y) / 2, (a.min.z + a.max.z) / 2};
+        const double cb[3] = {(b.min.x + b.max.x) / 2, (b.min.y + b.max.y) / 2, (b.min.z + b.max.z) / 2};
+        const double ha[3] = {a.max.x - ca[0], a.max.y - ca[1], a.max.z - ca[2]};
+        const double hb[3] = {b.max.x - cb[0], b.max.y - cb[1], b.max.z - cb[2]};
+        double between[3];
+        double far = reach_;
+        for (int i = 0; i < 3; i++) {
+            between[i] = at_[i] + turn_[3 * i] * cb[0] + turn_[3 * i + 1] * cb[1] + turn_[3 * i + 2] * cb[2] - ca[i];
+            far += 1e-12 * (std::fabs(ca[i]) + std::fabs(cb[i]) + ha[i] + hb[i]);
+        }
+        for (int i = 0; i < 3; i++)
+            if (std::fabs(between[i]) >
+                ha[i] + size_[3 * i] * hb[0] + size_[3 * i + 1] * hb[1] + size_[3 * i + 2] * hb[2] + far)
+                return false;
+        for (int i = 0; i < 3; i++) {
+            const double along = turn_[i] * between[0] + turn_[3 + i] * between[1] + turn_[6 + i] * between[2];
+            if (std::fabs(along) > hb[i] + size_[i] * ha[0] + size_[3 + i] * ha[1] + size_[6 + i] * ha[2] + 2 * far)
+                return false;
+        }
+        return true;
+    }
+
+  private:
+    double turn_[9], size_[9], at_[3], reach_;
+};
+
+/// A node of a box_tree, with its range of the order.
+struct box_range {
+    std::size_t node, first, end;
+    bool is_leaf() const { return end - first == 1; }
+    box_range lower() const { return {node + 1, first, first + (end - first) / 2}; }
+    box_range upper() const { return {node + 2 * ((end - first) / 2), first + (end - first) / 2, end}; }
+};
+
+/// Goes through the pairs of a triangle (or the shape) of a and one of b whose boxes meet, until `take` returns false.
+template <class Take> class pair_search {
+  public:
+    pair_search(const body_couple &of, Take take) : a_(of.a->tree()), b_(of.b->tree()), may_meet_(of), take_(take) {}
+    bool run() { return visit({0, 0, a_.count()}, {0, 0, b_.count()}); }
+
+  private:
+    bool visit(const box_range &x, const box_range &y) {
+        if (!may_meet_(a_.boxes[x.node], b_.boxes[y.node])) return true;
+        if (x.is_leaf() && y.is_leaf()) return take_(a_.order[x.first], b_.order[y.first]);
+        if (y.is_leaf() || (!x.is_leaf() && x.end - x.first >= y.end - y.first))
+            return visit(x.lower(), y) && visit(x.upper(), y);
+        return visit(x, y.lower()) && visit(x, y.upper());
+    }
+
+    const box_tree &a_, &b_;
+    box_test may_meet_;
+    Take take_;
+};
+template <class Take> void search_pairs(const body_couple &of, Take take) { pair_search<Take>(of, take).run(); }
+
+/// Adds contacts to a result of FCL.
+template <class S> class contact_list {
+  public:
+    contact_list(const geometry<S> *o1, const geometry<S> *o2, const ::fcl::CollisionRequest<S> &request,
+                 ::fcl::CollisionResult<S> &result)
+        : o1_(o1), o2_(o2), request_(&request), result_(&result) {}
+
+    /// How many more contacts are wanted.
+    std::size_t room() const {
+        const std::size_t have = result_->numContacts();
+        return have < request_->num_max_contacts ? request_->num_max_contacts - have : 0;
+    }
+    bool is_detailed() const { return request_->enable_contact; }
+
+    /// A contact without details, of parts i and j (-1: not of a mesh).
+    void add(int i, int j) { result_->addContact(::fcl::Contact<S>(o1_, o2_, i, j)); }
+    /// A contact with details. FCL's depths are not negative.
+    void add(int i, int j, const ovoid_manifold_point &at, const ovoid_vec3 &normal) {
+        result_->addContact(::fcl::Contact<S>(o1_, o2_, i, j, from_vec3<S>(between(at.point_a, at.point_b)),
+                                              from_vec3<S>(normal), static_cast<S>(std::max(0.0, -at.separation))));
+    }
+
+  private:
+    const geometry<S> *o1_, *o2_;
+    const ::fcl::CollisionRequest<S> *request_;
+    ::fcl::CollisionResult<S> *result_;
+};
+
+/// The deepest point of two overlapping shapes as a contact.
+template <class S> void add_deepest(contact_list<S> &to, int i, int j, const ovoid_answer &depth) {
+    to.add(i, j, {depth.point_a, depth.point_b, middle(depth), 0}, depth.normal);
+}
+
+/// The contacts of two shapes: one, or with room for more the points of their manifold, deepest first. The first one
+/// has the depth of the shapes. Where no corner of the manifold is that deep, the deepest point comes before its
+/// corners.
+template <class S> void add_contacts(contact_list<S> &to, int i, int j, const ovoid_pair &pair) {
+    const ovoid_answer depth = ovoid_depth(&pair, nullptr, nullptr, nullptr);
+    if (!is_hit(depth)) return;
+    if (to.room() == 1) return add_deepest(to, i, j, depth);
+    const ovoid_manifold manifold = ovoid_manifold_find(&pair, nullptr, nullptr);
+    ovoid_manifold_points points = ovoid_manifold_compute_points(&pair, &manifold);
+    std::uint32_t count = 0;
+    for (; count < points.count && count < 4; count++) {
+        std::uint32_t at = count;
+        for (; at > 0 && points.points[at].separation < points.points[at - 1].separation; at--)
+            std::swap(points.points[at], points.points[at - 1]);
+    }
+    // The manifold is of the polyhedra, the depth of the bodies with their allowances, which are in its bracket's
+    // width.
+    double off = count == 0 ? INFINITY : points.points[0].separation - middle(depth);
+    if (!(off <= depth.upper - depth.lower)) {
+        add_deepest(to, i, j, depth);
+        off = 0;
+    }
+    for (std::uint32_t n = 0; n < count && to.room() > 0; n++) {
+        points.points[n].separation -= off;
+        to.add(i, j, points.points[n], manifold.normal);
+    }
+}
+
+/// The contacts of two shapes.
+template <class S> void collide_shapes(contact_list<S> &to, const body_couple &of) {
+    const ovoid_pair pair = of.shapes();
+    if (to.is_detailed()) return add_contacts(to, -1, -1, pair);
+    const ovoid_answer answer = ovoid_collide(&pair, nullptr, nullptr);
+    if (is_hit(answer)) to.add(-1, -1);
+}
+
+/// Adds the contact of two parts if they touch.
+template <class S>
+void collide_parts(contact_list<S> &to, const body_couple &of, std::uint32_t part_a, std::uint32_t part_b) {
+    const ovoid_pair pair = of.pieces(part_a, part_b);
+    const int i = of.a->solid() ? static_cast<int>(part_a) : -1, j = of.b->solid() ? static_cast<int>(part_b) : -1;
+    const ovoid_answer answer =
+        to.is_detailed() ? ovoid_depth(&pair, nullptr, nullptr, nullptr) : ovoid_collide(&pair, nullptr, nullptr);
+    if (!is_hit(answer)) return;
+    if (to.is_detailed())
+        add_deepest(to, i, j, answer);
+    else
+        to.add(i, j);
+}
+
+/// The contacts of a mesh with a shape or a mesh. One wanted: that of the two parts that decide. More: those of all
+/// pairs of parts that touch.
+template <class S> void collide_meshes(contact_list<S> &to, const body_couple &of) {
+    const ovoid_body_pair pair = of.bodies();
+    const ovoid_body_answer answer = ovoid_body_collide(&pair, nullptr, nullptr);
+    if (!is_hit(answer.deciding)) return;
+    const std::size_t before = to.room();
+    if (before > 1)
+        search_pairs(of, [&](std::uint32_t i, std::uint32_t j) {
+            collide_parts(to, of, i, j);
+            return to.room() > 0;
+        });
+    if (to.room() < before) return;
+    // One is wanted, or rounding lets only the whole query see the contact.
+    const int i = of.a->solid() ? static_cast<int>(answer.part_a) : -1,
+              j = of.b->solid() ? static_cast<int>(answer.part_b) : -1;
+    if (!to.is_detailed()) return to.add(i, j);
+    const ovoid_pair parts = of.pieces(answer.part_a, answer.part_b);
+    add_deepest(to, i, j, ovoid_depth(&parts, nullptr, nullptr, nullptr));
+}
+
+} // namespace detail
+} // namespace fcl
+} // namespace ovoid
+
+#endif

@@ -1,0 +1,191 @@
+/**
+ * @file planes.hpp
+ * FCL's Halfspace and Plane against its other geometries, in closed form, for <ovoid/fcl.hpp>. Both are unbounded, so
+ * they are no bodies of ovoid. The other geometry's extent along the plane's normal, from FCL's own sizes, decides:
+ * right to a few roundings for every type, round ones included.
+ */
+#ifndef OVOID_FCL_PLANES_HPP
+#define OVOID_FCL_PLANES_HPP
+
+#include "ovoid/fcl/print.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace ovoid {
+namespace fcl {
+namespace detail {
+
+using vector = ::fcl::Vector3<double>;
+
+template <class S> bool is_flat(const geometry<S> *g) {
+    const ::fcl::NODE_TYPE type = g->getNodeType();
+    return type == ::fcl::GEOM_HALFSPACE || type == ::fcl::GEOM_PLANE;
+}
+
+/// A point set's farthest point along a direction; i: of a mesh its triangle, else -1.
+struct extreme {
+    vector point;
+    double height;
+    int i;
+};
+
+template <class S> class supporter {
+  public:
+    explicit supporter(const vector &direction) : n_(direction) {}
+
+    /// Takes a point in, of triangle i.
+    void add(const ::fcl::Vector3<S> &point, int i = -1) { add_point(point.template cast<double>(), i); }
+    void add_point(const vector &point, int i = -1) {
+        const double height = n_.dot(point);
+        if (!(height > best_.height)) return;
+        best_ = {point, height, i};
+    }
+    /// The circle of a radius around the z axis at a height.
+    void add_circle(double radius, double z) {
+        const double across = std::hypot(n_[0], n_[1]);
+        add_point(across > 0 ? vector(radius * n_[0] / across, radius * n_[1] / across, z) : vector(0, 0, z));
+    }
+    /// A ball around a point.
+    void add_ball(double radius, const vector &center) { add_point(center + n_ * radius); }
+    const extreme &get() const { return best_; }
+
+  private:
+    vector n_;
+    extreme best_{vector::Zero(), -std::numeric_limits<double>::infinity(), -1};
+};
+
+template <class S> void add_mesh(supporter<S> &to, const mesh_view<S> &mesh) {
+    for (int i = 0; i < mesh.triangle_count; i++)
+        for (int k = 0; k < 3; k++) to.add(mesh.vertices[mesh.triangles[i][static_cast<std::size_t>(k)]], i);
+}
+
+/// The farthest point of a geometry along a unit direction of its frame; its height is -infinity if there is none.
+template <class S> extreme find_extreme(const geometry<S> *g, const vector &n) {
+    supporter<S> to(n);
+    switch (g->getNodeType()) {
+    case ::fcl::GEOM_BOX: {
+        const vector half = static_cast<const ::fcl::Box<S> *>(g)->side.template cast<double>() / 2;
+        to.add_point(vector(std::copysign(half[0], n[0]), std::copysign(half[1], n[1]), std::copysign(half[2], n[2])));
+        break;
+    }
+    case ::fcl::GEOM_SPHERE: to.add_ball(static_cast<const ::fcl::Sphere<S> *>(g)->radius, vector::Zero()); break;
+    case ::fcl::GEOM_ELLIPSOID: {
+        const vector radii = static_cast<const ::fcl::Ellipsoid<S> *>(g)->radii.template cast<double>();
+        const vector scaled = radii.cwiseProduct(n);
+        to.add_point(radii.cwiseProduct(scaled) / scaled.norm());
+        break;
+    }
+    case ::fcl::GEOM_CAPSULE: {
+        const auto *s = static_cast<const ::fcl::Capsule<S> *>(g);
+        to.add_ball(s->radius, vector(0, 0, std::copysign(static_cast<double>(s->lz) / 2, n[2])));
+        break;
+    }
+    case ::fcl::GEOM_CYLINDER: {
+        const auto *s = static_cast<const ::fcl::Cylinder<S> *>(g);
+        to.add_circle(s->radius, std::copysign(static_cast<double>(s->lz) / 2, n[2]));
+        break;
+    }
+    case ::fcl::GEOM_CONE: {
+        const auto *s = static_cast<const ::fcl::Cone<S> *>(g);
+        to.add_circle(s->radius, -static_cast<double>(s->lz) / 2);
+        to.add_point(vector(0, 0, static_cast<double>(s->lz) / 2));
+        break;
+    }
+    case ::fcl::GEOM_TRIANGLE: {
+        const auto *s = static_cast<const ::fcl::TriangleP<S> *>(g);
+        to.add(s->a), to.add(s->b), to.add(s->c);
+        break;
+    }
+    case ::fcl::GEOM_CONVEX:
+        for (const auto &v : static_cast<const ::fcl::Convex<S> *>(g)->getVertices()) to.add(v);
+        break;
+    default: {
+        mesh_view<S> mesh;
+        if (view_mesh(g, mesh)) add_mesh(to, mesh);
+    }
+    }
+    return to.get();
+}
+
+/// A halfspace { n x <= d } or a plane { n x = d }, n of length 1.
+struct plane {
+    vector n;
+    double d;
+    bool is_halfspace;
+};
+
+/// The plane in the world; its normal is not finite if it was no plane.
+template <class S> plane make_plane(const geometry<S> *g, const ::fcl::Transform3<S> &pose) {
+    const bool is_halfspace = g->getNodeType() == ::fcl::GEOM_HALFSPACE;
+    vector n;
+    double d;
+    if (is_halfspace) {
+        const auto *h = static_cast<const ::fcl::Halfspace<S> *>(g);
+        n = h->n.template cast<double>(), d = static_cast<double>(h->d);
+    } else {
+        const auto *h = static_cast<const ::fcl::Plane<S> *>(g);
+        n = h->n.template cast<double>(), d = static_cast<double>(h->d);
+    }
+    const double length = n.norm();
+    n = pose.linear().template cast<double>() * n / length;
+    return {n, d / length + n.dot(pose.translation().template cast<double>()), is_halfspace};
+}
+
+/// Where a geometry meets a plane: points and normal in the world, from the geometry to the plane.
+struct plane_answer {
+    double distance; ///< signed
+    vector point;    ///< of the geometry
+    vector on_plane;
+    vector normal;
+    int i; ///< of a mesh the triangle, else -1
+};
+
+/// The answer for the lowest and the highest point of a body, heights above the plane.
+inline plane_answer answer_plane(const plane &p, const extreme &low, const extreme &high) {
+    // Above a plane, or least deep from above: the lowest point decides.
+    const bool is_low = p.is_halfspace || low.height > 0 || (high.height >= 0 && -low.height <= high.height);
+    const extreme &by = is_low ? low : high;
+    return {is_low ? low.height : -high.height, by.point, by.point - p.n * by.height, is_low ? vector(-p.n) : p.n,
+            by.i};
+}
+
+/// Heights above the plane, points in the world.
+template <class S>
+extreme find_height(const geometry<S> *g, const ::fcl::Transform3<S> &pose, const plane &p, double sign) {
+    const auto turn = pose.linear().template cast<double>().eval();
+    extreme e = find_extreme(g, vector(turn.transpose() * p.n * sign));
+    e.point = turn * e.point + pose.translation().template cast<double>();
+    e.height = p.n.dot(e.point) - p.d;
+    return e;
+}
+
+template <class S> plane_answer ask_plane(const geometry<S> *g, const ::fcl::Transform3<S> &pose, const plane &p) {
+    const extreme low = find_height(g, pose, p, -1);
+    return answer_plane(p, low, p.is_halfspace ? low : find_height(g, pose, p, 1));
+}
+
+/// The answers of all triangles of a mesh that touch the plane, until `take` returns false.
+template <class S, class Take>
+void list_plane(const geometry<S> *g, const ::fcl::Transform3<S> &pose, const plane &p, Take take) {
+    mesh_view<S> mesh;
+    if (!view_mesh(g, mesh)) return;
+    for (int i = 0; i < mesh.triangle_count; i++) {
+        extreme low{vector::Zero(), std::numeric_limits<double>::infinity(), i}, high{vector::Zero(), -low.height, i};
+        for (int k = 0; k < 3; k++) {
+            const vector at =
+                (pose * mesh.vertices[mesh.triangles[i][static_cast<std::size_t>(k)]]).template cast<double>();
+            const double height = p.n.dot(at) - p.d;
+            if (height < low.height) low.point = at, low.height = height;
+            if (height > high.height) high.point = at, high.height = height;
+        }
+        const plane_answer answer = answer_plane(p, low, high);
+        if (answer.distance <= 0 && !take(answer)) return;
+    }
+}
+
+} // namespace detail
+} // namespace fcl
+} // namespace ovoid
+
+#endif
