@@ -92,7 +92,7 @@ template <class S> class plane_contacts {
         const int i = is_a_ ? -1 : at.i, j = is_a_ ? at.i : -1;
         const auto vec = [](const vector &v) { return ovoid_vec3{v[0], v[1], v[2]}; };
         if (to_.is_detailed())
-            to_.add(i, j, {vec(at.point), vec(at.on_plane), at.distance, 0},
+            to_.add(i, j, {vec(at.position), vec(at.position), at.distance, 0},
                     vec(is_a_ ? vector(-at.normal) : at.normal));
         else
             to_.add(i, j);

@@ -6,6 +6,9 @@ import sys
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
+
+Array = npt.NDArray[np.float64]
 
 
 class OBJECT_TYPE:

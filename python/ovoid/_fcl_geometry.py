@@ -8,16 +8,16 @@ from typing import Any
 import numpy as np
 
 from . import Pose, Shape, Solid
-from ._fcl_data import NODE_TYPE, OBJECT_TYPE
+from ._fcl_data import NODE_TYPE, OBJECT_TYPE, Array
 
 # How far a cylinder's prism and a cone's pyramid may be from it, in radii; the rows of an ellipsoid's vertices.
 _ROUND_TOLERANCE = 1e-4
 _ELLIPSOID_ROWS = 48
 
 
-def to_vector(numbers: Any) -> np.ndarray:
+def to_vector(numbers: Any) -> Array:
     """Three numbers, with the words of python-fcl where they are not."""
-    vector: np.ndarray = np.array(numbers, dtype=float).squeeze()
+    vector: Array = np.array(numbers, dtype=float).squeeze()
     if vector.shape != (3,):
         raise ValueError("Translation must be (3,).")
     return vector
@@ -27,8 +27,8 @@ class Transform:
     """A rotation (3x3, or a quaternion w x y z) and a translation, either alone, or another Transform."""
 
     def __init__(self, *args: Any) -> None:
-        self._rotation: np.ndarray = np.eye(3)
-        self._translation: np.ndarray = np.zeros(3)
+        self._rotation: Array = np.eye(3)
+        self._translation: Array = np.zeros(3)
         if len(args) > 2:
             raise ValueError("Too many arguments to Transform().")
         if len(args) == 1 and isinstance(args[0], Transform):
@@ -46,15 +46,15 @@ class Transform:
             else:
                 raise ValueError("Invalid input to Transform().")
 
-    def getRotation(self) -> np.ndarray:
+    def getRotation(self) -> Array:
         """The rotation, 3x3."""
         return self._rotation.copy()
 
-    def getTranslation(self) -> np.ndarray:
+    def getTranslation(self) -> Array:
         """The translation."""
         return self._translation.copy()
 
-    def getQuatRotation(self) -> np.ndarray:
+    def getQuatRotation(self) -> Array:
         """The rotation as w, x, y, z."""
         return np.array(self._pose().wxyz)
 
@@ -96,7 +96,7 @@ class CollisionGeometry:
         """Does nothing: boxes are computed where they are used."""
 
     @property
-    def aabb_center(self) -> np.ndarray:
+    def aabb_center(self) -> Array:
         """The centre of the box around the geometry."""
         low, high = self._box()
         return (low + high) / 2
@@ -109,13 +109,13 @@ class CollisionGeometry:
             self._body = self._make()
         return self._body
 
-    def _box(self) -> tuple[np.ndarray, np.ndarray]:
+    def _box(self) -> tuple[Array, Array]:
         # The box of the vertices, and what the body has around them.
         body = self._get_body()
         around = body.radius + body.allowance[0] if isinstance(body, Shape) else 0
         return np.array(body.bounds[0], dtype=float) - around, np.array(body.bounds[1], dtype=float) + around
 
-    def _support(self, n: np.ndarray) -> np.ndarray:
+    def _support(self, n: Array) -> Array:
         """The farthest point along a unit direction."""
         points = np.asarray(self._get_body().vertices)
         return np.array(points[np.argmax(points @ n)])
@@ -146,7 +146,7 @@ class Sphere(CollisionGeometry):
     def _make(self) -> Shape:
         return Shape.sphere(self.radius)
 
-    def _support(self, n: np.ndarray) -> np.ndarray:
+    def _support(self, n: Array) -> Array:
         return n * self.radius
 
 
@@ -171,7 +171,7 @@ class Ellipsoid(CollisionGeometry):
         outside = (1 - math.cos(step / 2 * math.sqrt(2) * (1 + 1e-6))) * float(max(self.radii))
         return Shape.from_points(np.concatenate(points) * self.radii, allowance=(outside, 0))
 
-    def _support(self, n: np.ndarray) -> np.ndarray:
+    def _support(self, n: Array) -> Array:
         scaled = self.radii * n
         return np.array(self.radii * scaled / np.linalg.norm(scaled))
 
@@ -182,7 +182,7 @@ class _Round(CollisionGeometry):
         self.radius = float(radius)
         self.lz = float(lz)
 
-    def _on_circle(self, n: np.ndarray, z: float) -> np.ndarray:
+    def _on_circle(self, n: Array, z: float) -> Array:
         across = math.hypot(n[0], n[1])
         return np.array([self.radius * n[0] / across, self.radius * n[1] / across, z] if across > 0 else [0, 0, z])
 
@@ -195,7 +195,7 @@ class Capsule(_Round):
     def _make(self) -> Shape:
         return Shape.capsule(self.radius, self.lz / 2)
 
-    def _support(self, n: np.ndarray) -> np.ndarray:
+    def _support(self, n: Array) -> Array:
         return n * self.radius + np.array([0, 0, math.copysign(self.lz / 2, n[2])])
 
 
@@ -207,7 +207,7 @@ class Cone(_Round):
     def _make(self) -> Shape:
         return Shape.cone(self.radius, self.lz / 2, self.radius * _ROUND_TOLERANCE)
 
-    def _support(self, n: np.ndarray) -> np.ndarray:
+    def _support(self, n: Array) -> Array:
         base, apex = self._on_circle(n, -self.lz / 2), np.array([0, 0, self.lz / 2])
         return base if base @ n > apex @ n else apex
 
@@ -220,7 +220,7 @@ class Cylinder(_Round):
     def _make(self) -> Shape:
         return Shape.cylinder(self.radius, self.lz / 2, self.radius * _ROUND_TOLERANCE)
 
-    def _support(self, n: np.ndarray) -> np.ndarray:
+    def _support(self, n: Array) -> Array:
         return self._on_circle(n, math.copysign(self.lz / 2, n[2]))
 
 
@@ -257,7 +257,7 @@ class _Flat(CollisionGeometry):
         self.n = np.array(n, dtype=float)
         self.d = float(d)
 
-    def _box(self) -> tuple[np.ndarray, np.ndarray]:
+    def _box(self) -> tuple[Array, Array]:
         return np.full(3, -np.inf), np.full(3, np.inf)
 
 
@@ -281,8 +281,8 @@ class BVHModel(CollisionGeometry):
 
     def __init__(self) -> None:
         super().__init__()
-        self._points: list[np.ndarray] = []
-        self._triangles: list[np.ndarray] = []
+        self._points: list[Array] = []
+        self._triangles: list[Array] = []
         self._is_building = False
 
     def num_tris_(self) -> int:
@@ -359,7 +359,7 @@ class CollisionObject:
         """One of NODE_TYPE."""
         return self._geometry.getNodeType()
 
-    def getTranslation(self) -> np.ndarray:
+    def getTranslation(self) -> Array:
         """The translation."""
         return self._transform.getTranslation()
 
@@ -367,7 +367,7 @@ class CollisionObject:
         """Sets the translation."""
         self._transform.setTranslation(vec)
 
-    def getRotation(self) -> np.ndarray:
+    def getRotation(self) -> Array:
         """The rotation, 3x3."""
         return self._transform.getRotation()
 
@@ -375,7 +375,7 @@ class CollisionObject:
         """Sets the rotation, 3x3."""
         self._transform.setRotation(mat)
 
-    def getQuatRotation(self) -> np.ndarray:
+    def getQuatRotation(self) -> Array:
         """The rotation as w, x, y, z."""
         return self._transform.getQuatRotation()
 
@@ -403,7 +403,7 @@ class CollisionObject:
         """No object is."""
         return False
 
-    def _aabb(self) -> tuple[np.ndarray, np.ndarray]:
+    def _aabb(self) -> tuple[Array, Array]:
         low, high = self._geometry._box()
         if not np.all(np.isfinite(low)):
             return low, high

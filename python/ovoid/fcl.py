@@ -20,6 +20,7 @@ import ovoid
 from ._fcl_data import (
     NODE_TYPE,
     OBJECT_TYPE,
+    Array,
     CCDMotionType,
     CCDSolverType,
     CollisionData,
@@ -66,9 +67,9 @@ class _Touch(NamedTuple):
     """Where two bodies are nearest, or overlap: normal from the first to the second."""
 
     distance: float
-    point_a: np.ndarray
-    point_b: np.ndarray
-    normal: np.ndarray
+    point_a: Array
+    point_b: Array
+    normal: Array
     part_a: int = -1
     part_b: int = -1
 
@@ -154,7 +155,7 @@ class DynamicAABBTreeCollisionManager:
 
     def __init__(self) -> None:
         self._objects: list[CollisionObject] = []
-        self._boxes: dict[int, tuple[np.ndarray, np.ndarray]] = {}
+        self._boxes: dict[int, tuple[Array, Array]] = {}
 
     def registerObjects(self, other_objs: Iterable[CollisionObject]) -> None:
         """Adds objects."""
@@ -216,7 +217,7 @@ class DynamicAABBTreeCollisionManager:
         """The number of objects."""
         return len(self._objects)
 
-    def _get_rows(self) -> list[tuple[CollisionObject, tuple[np.ndarray, np.ndarray]]]:
+    def _get_rows(self) -> list[tuple[CollisionObject, tuple[Array, Array]]]:
         return [(obj, self._boxes[id(obj)]) for obj in self._objects]
 
     def _find_pairs(self, args: tuple[Any, ...]) -> tuple[Iterator[tuple[float, CollisionObject, CollisionObject]], Any, Callable[..., Any]]:
@@ -294,8 +295,8 @@ def _ask_parts(o1: CollisionObject, o2: CollisionObject, pairs: list[tuple[int, 
     hits[0] = True
     for k in np.flatnonzero(hits).tolist():
         i, j = pairs[k]
-        points = (np.array(witnesses[name][k].tolist()) for name in ("point_a", "point_b", "normal"))
-        yield _Touch(float(middles[k]), *points, i if _is_mesh(o1) else -1, j if _is_mesh(o2) else -1)
+        point_a, point_b, normal = (np.array(witnesses[name][k].tolist()) for name in ("point_a", "point_b", "normal"))
+        yield _Touch(float(middles[k]), point_a, point_b, normal, i if _is_mesh(o1) else -1, j if _is_mesh(o2) else -1)
 
 
 def _make_touch(answer: Any, part_a: int, part_b: int) -> _Touch:
@@ -328,7 +329,7 @@ def _get_part(o: CollisionObject, i: int) -> Any:
     return kept[1][i]
 
 
-def _make_boxes(o: CollisionObject) -> tuple[np.ndarray, np.ndarray]:
+def _make_boxes(o: CollisionObject) -> tuple[Array, Array]:
     """The boxes of the triangles of a mesh, or of the object, in the world."""
     if not _is_mesh(o):
         low, high = o._aabb()

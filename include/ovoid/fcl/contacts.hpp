@@ -145,26 +145,26 @@ template <class S> void add_deepest(contact_list<S> &to, int i, int j, const ovo
     to.add(i, j, {depth.point_a, depth.point_b, middle(depth), 0}, depth.normal);
 }
 
-/// The contacts of two shapes: one, or with room for more the points of their manifold, deepest first. The first one
-/// has the depth of the shapes. Where no corner of the manifold is that deep, the deepest point comes before its
-/// corners.
+/// Does a polyhedron stand for a round body? Its facets are no faces of the body.
+inline bool is_round(const ovoid_shape *shape) { return ovoid_shape_get_allowance(shape).outside > 0; }
+
+/// The contacts of two shapes that touch: one, as FCL has of round bodies, or of others with room for more the points
+/// of their manifold, deepest first. The first one has the depth of the shapes. Where no corner of the manifold is that
+/// deep, the deepest point comes before its corners.
 template <class S> void add_contacts(contact_list<S> &to, int i, int j, const ovoid_pair &pair) {
-    const ovoid_answer depth = ovoid_depth(&pair, nullptr, nullptr, nullptr);
-    if (!is_hit(depth)) return;
-    if (to.room() == 1) return add_deepest(to, i, j, depth);
+    if (to.room() == 1 || is_round(pair.shape_a) || is_round(pair.shape_b))
+        return add_deepest(to, i, j, ovoid_depth(&pair, nullptr, nullptr, nullptr));
     const ovoid_manifold manifold = ovoid_manifold_find(&pair, nullptr, nullptr);
     ovoid_manifold_points points = ovoid_manifold_compute_points(&pair, &manifold);
     std::uint32_t count = 0;
-    for (; count < points.count && count < 4; count++) {
-        std::uint32_t at = count;
-        for (; at > 0 && points.points[at].separation < points.points[at - 1].separation; at--)
+    for (; count < points.count && count < 4; count++)
+        for (std::uint32_t at = count; at > 0 && points.points[at].separation < points.points[at - 1].separation; at--)
             std::swap(points.points[at], points.points[at - 1]);
-    }
-    // The manifold is of the polyhedra, the depth of the bodies with their allowances, which are in its bracket's
-    // width.
-    double off = count == 0 ? INFINITY : points.points[0].separation - middle(depth);
-    if (!(off <= depth.upper - depth.lower)) {
-        add_deepest(to, i, j, depth);
+    // The points are of the polyhedra, the bracket of the bodies with their allowances, which are in its width.
+    const double depth = (manifold.lower + manifold.upper) / 2;
+    double off = count == 0 ? INFINITY : points.points[0].separation - depth;
+    if (!(off <= manifold.upper - manifold.lower)) {
+        add_deepest(to, i, j, ovoid_depth(&pair, nullptr, nullptr, nullptr));
         off = 0;
     }
     for (std::uint32_t n = 0; n < count && to.room() > 0; n++) {
@@ -176,9 +176,11 @@ template <class S> void add_contacts(contact_list<S> &to, int i, int j, const ov
 /// The contacts of two shapes.
 template <class S> void collide_shapes(contact_list<S> &to, const body_couple &of) {
     const ovoid_pair pair = of.shapes();
-    if (to.is_detailed()) return add_contacts(to, -1, -1, pair);
-    const ovoid_answer answer = ovoid_collide(&pair, nullptr, nullptr);
-    if (is_hit(answer)) to.add(-1, -1);
+    if (!is_hit(ovoid_collide(&pair, nullptr, nullptr))) return;
+    if (to.is_detailed())
+        add_contacts(to, -1, -1, pair);
+    else
+        to.add(-1, -1);
 }
 
 /// Adds the contact of two parts if they touch.

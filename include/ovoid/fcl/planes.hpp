@@ -23,6 +23,10 @@ template <class S> bool is_flat(const geometry<S> *g) {
     return type == ::fcl::GEOM_HALFSPACE || type == ::fcl::GEOM_PLANE;
 }
 
+/// The sign of a direction's component; 0 where the component is no more than a rounding, so that of a face or an edge
+/// that is parallel to the plane the middle counts, as in FCL.
+inline double side_of(double component) { return std::fabs(component) <= 1e-15 ? 0 : std::copysign(1, component); }
+
 /// A point set's farthest point along a direction; i: of a mesh its triangle, else -1.
 struct extreme {
     vector point;
@@ -44,7 +48,7 @@ template <class S> class supporter {
     /// The circle of a radius around the z axis at a height.
     void add_circle(double radius, double z) {
         const double across = std::hypot(n_[0], n_[1]);
-        add_point(across > 0 ? vector(radius * n_[0] / across, radius * n_[1] / across, z) : vector(0, 0, z));
+        add_point(across > 1e-15 ? vector(radius * n_[0] / across, radius * n_[1] / across, z) : vector(0, 0, z));
     }
     /// A ball around a point.
     void add_ball(double radius, const vector &center) { add_point(center + n_ * radius); }
@@ -66,7 +70,7 @@ template <class S> extreme find_extreme(const geometry<S> *g, const vector &n) {
     switch (g->getNodeType()) {
     case ::fcl::GEOM_BOX: {
         const vector half = static_cast<const ::fcl::Box<S> *>(g)->side.template cast<double>() / 2;
-        to.add_point(vector(std::copysign(half[0], n[0]), std::copysign(half[1], n[1]), std::copysign(half[2], n[2])));
+        to.add_point(vector(half[0] * side_of(n[0]), half[1] * side_of(n[1]), half[2] * side_of(n[2])));
         break;
     }
     case ::fcl::GEOM_SPHERE: to.add_ball(static_cast<const ::fcl::Sphere<S> *>(g)->radius, vector::Zero()); break;
@@ -78,12 +82,12 @@ template <class S> extreme find_extreme(const geometry<S> *g, const vector &n) {
     }
     case ::fcl::GEOM_CAPSULE: {
         const auto *s = static_cast<const ::fcl::Capsule<S> *>(g);
-        to.add_ball(s->radius, vector(0, 0, std::copysign(static_cast<double>(s->lz) / 2, n[2])));
+        to.add_ball(s->radius, vector(0, 0, static_cast<double>(s->lz) / 2 * side_of(n[2])));
         break;
     }
     case ::fcl::GEOM_CYLINDER: {
         const auto *s = static_cast<const ::fcl::Cylinder<S> *>(g);
-        to.add_circle(s->radius, std::copysign(static_cast<double>(s->lz) / 2, n[2]));
+        to.add_circle(s->radius, static_cast<double>(s->lz) / 2 * side_of(n[2]));
         break;
     }
     case ::fcl::GEOM_CONE: {
@@ -138,7 +142,8 @@ struct plane_answer {
     vector point;    ///< of the geometry
     vector on_plane;
     vector normal;
-    int i; ///< of a mesh the triangle, else -1
+    vector position; ///< of a contact, as in FCL: on a plane; half way between a halfspace's plane and the point
+    int i;           ///< of a mesh the triangle, else -1
 };
 
 /// The answer for the lowest and the highest point of a body, heights above the plane.
@@ -146,7 +151,12 @@ inline plane_answer answer_plane(const plane &p, const extreme &low, const extre
     // Above a plane, or least deep from above: the lowest point decides.
     const bool is_low = p.is_halfspace || low.height > 0 || (high.height >= 0 && -low.height <= high.height);
     const extreme &by = is_low ? low : high;
-    return {is_low ? low.height : -high.height, by.point, by.point - p.n * by.height, is_low ? vector(-p.n) : p.n,
+    const vector on_plane = by.point - p.n * by.height;
+    return {is_low ? low.height : -high.height,
+            by.point,
+            on_plane,
+            is_low ? vector(-p.n) : p.n,
+            p.is_halfspace ? vector((by.point + on_plane) / 2) : on_plane,
             by.i};
 }
 
