@@ -45,7 +45,9 @@ def name_scope(text):
 
 def find_cpp():
     """Of each C function the C++ names that call it."""
-    text = read((ROOT / "include" / "ovoid").rglob("*.hpp"))
+    # The headers that answer FCL's calls have FCL's names.
+    headers = (ROOT / "include" / "ovoid").rglob("*.hpp")
+    text = read(path for path in headers if "fcl" not in (path.stem, path.parent.name))
     text = re.sub(r'"(\\.|[^"\n])*"|^\s*#.*$|=\s*\{\}', "", text, flags=re.M)
     scopes, begin, found = [], 0, {}
     for token in re.finditer(r"[{};]|\bpublic:|\bprivate:|\bovoid_\w+", text):

@@ -10,12 +10,12 @@ packages_of() {
     for job in "$@"; do
         case $job in
         build) echo build-essential cmake pkgconf libjansson-dev libassimp-dev libexpat1-dev libyaml-dev libgmp-dev ;;
-        check) packages_of build deb python page site && echo libqhull-dev libcgal-demo libeigen3-dev libglm-dev libompl-dev libfcl-dev libbullet-dev libmujoco-dev clang libclang-rt-14-dev clang-format clang-tidy shellcheck mandoc doxygen locales musl-tools gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user parallel abigail-tools ;;
+        check) packages_of build deb python page site && echo libqhull-dev libcgal-demo libeigen3-dev libglm-dev libompl-dev libbullet-dev libmujoco-dev clang libclang-rt-14-dev clang-format clang-tidy shellcheck mandoc doxygen locales musl-tools gcc-aarch64-linux-gnu libc6-dev-arm64-cross qemu-user parallel abigail-tools ;;
         coverage) packages_of check && echo gcovr ;;
-        deb) packages_of build && echo dpkg-dev lintian libompl-dev libfcl-dev libbullet-dev libmujoco-dev ;;
+        deb) packages_of build && echo dpkg-dev lintian libompl-dev libbullet-dev libmujoco-dev ;;
         deb-root) packages_of deb && echo debootstrap ;;
         demo) packages_of build && echo libcgal-demo ;;
-        engines) packages_of build && echo libbullet-dev libmujoco-dev libdart-dev libeigen3-dev ;;
+        engines) packages_of build && echo libbullet-dev libmujoco-dev libdart-dev libfcl-dev libeigen3-dev ;;
         bench) packages_of build && echo libccd-dev libfcl-dev libbullet-dev libode-dev libqhull-dev ;;
         fuzz) packages_of build && echo clang libclang-rt-14-dev assimp-testmodels ;;
         ports) packages_of check && echo gcc-i686-linux-gnu libc6-dev-i386-cross gcc-mingw-w64-x86-64-win32 wine64 ;;

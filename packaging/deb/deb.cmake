@@ -58,11 +58,11 @@ ${about}This package has the header that lets the physics engine ${name} take it
 contacts from libovoid.")
   endif()
 endforeach()
-ovoid_deb(fcl_dev libovoid-fcl-dev libdevel "libovoid-dev (= ${full}), libfcl-dev"
-  "FCL's calls answered by ovoid (development)
+if(TARGET ovoid_fcl)
+  ovoid_deb(fcl_dev libovoid-fcl-dev libdevel "libovoid-dev (= ${full}), libfcl-dev"
+    "FCL's calls answered by ovoid (development)
 ${about}This package has the header that answers the calls of FCL, the Flexible
 Collision Library, over FCL's own types.")
-if(TARGET ovoid_fcl)
   ovoid_deb(fcl ovoid-fcl libs "" "FCL's calls answered by ovoid, in programs as they are
 ${about}This package has the library that a program of FCL, the Flexible Collision
 Library, loads before it (LD_PRELOAD): its calls are answered by ovoid.")

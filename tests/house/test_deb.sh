@@ -25,12 +25,13 @@ rm -rf "$root" "$folder"/out_*
 mkdir -p "$folder"
 check "build, with lintian" "$OVOID_SOURCE_DIR/scripts/deb.sh" "$folder/build"
 so=$(define MAJOR).$(define MINOR)
-packages="libovoid$so libovoid-dev libovoid-io$so libovoid-io-dev libovoid-robot$so libovoid-robot-dev libovoid-ompl-dev libovoid-fcl-dev ovoid-fcl ovoid ovoid-plan"
+packages="libovoid$so libovoid-dev libovoid-io$so libovoid-io-dev libovoid-robot$so libovoid-robot-dev libovoid-ompl-dev ovoid ovoid-plan"
 # The headers for engines, where these are.
 engines=
 for engine in bullet mujoco dart; do
     dpkg-query -W "lib$engine-dev" >/dev/null 2>&1 && engines="$engines libovoid-$engine-dev"
 done
+dpkg-query -W libfcl-dev >/dev/null 2>&1 && engines="$engines libovoid-fcl-dev ovoid-fcl"
 packages="$engines $packages"
 for package in $packages; do
     file=$(find "$folder/build" -maxdepth 1 -name "${package}_$version-1_*.deb")
