@@ -21,6 +21,7 @@ cmake --build build/check -j"${JOBS:-$(nproc)}" --target ovoid_shared ovoid_io_s
 dump() {
     abidw --headers-dir include/ovoid --exported-interfaces-only --drop-private-types --no-corpus-path --no-comp-dir-path \
         --no-show-locs --no-architecture --no-elf-needed --out-file "$2" "build/check/src/$1.so"
+    sed -i "s#path='$PWD/#path='#" "$2"
 }
 
 # fits OLD NEW: exit 0 where a program that was linked with OLD works with NEW: nothing is gone and no type is another. abidiff says so

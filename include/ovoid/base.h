@@ -22,7 +22,7 @@ extern "C" {
 /** The version of these headers; ovoid_get_version returns that of the library. */
 #define OVOID_VERSION_MAJOR 0
 /** Grows with every release that adds or, before 1.0, changes something. */
-#define OVOID_VERSION_MINOR 2
+#define OVOID_VERSION_MINOR 3
 /** Grows with every release that only corrects. */
 #define OVOID_VERSION_PATCH 0
 

@@ -2,7 +2,7 @@
 # Included at the end of the top project. What dpkg wants beyond CPack's own (dependencies, shlibs, symbols, changelog,
 # compressed pages) is added by finish.cmake, which CPack runs after its installation and before it packs.
 #
-# The names: Debian Policy 8.1 names a package of a shared library after its soname: libovoid.so.0.2 is in libovoid0.2. Two minor
+# The names: Debian Policy 8.1 names a package of a shared library after its soname: libovoid.so.0.3 is in libovoid0.3. Two minor
 # versions are then installed side by side. libovoid_io has packages of its own, since it
 # needs jansson and Assimp, and the core must not bring these along; libovoid_robot too. The tool holds both libraries statically: its
 # answers are those of the build that was tested, whatever else is installed.
