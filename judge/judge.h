@@ -68,8 +68,7 @@ typedef struct judge_contact {
 /// facets overlap, seen along the normal, to the snap, and its area is between inner and outer. The facets are clipped
 /// in exact arithmetic, by themselves: corners of one inside of the other, and crossings of edges. `upper` is not
 /// looked at. Else OVOID_ERROR_PROOF with a sentence in *error (may be NULL).
-ovoid_code judge_verify_contact(judge *context, const ovoid_pair *pair, const judge_contact *contact,
-                                ovoid_error *error);
+ovoid_code judge_verify_contact(judge *j, const ovoid_pair *pair, const judge_contact *k, ovoid_error *error);
 
 /// The truth about a pair of few vertices, by brute force over all features, independent of any proof.
 typedef struct judge_truth {

@@ -19,6 +19,6 @@ int contacts_run(const contacts_plan *plan);
 /// Ovoid as a contestant: its tolerance is that of the work.
 extern const contact_peer contacts_ours;
 /// Of the last run in warm frames: how many contacts were kept without a search.
-double contacts_get_kept(const void *self);
+double contacts_get_kept(const void *state);
 
 #endif

@@ -34,7 +34,8 @@ static uint32_t run(void *state, uint32_t frame, int warm) {
         const placed *p = w->pairs + (size_t)frame * w->pair_count + i;
         const ovoid_pair pair = {w->bodies[p->a].shape, w->bodies[p->b].shape, p->pose_a, p->pose_b};
         ovoid_manifold contact = ovoid_manifold_find(&pair, &s->options, warm ? s->manifolds + i : NULL);
-        s->kept += warm && !memcmp(&contact.memory, &s->manifolds[i].memory, sizeof contact.memory);
+        s->kept += warm &&
+                   !memcmp((const char *)&contact.memory, (const char *)&s->manifolds[i].memory, sizeof contact.memory);
         s->manifolds[i] = contact;
         count += s->points.count;
     }

@@ -117,7 +117,7 @@ static turned_box get_triangle_box(const ovoid_solid *s, uint32_t place) {
 }
 
 turned_box body_tree_get_turned_box(const body_tree *tree, tree_ref ref) {
-    if (!tree->solid) return (turned_box){body_tree_get_box(tree, ref), axes_upright};
+    if (tree->shape || tree->compound) return (turned_box){body_tree_get_box(tree, ref), axes_upright};
     if (ref_is_leaf(ref)) return get_triangle_box(tree->solid, ref_get_index(ref));
     const node_frame *f = &tree->solid->frames[ref];
     return turn_box(solid_scale_box(tree->solid, f->low, f->high), &f->axes);
@@ -138,7 +138,7 @@ static uint32_t find_parent(const ovoid_solid *s, tree_ref ref, uint32_t *lane) 
 }
 
 turned_box body_tree_get_child_box(const body_tree *tree, tree_ref ref) {
-    if (!tree->solid || ref == body_tree_get_root(tree)) return body_tree_get_turned_box(tree, ref);
+    if (tree->shape || tree->compound || ref == body_tree_get_root(tree)) return body_tree_get_turned_box(tree, ref);
     uint32_t lane, node = find_parent(tree->solid, ref, &lane);
     const box8 *boxes = &tree->solid->turned[node];
     const float low[3] = {boxes->low[0][lane], boxes->low[1][lane], boxes->low[2][lane]};

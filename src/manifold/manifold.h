@@ -133,7 +133,7 @@ static inline vec3 frame_place_b(const manifold_frame *m, uint32_t vertex) {
 }
 
 /// The frame of a unit normal, with the gap along it.
-void manifold_frame_make(const pair_frame *pair, vec3 n, manifold_frame *frame);
+void manifold_frame_make(const pair_frame *pair, vec3 n, manifold_frame *m);
 
 /// The nearest points of two features, vertices or edges, in the frame of A; a facet counts as its first corner.
 typedef struct nearest_points {
@@ -161,8 +161,8 @@ uint32_t facet_choose(const ovoid_shape *shape, const facet_choice *choice);
 // ---- patch.c, clip.c, reduce.c: the polygon ----
 
 /// The patch of a feature of A, or of B.
-void patch_make_a(const manifold_frame *frame, uint32_t feature, manifold_patch *patch);
-void patch_make_b(const manifold_frame *frame, uint32_t feature, manifold_patch *patch);
+void patch_make_a(const manifold_frame *m, uint32_t feature, manifold_patch *p);
+void patch_make_b(const manifold_frame *m, uint32_t feature, manifold_patch *p);
 
 /// The distance of a point from a patch; 0 inside.
 double patch_measure_distance(const manifold_patch *patch, double x, double y);
@@ -225,15 +225,14 @@ manifold_corner manifold_make_nearest(const manifold_state *state, const manifol
 
 /// The frame and the patches, without the polygon, of a contact. 0 if it is not one of this pair. Bodies and contact
 /// are in the order of order.c.
-int manifold_open(const pair_frame *frame, const ovoid_manifold *manifold, manifold_state *state);
+int manifold_open(const pair_frame *f, const ovoid_manifold *c, manifold_state *s);
 
 /// The corner that an id names; 0 if there is none.
-int manifold_find_corner(const manifold_state *state, const ovoid_manifold *manifold, uint32_t id,
-                         manifold_corner *corner);
+int manifold_find_corner(const manifold_state *s, const ovoid_manifold *c, uint32_t id, manifold_corner *corner);
 
 /// The points of the corners that were chosen, in the caller's order of the bodies.
-void manifold_write_points(const manifold_state *state, const corner_choice *chosen, int is_exchanged,
-                           ovoid_manifold_points *points);
+void manifold_write_points(const manifold_state *s, const corner_choice *chosen, int is_exchanged,
+                           ovoid_manifold_points *out);
 
 /// The points of a corner in the world.
 ovoid_manifold_point manifold_place_corner(const manifold_state *state, const manifold_corner *corner);
@@ -244,7 +243,7 @@ typedef struct ordered_pair {
     ovoid_manifold manifold;
     int is_exchanged;
 } ordered_pair;
-ordered_pair ordered_pair_make(const ovoid_pair *pair, const ovoid_manifold *manifold);
+ordered_pair ordered_pair_make(const ovoid_pair *pair, const ovoid_manifold *c);
 void point_exchange(ovoid_manifold_point *point);
 /// What the rounding of world coordinates moves a point by.
 static inline double point_compute_rounding(const ovoid_manifold_point *p) {
@@ -262,21 +261,20 @@ typedef struct manifold_terms {
     ovoid_manifold_points *points; ///< room for the points, or NULL
 } manifold_terms;
 /// 0 if the options are refused.
-int manifold_terms_make(const ovoid_manifold_options *options, const pair_frame *frame, manifold_terms *terms);
+int manifold_terms_make(const ovoid_manifold_options *given, const pair_frame *f, manifold_terms *t);
 
 /// The polygon of the state's patches; the corner where they are nearest if they do not overlap.
 void manifold_clip(const manifold_terms *terms, const manifold_axis *axis, const ovoid_manifold *earlier,
                    manifold_state *state);
 
 /// Bounds of the signed distance by a state whose polygon is there.
-double manifold_compute_lower(const manifold_frame *frame);
+double manifold_compute_lower(const manifold_frame *m);
 double manifold_compute_points_upper(const manifold_state *state);
 
 /// ovoid_manifold_find for callers inside a public function.
 void manifold_find_internal(const ovoid_pair *pair, const ovoid_manifold_options *options,
                             const ovoid_manifold *earlier, ovoid_manifold *out);
 /// ovoid_manifold_compute_points, too.
-void manifold_compute_points_internal(const ovoid_pair *pair, const ovoid_manifold *manifold,
-                                      ovoid_manifold_points *out);
+void manifold_compute_points_internal(const ovoid_pair *pair, const ovoid_manifold *c, ovoid_manifold_points *out);
 
 #endif

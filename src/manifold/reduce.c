@@ -82,13 +82,13 @@ static void begin_with_lowest(uint32_t at[4]) {
 corner_choice corners_choose(const manifold_polygon *p, const ovoid_manifold *earlier) {
     corner_choice choice = {p->count, {0, 1, 2, 3}, 1};
     if (p->count <= 4) return choice;
-    uint32_t old[4];
+    uint32_t old[4] = {0};
     double all = 2 * p->area, kept = find_earlier(p, earlier, old) ? get_area_of_four(p->corners, old) : -1;
     choice.count = 4;
     double most = kept;
     int is_kept = kept >= 0 && earlier->corners > 4 && kept >= (earlier->share - 0.02) * all;
     if (!is_kept) {
-        uint32_t best[4];
+        uint32_t best[4] = {0};
         most = p->count <= EXHAUSTIVE ? choose_exhaustively(p, best) : choose_by_ascent(p, best);
         is_kept = kept >= 0.98 * most;
         for (int c = 0; c < 4 && !is_kept; c++) choice.index[c] = best[c];

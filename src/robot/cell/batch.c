@@ -66,7 +66,7 @@ ovoid_code checkers_run(ovoid_robot_checker *const *checkers, size_t count, cons
 }
 
 static void run_states(void *context, ovoid_robot_checker *checker, size_t first, size_t end) {
-    collide_block(checker, context, first, end);
+    collide_block(checker, *(const ovoid_robot_batch **)context, first, end);
 }
 
 static ovoid_code run_batch(ovoid_robot_checker *const *checkers, size_t count, const ovoid_robot_batch *batch,
@@ -74,7 +74,7 @@ static ovoid_code run_batch(ovoid_robot_checker *const *checkers, size_t count, 
     ovoid_code code = checkers_validate(checkers, count, error);
     if (code == OVOID_OK && batch->options) code = query_options_validate(batch->options, error);
     if (code != OVOID_OK) return code;
-    return checkers_run(checkers, count, &(checkers_job){run_states, (void *)(uintptr_t)batch, batch->count}, error);
+    return checkers_run(checkers, count, &(checkers_job){run_states, &batch, batch->count}, error);
 }
 
 ovoid_code ovoid_robot_collide_batch(ovoid_robot_checker *const *checkers, size_t checker_count,

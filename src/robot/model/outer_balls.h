@@ -17,11 +17,11 @@ typedef struct outer_ball {
 /// What is known to hold a shape, or the solid that it is the hull of, in its user's frame; radius and allowance
 /// counted.
 typedef struct outer_balls {
+    balls8 lanes; ///< the balls side by side
+    body_slabs slabs;
     outer_ball one;                ///< around all of it
     outer_ball balls[OUTER_BALLS]; ///< each point of the body is in one of them
     uint32_t count;                ///< of the balls, at least 1
-    balls8 lanes;                  ///< the balls side by side
-    body_slabs slabs;
 } outer_balls;
 
 /// Cost: seven cuts of the hull's triangles, and a smallest ball for each piece. 0: no memory.

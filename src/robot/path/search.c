@@ -564,7 +564,7 @@ void search_run_edge(path_search *s, size_t index) {
 }
 
 static void run_block(void *context, ovoid_robot_checker *checker, size_t first, size_t end) {
-    const ovoid_robot_edge_batch *batch = context;
+    const ovoid_robot_edge_batch *batch = *(const ovoid_robot_edge_batch **)context;
     const ovoid_robot_path_options *options = batch->options ? batch->options : &no_options;
     size_t variables = checker->cell->robot->variable_count;
     path_search s = make_search(checker, options);
@@ -591,7 +591,7 @@ static ovoid_code find_hit_batch(ovoid_robot_checker *const *checkers, size_t co
     if (code == OVOID_OK) code = checkers_validate(checkers, count, error);
     for (size_t i = 0; code == OVOID_OK && i < count; i++) code = prepare(checkers[i], options, error);
     if (code != OVOID_OK) return code;
-    return checkers_run(checkers, count, &(checkers_job){run_block, (void *)(uintptr_t)batch, batch->count}, error);
+    return checkers_run(checkers, count, &(checkers_job){run_block, &batch, batch->count}, error);
 }
 
 ovoid_code ovoid_robot_path_find_hit_batch(ovoid_robot_checker *const *checkers, size_t checker_count,
