@@ -87,7 +87,10 @@ typedef struct ovoid_manifold_options {
                                       fraction of its cost; a batch has its own */
 } ovoid_manifold_options;
 
-/** What the next query of the pair uses; it claims nothing. */
+/**
+ * What the next query of the pair uses; it claims nothing about the bodies. `flags` says in which order they were
+ * measured, and the points, the polygon and the verifier need it.
+ */
 typedef struct ovoid_manifold_memory {
     float searched; /**< the upper bound that the last search proved, rounded up */
     float pose[7];  /**< B in the frame of A at that search: quaternion w, x, y, z, then the translation */
