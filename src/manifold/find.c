@@ -22,15 +22,18 @@ static double compute_cosine(double angle) {
     return 1 - x / 2 * (1 - x / 12 * (1 - x / 30 * (1 - x / 56)));
 }
 
+int manifold_options_are_valid(const ovoid_manifold_options *o) {
+    return o->margin >= 0 && isfinite(o->margin) && o->tolerance >= 0 && o->keep >= 0 && o->angle >= 0 &&
+           o->angle <= MANIFOLD_ANGLE;
+}
+
 int manifold_terms_make(const ovoid_manifold_options *given, const pair_frame *f, manifold_terms *t) {
     static const ovoid_manifold_options none;
     const ovoid_manifold_options *o = given ? given : &none;
-    int is_valid = o->margin >= 0 && isfinite(o->margin) && o->tolerance >= 0 && o->keep >= 0 && o->angle >= 0 &&
-                   o->angle <= MANIFOLD_ANGLE;
     double tolerance = o->tolerance > 0 ? o->tolerance : 1e-9 * f->size,
            angle = o->angle > 0 ? o->angle : MANIFOLD_ANGLE;
     *t = (manifold_terms){o->margin, o->keep, tolerance + 8 * f->hidden, compute_cosine(angle), o->cover, o->points};
-    return is_valid;
+    return manifold_options_are_valid(o);
 }
 
 // ---- what the features show ----

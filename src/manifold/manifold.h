@@ -261,6 +261,7 @@ typedef struct manifold_terms {
     ovoid_manifold_points *points; ///< room for the points, or NULL
 } manifold_terms;
 /// 0 if the options are refused.
+int manifold_options_are_valid(const ovoid_manifold_options *o);
 int manifold_terms_make(const ovoid_manifold_options *given, const pair_frame *f, manifold_terms *t);
 
 /// The polygon of the state's patches; the corner where they are nearest if they do not overlap.

@@ -87,32 +87,33 @@ static void close_patch(manifold_patch *p) {
         for (uint32_t i = 0; i < 4; i++) set_side(p, i, i < 2 ? 1 - 2.0 * i : 0, i < 2 ? 0 : 5 - 2.0 * i, 0);
 }
 
-void patch_make_a(const manifold_frame *m, uint32_t feature, manifold_patch *p) {
+// What the patches of A and of B differ in: the body, the frame's axes in its frame, and how a vertex is placed.
+typedef struct patch_body {
+    const ovoid_shape *shape;
+    vec3 u, v, n;
+    int is_b;
+} patch_body;
+
+static void make_patch(const manifold_frame *m, const patch_body *body, uint32_t feature, manifold_patch *p) {
     corner_list list;
-    list_corners(m->pair->a, feature, &list);
-    take_corners(&list, 0, p);
+    list_corners(body->shape, feature, &list);
+    take_corners(&list, body->is_b, p);
     for (uint32_t i = 0; i < p->count; i++) {
-        vec3 x = frame_place_a(m, p->vertices[i]);
+        vec3 x = body->is_b ? frame_place_b(m, p->vertices[i]) : frame_place_a(m, p->vertices[i]);
         p->x[i] = x.x, p->y[i] = x.y, p->z[i] = x.z;
     }
     close_patch(p);
     if (p->count < 3) return;
-    vec3 normal = shape_get_facet_normal(m->pair->a, feature_get_index(feature));
-    set_plane_slope(p, (vec3){vec3_dot(m->u, normal), vec3_dot(m->v, normal), vec3_dot(m->n, normal)});
+    vec3 normal = shape_get_facet_normal(body->shape, feature_get_index(feature));
+    set_plane_slope(p, (vec3){vec3_dot(body->u, normal), vec3_dot(body->v, normal), vec3_dot(body->n, normal)});
+}
+
+void patch_make_a(const manifold_frame *m, uint32_t feature, manifold_patch *p) {
+    make_patch(m, &(patch_body){m->pair->a, m->u, m->v, m->n, 0}, feature, p);
 }
 
 void patch_make_b(const manifold_frame *m, uint32_t feature, manifold_patch *p) {
-    corner_list list;
-    list_corners(m->pair->b, feature, &list);
-    take_corners(&list, 1, p);
-    for (uint32_t i = 0; i < p->count; i++) {
-        vec3 x = frame_place_b(m, p->vertices[i]);
-        p->x[i] = x.x, p->y[i] = x.y, p->z[i] = x.z;
-    }
-    close_patch(p);
-    if (p->count < 3) return;
-    vec3 normal = shape_get_facet_normal(m->pair->b, feature_get_index(feature));
-    set_plane_slope(p, (vec3){vec3_dot(m->u_in_b, normal), vec3_dot(m->v_in_b, normal), vec3_dot(m->n_in_b, normal)});
+    make_patch(m, &(patch_body){m->pair->b, m->u_in_b, m->v_in_b, m->n_in_b, 1}, feature, p);
 }
 
 // The distance of a point from the segment from corner i to the next.

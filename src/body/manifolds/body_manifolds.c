@@ -129,10 +129,7 @@ static ovoid_limit find_shapes(manifolds_search *s, const ovoid_body_pair *pair)
 static ovoid_limit refuse(const ovoid_body_pair *pair, const ovoid_manifold_options *o) {
     if (pair->a.solid || !body_is_one(&pair->a)) return OVOID_LIMIT_SHAPE_A;
     if (pair->b.solid || !body_is_one(&pair->b)) return OVOID_LIMIT_SHAPE_B;
-    if (!o) return OVOID_LIMIT_NONE;
-    int is_right = o->margin >= 0 && isfinite(o->margin) && o->tolerance >= 0 && o->keep >= 0 && o->angle >= 0 &&
-                   o->angle <= MANIFOLD_ANGLE;
-    return is_right ? OVOID_LIMIT_NONE : OVOID_LIMIT_OPTIONS;
+    return !o || manifold_options_are_valid(o) ? OVOID_LIMIT_NONE : OVOID_LIMIT_OPTIONS;
 }
 
 ovoid_limit body_manifolds_find_internal(const ovoid_body_pair *pair, const manifolds_request *request,
