@@ -63,16 +63,6 @@ uint32_t body_tree_get_children(const body_tree *tree, tree_ref node, tree_ref c
     return count;
 }
 
-// The triangle's box as its node has it: rounded to single precision, so that both have the same centre.
-static void set_triangle_box(const ovoid_solid *s, uint32_t place, float low[3], float high[3]) {
-    box b = solid_make_bounds(s, &s->triangles[place]);
-    const double least[3] = {b.min.x, b.min.y, b.min.z}, most[3] = {b.max.x, b.max.y, b.max.z};
-    for (int k = 0; k < 3; k++) {
-        low[k] = box8_round_down(least[k]);
-        high[k] = box8_round_up(most[k]);
-    }
-}
-
 tree_box body_tree_get_box(const body_tree *tree, tree_ref ref) {
     if (tree->shape) return (tree_box){{0, 0, 0}, tree->half};
     if (tree->compound) {
@@ -82,7 +72,9 @@ tree_box body_tree_get_box(const body_tree *tree, tree_ref ref) {
     float own[2][3];
     const float *low = own[0], *high = own[1];
     if (ref_is_leaf(ref)) {
-        set_triangle_box(tree->solid, ref_get_index(ref), own[0], own[1]);
+        // As its node has it: rounded to single precision, so that both have the same centre.
+        box b = solid_make_bounds(tree->solid, &tree->solid->triangles[ref_get_index(ref)]);
+        box8_round_out(&b, own[0], own[1]);
     } else {
         low = tree->solid->nodes[ref].low;
         high = tree->solid->nodes[ref].high;
@@ -106,11 +98,7 @@ static turned_box get_triangle_box(const ovoid_solid *s, uint32_t place) {
     }
     const mat3 axes = axes_make(edge[longest], edge[(longest + 1) % 3]);
     box around = box_make_empty();
-    for (int i = 0; i < 3; i++) {
-        vec3 x = mat3_mul_vec3(axes, p[i]);
-        const box at = {x, x};
-        around = box_join(&around, &at);
-    }
+    for (int i = 0; i < 3; i++) around = box_add_point(&around, mat3_mul_vec3(axes, p[i]));
     return turn_box((tree_box){vec3_scale(vec3_add(around.max, around.min), 0.5),
                                vec3_scale(vec3_sub(around.max, around.min), 0.5)},
                     &axes);

@@ -54,8 +54,6 @@ typedef struct box_beside {
     int axes;             // how many of each are tried
 } box_beside;
 
-static double get_entry(vec3 v, int i) { return i == 0 ? v.x : i == 1 ? v.y : v.z; }
-
 // The direction across an axis of each box along which the gap is largest (S. Gottschalk, M. C. Lin, D. Manocha,
 // OBBTree, 1996); x where all axes are parallel.
 static vec3 find_across(const box_beside *boxes) {
@@ -67,12 +65,12 @@ static vec3 find_across(const box_beside *boxes) {
         for (int j = 0; j < boxes->axes; j++) {
             // Axis i of the frame and row j of the rotation.
             int k = (i + 1) % 3, l = (i + 2) % 3, m = (j + 1) % 3, n = (j + 2) % 3;
-            double u = get_entry(row[j], k), v = get_entry(row[j], l), square = u * u + v * v;
+            double u = vec3_get(row[j], k), v = vec3_get(row[j], l), square = u * u + v * v;
             if (!(square > 1e-6)) continue;
-            double at = get_entry(boxes->d, l) * u - get_entry(boxes->d, k) * v;
-            double reach = get_entry(boxes->own, l) * fabs(u) + get_entry(boxes->own, k) * fabs(v) +
-                           get_entry(boxes->other, m) * get_entry(size[n], i) +
-                           get_entry(boxes->other, n) * get_entry(size[m], i);
+            double at = vec3_get(boxes->d, l) * u - vec3_get(boxes->d, k) * v;
+            double reach = vec3_get(boxes->own, l) * fabs(u) + vec3_get(boxes->own, k) * fabs(v) +
+                           vec3_get(boxes->other, m) * vec3_get(size[n], i) +
+                           vec3_get(boxes->other, n) * vec3_get(size[m], i);
             double scale = 1 / sqrt(square), gap = (fabs(at) - reach) * scale;
             if (!(gap > most)) continue;
             most = gap;

@@ -115,12 +115,10 @@ typedef struct along {
     int axis;
 } along;
 
-static double get_axis(vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
 static int compare_along(const void *context, uint32_t a, uint32_t b) {
     const along *by = context;
-    double x = get_axis(by->boxes[a].min, by->axis) + get_axis(by->boxes[a].max, by->axis);
-    double y = get_axis(by->boxes[b].min, by->axis) + get_axis(by->boxes[b].max, by->axis);
+    double x = vec3_get(by->boxes[a].min, by->axis) + vec3_get(by->boxes[a].max, by->axis);
+    double y = vec3_get(by->boxes[b].min, by->axis) + vec3_get(by->boxes[b].max, by->axis);
     if (x < y || x > y) return x < y ? -1 : 1;
     return a < b ? -1 : a > b;
 }

@@ -32,6 +32,11 @@ static inline box box_join(const box *a, const box *b) {
     return (box){{min2(a->min.x, b->min.x), min2(a->min.y, b->min.y), min2(a->min.z, b->min.z)},
                  {max2(a->max.x, b->max.x), max2(a->max.y, b->max.y), max2(a->max.z, b->max.z)}};
 }
+/// The box with a point more.
+static inline box box_add_point(const box *a, vec3 p) {
+    const box at = {p, p};
+    return box_join(a, &at);
+}
 /// Half the surface area of a box that is not empty.
 static inline double box_compute_surface(const box *a) {
     double x = a->max.x - a->min.x, y = a->max.y - a->min.y, z = a->max.z - a->min.z;

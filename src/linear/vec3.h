@@ -25,6 +25,8 @@ static inline double min2(double a, double b) { return a < b ? a : b; }
 
 static inline vec3 vec3_make(double x, double y, double z) { return (vec3){x, y, z}; }
 static inline vec3 vec3_at(const double *xyz, size_t i) { return (vec3){xyz[3 * i], xyz[3 * i + 1], xyz[3 * i + 2]}; }
+/// Coordinate 0, 1 or 2.
+static inline double vec3_get(vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 static inline vec3 vec3_add(vec3 a, vec3 b) { return (vec3){a.x + b.x, a.y + b.y, a.z + b.z}; }
 static inline vec3 vec3_sub(vec3 a, vec3 b) { return (vec3){a.x - b.x, a.y - b.y, a.z - b.z}; }
 static inline vec3 vec3_neg(vec3 a) { return (vec3){-a.x, -a.y, -a.z}; }

@@ -14,8 +14,6 @@
 typedef double extent[3]; // along x, y, z
 
 static vec3 make_axis(int i) { return (vec3){i == 0, i == 1, i == 2}; }
-static double get_coordinate(vec3 v, int i) { return i == 0 ? v.x : i == 1 ? v.y : v.z; }
-
 // The body's extents at a time, errors included.
 static void find_extents(const motion_body *b, double time, extent low, extent high) {
     const ovoid_shape *shape = b->moving->shape;
@@ -30,8 +28,8 @@ static void find_extents(const motion_body *b, double time, extent low, extent h
     for (int i = 0; i < 3; i++) {
         support_result up = simd_find_support(&points, rows[i]);
         support_result down = simd_find_support(&points, vec3_neg(rows[i]));
-        high[i] = (get_coordinate(at, i) + up.value) + error;
-        low[i] = (get_coordinate(at, i) - down.value) - error;
+        high[i] = (vec3_get(at, i) + up.value) + error;
+        low[i] = (vec3_get(at, i) - down.value) - error;
     }
 }
 
@@ -59,7 +57,7 @@ static void take_cylinder(box *all, const motion_body *b, double time) {
     extent low, high;
     const extent bulge = {0, 0, 0};
     for (int i = 0; i < 3; i++) {
-        double along = get_coordinate(p->axis, i), middle = get_coordinate(at, i);
+        double along = vec3_get(p->axis, i), middle = vec3_get(at, i);
         double across = vec3_norm(vec3_cross(make_axis(i), p->axis)) * b->wide + slack + radius;
         high[i] = middle + (max2(along * b->low, along * b->high) + across);
         low[i] = middle + (min2(along * b->low, along * b->high) - across);

@@ -4,6 +4,7 @@
 #ifndef OVOID_SIMD_BOX8_H
 #define OVOID_SIMD_BOX8_H
 
+#include "linear/box.h"
 #include "simd/support.h"
 
 enum { BOX8 = 8 };
@@ -23,6 +24,23 @@ static inline float box8_round_down(double x) {
     return (float)(low < 0x1p127 ? low : 0x1p127);
 }
 static inline float box8_round_up(double x) { return -box8_round_down(-x); }
+/// A box rounded outward.
+static inline void box8_round_out(const box *b, float low[3], float high[3]) {
+    for (int k = 0; k < 3; k++) {
+        low[k] = box8_round_down(vec3_get(b->min, k));
+        high[k] = box8_round_up(vec3_get(b->max, k));
+    }
+}
+
+/// The box of a lane, rounded outward.
+static inline void box8_set_lane(box8 *node, uint32_t lane, const box *b) {
+    float low[3], high[3];
+    box8_round_out(b, low, high);
+    for (int k = 0; k < 3; k++) {
+        node->low[k][lane] = low[k];
+        node->high[k][lane] = high[k];
+    }
+}
 
 /// No path from the root of a tree to a leaf is longer.
 enum { BOX8_DEPTH = 64 };

@@ -11,7 +11,7 @@
 enum { SAMPLE = 32, CANDIDATES = 5 };
 
 static vec3 get_point(const ovoid_solid *s, uint32_t place, int corner) {
-    return vec3_scale(vec3_sub(solid_get_corner(s, place, corner), s->center), 1 / s->unit);
+    return solid_to_tree(s, solid_get_corner(s, place, corner));
 }
 
 mat3 axes_make(vec3 first, vec3 second) {
@@ -43,11 +43,7 @@ static sample make_sample(const ovoid_solid *s, tree_ref ref) {
 static box measure(const sample *r, const mat3 *axes) {
     box all = box_make_empty();
     for (uint32_t t = r->first; t < r->end; t += r->step) {
-        for (int i = 0; i < 3; i++) {
-            vec3 p = mat3_mul_vec3(*axes, get_point(r->solid, t, i));
-            const box at = {p, p};
-            all = box_join(&all, &at);
-        }
+        for (int i = 0; i < 3; i++) all = box_add_point(&all, mat3_mul_vec3(*axes, get_point(r->solid, t, i)));
     }
     return all;
 }
@@ -148,14 +144,6 @@ static mat3 choose_axes(const ovoid_solid *s, uint32_t node) {
 
 // ---- boxes
 
-static void set_ends(const box *b, float low[3], float high[3]) {
-    const double least[3] = {b->min.x, b->min.y, b->min.z}, most[3] = {b->max.x, b->max.y, b->max.z};
-    for (int k = 0; k < 3; k++) {
-        low[k] = box8_round_down(least[k]);
-        high[k] = box8_round_up(most[k]);
-    }
-}
-
 // The children's boxes, and the node's around them. A child starts with the node's axes as its candidate.
 static void set_boxes(ovoid_solid *s, uint32_t node) {
     node_frame *frame = &s->frames[node];
@@ -167,16 +155,11 @@ static void set_boxes(ovoid_solid *s, uint32_t node) {
         sample r = make_sample(s, ref);
         r.step = 1;
         box around = measure(&r, &frame->axes);
-        float low[3], high[3];
-        set_ends(&around, low, high);
-        for (int k = 0; k < 3; k++) {
-            boxes->low[k][i] = low[k];
-            boxes->high[k][i] = high[k];
-        }
+        box8_set_lane(boxes, i, &around);
         all = box_join(&all, &around);
         if (!ref_is_leaf(ref)) s->frames[ref].axes = frame->axes;
     }
-    set_ends(&all, frame->low, frame->high);
+    box8_round_out(&all, frame->low, frame->high);
 }
 
 void solid_make_frames(ovoid_solid *s) {

@@ -60,6 +60,11 @@ static inline vec3 solid_get_corner(const ovoid_solid *s, uint32_t place, int co
     return vec3_at(s->points, s->triangles[place].point[corner]);
 }
 
+/// A point of the solid's frame in the tree's frame and unit.
+static inline vec3 solid_to_tree(const ovoid_solid *s, vec3 p) {
+    return vec3_scale(vec3_sub(p, s->center), 1 / s->unit);
+}
+
 /// A node of a tree, or a leaf: the place of a triangle of a solid.
 typedef uint32_t tree_ref;
 #define TREE_LEAF 0x80000000u

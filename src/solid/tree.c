@@ -33,11 +33,9 @@ uint32_t tree_get_most_nodes(uint32_t triangles) {
     return 2 * (triangles / 3) + 1;
 }
 
-static double get_axis(vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
 // Twice the centre of a triangle's box.
 static double get_center(const builder *b, uint32_t t, int axis) {
-    return get_axis(b->bounds[t].min, axis) + get_axis(b->bounds[t].max, axis);
+    return vec3_get(b->bounds[t].min, axis) + vec3_get(b->bounds[t].max, axis);
 }
 
 static int is_before(const builder *b, uint32_t t, uint32_t pivot, double center, int axis) {
@@ -79,7 +77,7 @@ static range make_range(const builder *b, uint32_t first, uint32_t end) {
 static double find_cut(const builder *b, const range *r, int axis, box centers, uint32_t *left) {
     uint32_t count[BINS] = {0};
     box bounds[BINS];
-    double low = get_axis(centers.min, axis), width = get_axis(centers.max, axis) - low;
+    double low = vec3_get(centers.min, axis), width = vec3_get(centers.max, axis) - low;
     if (!(width > 0)) return INFINITY;
     for (int i = 0; i < BINS; i++) bounds[i] = box_make_empty();
     double scale = BINS * (1 - 0x1p-40) / width;
@@ -115,8 +113,7 @@ static void cut(const builder *b, const range *r, range two[2]) {
     for (uint32_t i = r->first; i < r->end; i++) {
         uint32_t t = b->solid->order[i];
         vec3 c = {get_center(b, t, 0), get_center(b, t, 1), get_center(b, t, 2)};
-        box at = {c, c};
-        centers = box_join(&centers, &at);
+        centers = box_add_point(&centers, c);
     }
     double best = INFINITY;
     int axis = 0;
@@ -156,21 +153,8 @@ static uint32_t divide(const builder *b, const range *whole, range child[BOX8]) 
     return count;
 }
 
-static void set_lane(box8 *n, uint32_t lane, const box *b) {
-    const double low[3] = {b->min.x, b->min.y, b->min.z}, high[3] = {b->max.x, b->max.y, b->max.z};
-    for (int k = 0; k < 3; k++) {
-        n->low[k][lane] = box8_round_down(low[k]);
-        n->high[k][lane] = box8_round_up(high[k]);
-    }
-}
-
 static void set_node(solid_node *n, const range *r, uint32_t children) {
-    const double low[3] = {r->bounds.min.x, r->bounds.min.y, r->bounds.min.z};
-    const double high[3] = {r->bounds.max.x, r->bounds.max.y, r->bounds.max.z};
-    for (int k = 0; k < 3; k++) {
-        n->low[k] = box8_round_down(low[k]);
-        n->high[k] = box8_round_up(high[k]);
-    }
+    box8_round_out(&r->bounds, n->low, n->high);
     n->first = r->first;
     n->end = r->end;
     n->children = children;
@@ -189,7 +173,7 @@ static uint32_t make_node(const builder *b, const range *whole, uint32_t node, r
             for (int k = 0; k < 3; k++) n->low[k][i] = 0x1p100f, n->high[k][i] = -0x1p100f;
             continue;
         }
-        set_lane(n, i, &child[i].bounds);
+        box8_set_lane(n, i, &child[i].bounds);
         if (child[i].end - child[i].first == 1) {
             n->child[i] = child[i].first;
             n->leaves |= 1u << i;
@@ -206,9 +190,7 @@ static uint32_t make_node(const builder *b, const range *whole, uint32_t node, r
 box solid_make_bounds(const ovoid_solid *s, const solid_triangle *t) {
     box all = box_make_empty();
     for (int i = 0; i < 3; i++) {
-        vec3 p = vec3_scale(vec3_sub(vec3_at(s->points, t->point[i]), s->center), 1 / s->unit);
-        box at = {p, p};
-        all = box_join(&all, &at);
+        all = box_add_point(&all, solid_to_tree(s, vec3_at(s->points, t->point[i])));
     }
     return all;
 }

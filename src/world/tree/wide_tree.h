@@ -15,13 +15,7 @@ void wide_tree_build(dynamic_tree *t);
 /// Sets the box of a node of the binary tree in the wide tree, if it has a lane there.
 static inline void wide_tree_set_box(dynamic_tree *t, const tree_node *n) {
     if (!t->wide_count || n->link == NONE) return;
-    box8 *wide = &t->wide[n->link / BOX8];
-    uint32_t i = n->link % BOX8;
-    const double *low = &n->bounds.min.x, *high = &n->bounds.max.x;
-    for (int k = 0; k < 3; k++) {
-        wide->low[k][i] = box8_round_down(low[k]);
-        wide->high[k][i] = box8_round_up(high[k]);
-    }
+    box8_set_lane(&t->wide[n->link / BOX8], n->link % BOX8, &n->bounds);
 }
 
 #endif
