@@ -2,9 +2,9 @@
 // contestants each: epa2, the calls of btGjkEpaSolver2, and pair, the btGjkPairDetector of its collision pipeline with
 // btGjkEpaPenetrationDepthSolver. Warm start: the pair detector's cached separating axis. Yes or no by the pair
 // detector: a pair of points at a distance below 0 (or the margin), with its own cut-off of farther pairs.
+#include "peers/bullet_hulls.h"
 #include "peers/peer.h"
 
-#include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpa2.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
@@ -28,25 +28,12 @@ struct self {
     std::vector<btVector3> axes; // of each track's last frame
 };
 
-btVector3 to_bullet(const ovoid_vec3 &v) { return {btScalar(v.x), btScalar(v.y), btScalar(v.z)}; }
 ovoid_vec3 from_bullet(const btVector3 &v) { return {v.x(), v.y(), v.z()}; }
-
-btTransform make_transform(const ovoid_pose &pose) {
-    const ovoid_quat &q = pose.rotation;
-    return btTransform(btQuaternion(btScalar(q.x), btScalar(q.y), btScalar(q.z), btScalar(q.w)),
-                       to_bullet(pose.position));
-}
 
 void *create(const workload *work) {
     auto *s = new self;
     for (uint32_t i = 0; i < work->body_count; i++) {
-        auto shape = std::make_unique<btConvexHullShape>();
-        const double *v = work->bodies[i].vertices;
-        for (uint32_t k = 0; k < work->bodies[i].vertex_count; k++, v += 3)
-            shape->addPoint(to_bullet({v[0], v[1], v[2]}), false);
-        shape->setMargin(0);
-        shape->recalcLocalAabb();
-        s->shapes.push_back(std::move(shape));
+        s->shapes.push_back(make_hull(work->bodies[i].vertices, work->bodies[i].vertex_count));
     }
     for (uint32_t i = 0; i < work->pair_count; i++) {
         const placed &p = work->pairs[i];

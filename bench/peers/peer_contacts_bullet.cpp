@@ -1,5 +1,6 @@
 // Bullet's contact points: the algorithm of its collision pipeline for two hulls, with the persistent manifold that it
 // keeps from frame to frame; margins 0. Cold: a new manifold.
+#include "peers/bullet_hulls.h"
 #include "peers/contact_peer.h"
 
 #include <btBulletCollisionCommon.h>
@@ -10,13 +11,6 @@
 #include <vector>
 
 namespace {
-
-btVector3 to_bullet(const ovoid_vec3 &v) { return {btScalar(v.x), btScalar(v.y), btScalar(v.z)}; }
-btTransform make_transform(const ovoid_pose &pose) {
-    const ovoid_quat &q = pose.rotation;
-    return btTransform(btQuaternion(btScalar(q.x), btScalar(q.y), btScalar(q.z), btScalar(q.w)),
-                       to_bullet(pose.position));
-}
 
 struct self {
     const contact_work *work;
@@ -39,13 +33,7 @@ void *create(const contact_work *work) {
     auto *s = new self;
     s->work = work;
     for (uint32_t i = 0; i < work->body_count; i++) {
-        auto shape = std::make_unique<btConvexHullShape>();
-        const double *v = work->bodies[i].vertices;
-        for (uint32_t k = 0; k < work->bodies[i].vertex_count; k++, v += 3)
-            shape->addPoint(to_bullet({v[0], v[1], v[2]}), false);
-        shape->setMargin(0);
-        shape->recalcLocalAabb();
-        s->shapes.push_back(std::move(shape));
+        s->shapes.push_back(make_hull(work->bodies[i].vertices, work->bodies[i].vertex_count));
     }
     s->algorithms.resize(work->pair_count);
     return s;

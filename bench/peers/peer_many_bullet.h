@@ -2,6 +2,7 @@
 #ifndef OVOID_BENCH_PEERS_PEER_MANY_BULLET_H
 #define OVOID_BENCH_PEERS_PEER_MANY_BULLET_H
 
+#include "peers/bullet_hulls.h"
 #include "peers/many_peer.h"
 
 #include <BulletCollision/BroadphaseCollision/btCollisionAlgorithm.h>
@@ -10,7 +11,6 @@
 #include <BulletCollision/CollisionDispatch/btCollisionObject.h>
 #include <BulletCollision/CollisionDispatch/btCollisionWorld.h>
 #include <BulletCollision/CollisionDispatch/btDefaultCollisionConfiguration.h>
-#include <BulletCollision/CollisionShapes/btConvexHullShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpa2.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
@@ -22,22 +22,7 @@
 #include <memory>
 #include <vector>
 
-inline std::unique_ptr<btConvexHullShape> make_hull(const body &b) {
-    auto shape = std::make_unique<btConvexHullShape>();
-    const double *v = b.vertices;
-    for (uint32_t k = 0; k < b.vertex_count; k++, v += 3)
-        shape->addPoint({btScalar(v[0]), btScalar(v[1]), btScalar(v[2])}, false);
-    shape->setMargin(0);
-    shape->recalcLocalAabb();
-    return shape;
-}
-
-inline btTransform make_transform(const ovoid_pose &pose) {
-    const ovoid_quat &q = pose.rotation;
-    const ovoid_vec3 &p = pose.position;
-    return btTransform(btQuaternion(btScalar(q.x), btScalar(q.y), btScalar(q.z), btScalar(q.w)),
-                       btVector3(btScalar(p.x), btScalar(p.y), btScalar(p.z)));
-}
+inline std::unique_ptr<btConvexHullShape> make_hull(const body &b) { return make_hull(b.vertices, b.vertex_count); }
 
 /// A posed shape for the pair detector.
 struct hull_at {
