@@ -45,6 +45,14 @@ if(OVOID_HAS_FUSED AND CMAKE_C_COMPILER_ID STREQUAL "GNU")
   target_compile_options(ovoid_flags INTERFACE -fno-tree-slp-vectorize)
 endif()
 
+# Clang 14 may move a load that WebAssembly spreads over both lanes (LOAD_SPLAT) behind a later store to the same place:
+# x = M x lost a coordinate. Its own vectorizers bring that about; the kernels in src/simd store to other places than
+# they load from.
+if(CMAKE_SYSTEM_PROCESSOR STREQUAL wasm32)
+  # Of the optimiser: a later -Os would turn clang's own options round.
+  target_compile_options(ovoid_flags INTERFACE "SHELL:-mllvm -vectorize-slp=false" "SHELL:-mllvm -vectorize-loops=false")
+endif()
+
 # A struct of some hundred bytes is cleared and copied by 16 bytes a step; gcc's own choice, rep stos and rep movs, takes
 # longer to start than a query's first look does to run.
 include(CheckCCompilerFlag)

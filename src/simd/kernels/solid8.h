@@ -130,8 +130,8 @@ LANES_INLINE void put_gaps(solid8_gaps *out, int at, const lane_gaps *g) {
     lane_store(out->normal[2] + at, g->normal.z);
 }
 
-// Gaps along the normal given and along the line of the middles: 1 if all are enough.
-LANES_INLINE int run_directions(const solid8_triangle *one, const lane3 p[3], const lane3 q[3], lane_gaps *out) {
+// Gaps along the normal given and along the line of the middles; and where they are not enough.
+LANES_INLINE lane_mask run_directions(const solid8_triangle *one, const lane3 p[3], const lane3 q[3], lane_gaps *out) {
     lane third = lane_set(1.0 / 3);
     lane3 n = spread(one->normal);
     lane gap = find_bottom(q, n) - find_top(p, n);
@@ -142,9 +142,8 @@ LANES_INLINE int run_directions(const solid8_triangle *one, const lane3 p[3], co
     lane along = find_bottom(q, line) - find_top(p, line);
     lane_mask better = lane_and(good, lane_greater(along, gap));
     gap = lane_select(better, along, gap);
-    if (lane_bits(lane_at_most(gap, lane_set(one->enough)))) return 0;
     *out = (lane_gaps){gap, lane_set(INFINITY), lane3_select(better, line, n)};
-    return 1;
+    return lane_at_most(gap, lane_set(one->enough));
 }
 
 LANES_TARGET static void run_triangles(const solid8_triangle *one, const solid8_triangles *eight, solid8_gaps *out) {
@@ -161,7 +160,9 @@ LANES_TARGET static void run_triangles(const solid8_triangle *one, const solid8_
                          lane_load(eight->corner[i][2] + at)};
             q[i] = lane3_add(lane9_mul3(rotation, own), translation);
         }
-        if (run_directions(one, p, q, &gaps)) {
+        // A lane whose gap is enough keeps it whatever its neighbours need: the bits do not depend on LANES.
+        lane_mask open = run_directions(one, p, q, &gaps);
+        if (!lane_bits(open)) {
             put_gaps(out, at, &gaps);
             continue;
         }
@@ -177,8 +178,10 @@ LANES_TARGET static void run_triangles(const solid8_triangle *one, const solid8_
         lane3 n = lane3_unit(best.d, &good);
         lane zero = lane_set(0);
         n = lane3_select(good, n, (lane3){zero, zero, zero});
-        gaps = (lane_gaps){lane_select(good, find_bottom(q, n) - find_top(p, n), lane_set(-INFINITY)),
-                           lane_select(good, lane_sqrt(best.square), lane_set(INFINITY)), n};
+        lane lower = lane_select(good, find_bottom(q, n) - find_top(p, n), lane_set(-INFINITY));
+        lane upper = lane_select(good, lane_sqrt(best.square), lane_set(INFINITY));
+        gaps = (lane_gaps){lane_select(open, lower, gaps.lower), lane_select(open, upper, gaps.upper),
+                           lane3_select(open, n, gaps.normal)};
         put_gaps(out, at, &gaps);
     }
 }
