@@ -11,6 +11,7 @@
 #include "simd/kernels/epa8.h"
 #include "simd/kernels/gjk8.h"
 #include "simd/kernels/pair8.h"
+#include "simd/kernels/patch.h"
 #include "simd/kernels/solid8.h"
 
 LANES_TARGET int box_axes_find_avx2(const box_axes_query *query, box_axes *out) { return run_axes(query, out); }
@@ -19,6 +20,7 @@ LANES_TARGET epa8_end epa8_grow_avx2(epa8 *s, const epa8_query *query) { return 
 
 const gjk8_kernels gjk8_avx2 = {run_begin, run_advance};
 const pair8_kernels pair8_avx2 = {run_spheres, run_ellipsoids, run_supports};
+const patch_kernels patch_avx2 = {run_place, run_measure};
 const solid8_kernels solid8_avx2 = {run_boxes, run_triangles};
 
 __attribute__((target("avx2"))) void small_gjk_run_avx2(const small_gjk_query *query, small_gjk_result *result) {

@@ -29,6 +29,7 @@ static box_axes_function *const box_axes_of[SIMD_ISA_COUNT] =
 static epa8_function *const epa8_of[SIMD_ISA_COUNT] = KERNELS(epa8_grow_scalar, epa8_grow_avx2, epa8_grow_avx512);
 static const gjk8_kernels *const gjk8_of[SIMD_ISA_COUNT] = KERNELS(&gjk8_scalar, &gjk8_avx2, &gjk8_avx512);
 static const pair8_kernels *const pair8_of[SIMD_ISA_COUNT] = KERNELS(&pair8_scalar, &pair8_avx2, &pair8_avx512);
+static const patch_kernels *const patch_of[SIMD_ISA_COUNT] = KERNELS(&patch_scalar, &patch_avx2, &patch_avx2);
 static const solid8_kernels *const solid8_of[SIMD_ISA_COUNT] = KERNELS(&solid8_scalar, &solid8_avx2, &solid8_avx512);
 static small_gjk_function *const small_gjk_of[SIMD_ISA_COUNT] =
     KERNELS(small_gjk_run_scalar, small_gjk_run_avx2, small_gjk_run_avx2);
@@ -42,6 +43,7 @@ int box_axes_find(const box_axes_query *query, box_axes *out) { return box_axes_
 epa8_end epa8_grow(epa8 *s, const epa8_query *query) { return epa8_of[find_widest()](s, query); }
 const gjk8_kernels *gjk8_get_kernels(void) { return gjk8_of[find_widest()]; }
 const pair8_kernels *pair8_get_kernels(void) { return pair8_of[find_widest()]; }
+const patch_kernels *patch_get_kernels(void) { return patch_of[find_widest()]; }
 const solid8_kernels *solid8_get_kernels(void) { return solid8_of[find_widest()]; }
 void simd_run_small_gjk(const small_gjk_query *query, small_gjk_result *result) {
     small_gjk_of[find_widest()](query, result);
@@ -58,6 +60,7 @@ box_axes_function *box_axes_get(simd_isa isa) { return has(isa) ? box_axes_of[is
 epa8_function *epa8_get(simd_isa isa) { return has(isa) ? epa8_of[isa] : NULL; }
 const gjk8_kernels *gjk8_get_kernels_of(simd_isa isa) { return has(isa) ? gjk8_of[isa] : NULL; }
 const pair8_kernels *pair8_get_kernels_of(simd_isa isa) { return has(isa) ? pair8_of[isa] : NULL; }
+const patch_kernels *patch_get_kernels_of(simd_isa isa) { return has(isa) ? patch_of[isa] : NULL; }
 const solid8_kernels *solid8_get_kernels_of(simd_isa isa) { return has(isa) ? solid8_of[isa] : NULL; }
 small_gjk_function *simd_get_small_gjk(simd_isa isa) { return has(isa) ? small_gjk_of[isa] : NULL; }
 small_gjk_kept_function *simd_get_small_gjk_kept(simd_isa isa) { return has(isa) ? small_gjk_kept_of[isa] : NULL; }

@@ -10,6 +10,7 @@
 #include "simd/kernels/epa8.h"
 #include "simd/kernels/gjk8.h"
 #include "simd/kernels/pair8.h"
+#include "simd/kernels/patch.h"
 #include "simd/kernels/solid8.h"
 
 const uint8_t box_axes_first[BOX_AXES] = {0, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 3, 3, 4, 4};
@@ -21,6 +22,7 @@ epa8_end epa8_grow_scalar(epa8 *s, const epa8_query *query) { return run_grow(s,
 
 const gjk8_kernels gjk8_scalar = {run_begin, run_advance};
 const pair8_kernels pair8_scalar = {run_spheres, run_ellipsoids, run_supports};
+const patch_kernels patch_scalar = {run_place, run_measure};
 const solid8_kernels solid8_scalar = {run_boxes, run_triangles};
 
 void small_gjk_run_scalar(const small_gjk_query *query, small_gjk_result *result) { run_class(query, result); }

@@ -9,15 +9,6 @@
 enum { MOST = 64, RIM = 3 * EPA8_FACES + EPA8, EPA8_ROW = 4 };
 
 #if LANES == 8
-/// The greatest and the least of the lanes, in all lanes.
-LANES_INLINE lane lane_top(lane a, lane b) { return _mm512_max_pd(a, b); }
-LANES_INLINE lane lane_find_max(lane m) {
-    m = _mm512_max_pd(m, _mm512_shuffle_f64x2(m, m, 0x4e));
-    m = _mm512_max_pd(m, _mm512_shuffle_f64x2(m, m, 0xb1));
-    return _mm512_max_pd(m, _mm512_permute_pd(m, 0x55));
-}
-LANES_INLINE lane lane_min(lane a, lane b) { return _mm512_min_pd(a, b); }
-LANES_INLINE double lane_first(lane v) { return _mm512_cvtsd_f64(v); }
 LANES_INLINE lane_mask lane_mask_of_faces(uint64_t bits) { return (lane_mask)bits; }
 /// The numbers of an array of EPA8_POINTS at LANES places, a byte each; is_few: all below 16.
 LANES_INLINE lane lane_pick(const double *p, uint64_t at, int is_few) {
@@ -32,13 +23,6 @@ LANES_INLINE void lane_store_four(double *to, double a, double b, double c, doub
     _mm512_store_pd(to, _mm512_setr_pd(a, b, c, d, 0, 0, 0, 0));
 }
 #elif LANES == 4
-LANES_INLINE lane lane_top(lane a, lane b) { return _mm256_max_pd(a, b); }
-LANES_INLINE lane lane_find_max(lane m) {
-    m = _mm256_max_pd(m, _mm256_permute2f128_pd(m, m, 1));
-    return _mm256_max_pd(m, _mm256_permute_pd(m, 5));
-}
-LANES_INLINE lane lane_min(lane a, lane b) { return _mm256_min_pd(a, b); }
-LANES_INLINE double lane_first(lane v) { return _mm256_cvtsd_f64(v); }
 LANES_INLINE lane_mask lane_mask_of_faces(uint64_t bits) {
     __m256i each = _mm256_setr_epi64x(1, 2, 4, 8), all = _mm256_set1_epi64x((long long)bits);
     return _mm256_castsi256_pd(_mm256_cmpeq_epi64(_mm256_and_si256(all, each), each));
@@ -51,10 +35,6 @@ LANES_INLINE void lane_store_four(double *to, double a, double b, double c, doub
     _mm256_store_pd(to, _mm256_setr_pd(a, b, c, d));
 }
 #elif LANES == 2
-LANES_INLINE lane lane_top(lane a, lane b) { return lane_max(a, b); }
-LANES_INLINE lane lane_find_max(lane m) { return lane_max(m, (lane){m[1], m[0]}); }
-LANES_INLINE lane lane_min(lane a, lane b) { return lane_select(lane_less(a, b), a, b); }
-LANES_INLINE double lane_first(lane v) { return v[0]; }
 LANES_INLINE lane_mask lane_mask_of_faces(uint64_t bits) {
     return (lane_mask){-(long long)(bits & 1), -(long long)(bits >> 1 & 1)};
 }
@@ -67,10 +47,6 @@ LANES_INLINE void lane_store_four(double *to, double a, double b, double c, doub
     lane_store(to + 2, (lane){c, d});
 }
 #else
-LANES_INLINE lane lane_top(lane a, lane b) { return a > b ? a : b; }
-LANES_INLINE lane lane_find_max(lane m) { return m; }
-LANES_INLINE lane lane_min(lane a, lane b) { return a < b ? a : b; }
-LANES_INLINE double lane_first(lane v) { return v; }
 LANES_INLINE lane_mask lane_mask_of_faces(uint64_t bits) { return (lane_mask)(bits & 1); }
 LANES_INLINE lane lane_pick(const double *p, uint64_t at, int is_few) {
     (void)is_few;

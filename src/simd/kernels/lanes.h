@@ -1,7 +1,8 @@
 // Numbers side by side, LANES of them: 8 (AVX-512), 4 (AVX2), 2 (WebAssembly's SIMD128) or 1 (plain C, the scalar
 // twin). A kernel is written once over these (kernels/pair8.h) and compiled for each; every operation is IEEE 754's,
 // lane by lane, so all widths give the same bits. Sums and products are the operators. lane_sign is 1 of -0 too; of NaN
-// it is anything.
+// it is anything. lane_top and lane_min are b where one of them is NaN; lane_find_max is the greatest of the lanes, in
+// all of them.
 #ifndef OVOID_SIMD_KERNELS_LANES_H
 #define OVOID_SIMD_KERNELS_LANES_H
 
@@ -35,6 +36,14 @@ LANES_INLINE lane_mask lane_none(void) { return 0; }
 LANES_INLINE lane_mask lane_sign(lane v) {
     return _mm512_test_epi64_mask(_mm512_castpd_si512(v), _mm512_castpd_si512(_mm512_set1_pd(-0.0)));
 }
+LANES_INLINE lane lane_top(lane a, lane b) { return _mm512_max_pd(a, b); }
+LANES_INLINE lane lane_find_max(lane m) {
+    m = _mm512_max_pd(m, _mm512_shuffle_f64x2(m, m, 0x4e));
+    m = _mm512_max_pd(m, _mm512_shuffle_f64x2(m, m, 0xb1));
+    return _mm512_max_pd(m, _mm512_permute_pd(m, 0x55));
+}
+LANES_INLINE lane lane_min(lane a, lane b) { return _mm512_min_pd(a, b); }
+LANES_INLINE double lane_first(lane v) { return _mm512_cvtsd_f64(v); }
 
 #elif LANES == 4
 
@@ -63,6 +72,13 @@ LANES_INLINE unsigned lane_bits(lane_mask m) { return (unsigned)_mm256_movemask_
 LANES_INLINE lane_mask lane_none(void) { return _mm256_setzero_pd(); }
 // Only the sign bits of a mask are read.
 LANES_INLINE lane_mask lane_sign(lane v) { return v; }
+LANES_INLINE lane lane_top(lane a, lane b) { return _mm256_max_pd(a, b); }
+LANES_INLINE lane lane_find_max(lane m) {
+    m = _mm256_max_pd(m, _mm256_permute2f128_pd(m, m, 1));
+    return _mm256_max_pd(m, _mm256_permute_pd(m, 5));
+}
+LANES_INLINE lane lane_min(lane a, lane b) { return _mm256_min_pd(a, b); }
+LANES_INLINE double lane_first(lane v) { return _mm256_cvtsd_f64(v); }
 
 #elif LANES == 2
 
@@ -92,6 +108,10 @@ LANES_INLINE lane_mask lane_not(lane_mask m) { return ~m; }
 LANES_INLINE unsigned lane_bits(lane_mask m) { return wasm_i64x2_bitmask((v128_t)m); }
 LANES_INLINE lane_mask lane_none(void) { return (lane_mask){0, 0}; }
 LANES_INLINE lane_mask lane_sign(lane v) { return (lane_mask)v >> 63; }
+LANES_INLINE lane lane_top(lane a, lane b) { return lane_select(lane_greater(a, b), a, b); }
+LANES_INLINE lane lane_find_max(lane m) { return lane_top(m, (lane){m[1], m[0]}); }
+LANES_INLINE lane lane_min(lane a, lane b) { return lane_select(lane_greater(b, a), a, b); }
+LANES_INLINE double lane_first(lane v) { return v[0]; }
 
 #else
 
@@ -117,6 +137,10 @@ LANES_INLINE lane_mask lane_not(lane_mask m) { return !m; }
 LANES_INLINE unsigned lane_bits(lane_mask m) { return (unsigned)m; }
 LANES_INLINE lane_mask lane_none(void) { return 0; }
 LANES_INLINE lane_mask lane_sign(lane v) { return signbit(v) != 0; }
+LANES_INLINE lane lane_top(lane a, lane b) { return a > b ? a : b; }
+LANES_INLINE lane lane_find_max(lane m) { return m; }
+LANES_INLINE lane lane_min(lane a, lane b) { return a < b ? a : b; }
+LANES_INLINE double lane_first(lane v) { return v; }
 
 #endif
 
