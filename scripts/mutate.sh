@@ -49,7 +49,7 @@ tests_of() {
     motion) echo "test_motion_gap test_motion_pose test_judge_motion test_motion test_impact test_impact_rod test_impact_altered test_judge_impact test_impact_trials test_compound_impact" ;;
     smooth) echo "test_smooth test_smooth_bounds test_gradient test_gradient_round test_gradient_bounds" ;;
     paper) echo "test_paper test_area" ;;
-    manifold) echo "test_manifold test_manifold_altered test_manifold_hard test_judge_manifold" ;;
+    manifold) echo "test_manifold test_simd_patch test_manifold_altered test_manifold_hard test_judge_manifold" ;;
     table) echo "test_lookup test_shape test_simd test_query" ;;
     lanes) echo "test_simd_octet test_simd_gjk8 test_simd_solid8 test_query_batch" ;;
     robot) echo "test_robot_model test_robot_poses test_robot_balls test_robot_hits test_robot_collide test_robot_matrix test_robot_path test_robot_path_altered test_robot_path_bounds test_robot_judge test_robot_clearance test_robot_motion" ;;

@@ -61,7 +61,7 @@ typedef enum ovoid_manifold_proof {
 /** A point of contact; world frame. */
 typedef struct ovoid_manifold_point {
     ovoid_vec3 point_a, point_b; /**< on the surfaces of A and of B: point_b - point_a = separation normal */
-    double separation;           /**< negative: overlap */
+    double separation;           /**< negative: overlap; not below ovoid_manifold.lower, but for rounding */
     uint32_t id;
 } ovoid_manifold_point;
 
@@ -77,8 +77,9 @@ typedef struct ovoid_manifold_options {
     double margin;    /**< speculative: contacts and their points are given up to this distance; >= 0 */
     double tolerance; /**< a kept contact is used again without a search if its bracket is at most this wide, a length;
                          0: 1e-9 of the pair's size (ovoid_options) */
-    double keep;  /**< a kept corner stays while it is outside of the other body's facet by at most this, a length; 0:
-                     exact polygons, in which corners nearer than 1e-6 of the pair's size are one */
+    double keep;  /**< a kept corner stays while it is outside of the other body's facet by at most this, a length; its
+                     separation is then at least the gap along the normal. 0: exact polygons, in which corners nearer
+                     than 4e-6 of the pair's size are one */
     double angle; /**< facets that meet the plane of contact at more than this angle (radians, at most 1.45) are not
                      faces of the contact: only their edge or vertex touches; 0 means 1.45 */
     ovoid_cover *cover; /**< room for the proof of a search, or NULL. Untouched by a query that needs no search, so that
@@ -115,7 +116,8 @@ typedef struct ovoid_manifold {
                             within options.angle; a feature as feature_a */
     uint32_t facet_b;    /**< of B */
     ovoid_manifold_axis axis;
-    uint8_t count;    /**< of points, 0 to 4 */
+    uint8_t count;    /**< of points, 0 to 4: the polygon's deepest corner is one of them, to 1e-6 of the pair's size;
+                         where earlier points are kept, to a tenth of the tolerance */
     uint8_t proof;    /**< ovoid_manifold_proof */
     uint16_t corners; /**< of the whole polygon; the points are four of them if there are more */
     float share;      /**< the area of the points' quadrilateral divided by that of the polygon; 1 if they are all */

@@ -64,17 +64,17 @@ static measured_area measure(const region *r, double off) {
 }
 
 static affine get_plane(const manifold_patch *p) {
-    return (affine){p->z[0] - (p->slope_x * p->x[0] + p->slope_y * p->y[0]), p->slope_x, p->slope_y};
+    return (affine){p->at.z[0] - (p->slope_x * p->at.x[0] + p->slope_y * p->at.y[0]), p->slope_x, p->slope_y};
 }
 
 // ---- inner ----
 
 static measured_area compute_inner(const manifold_state *s, double most, double pad) {
-    region r = {.count = s->a.count > 2 && s->b.count > 2 ? s->a.count : 0};
-    for (uint32_t i = 0; i < r.count; i++) r.x[i] = s->a.x[i], r.y[i] = s->a.y[i];
-    for (uint32_t i = 0; i < s->b.count && r.count; i++) {
-        double dx = s->b.x[i + 1] - s->b.x[i], dy = s->b.y[i + 1] - s->b.y[i];
-        cut(&r, (half_plane){dy, -dx, dy * s->b.x[i] - dx * s->b.y[i]});
+    region r = {.count = s->a.at.count > 2 && s->b.at.count > 2 ? s->a.at.count : 0};
+    for (uint32_t i = 0; i < r.count; i++) r.x[i] = s->a.at.x[i], r.y[i] = s->a.at.y[i];
+    for (uint32_t i = 0; i < s->b.at.count && r.count; i++) {
+        double dx = s->b.at.x[i + 1] - s->b.at.x[i], dy = s->b.at.y[i + 1] - s->b.at.y[i];
+        cut(&r, (half_plane){dy, -dx, dy * s->b.at.x[i] - dx * s->b.at.y[i]});
     }
     affine a = get_plane(&s->a), b = get_plane(&s->b);
     cut(&r, (half_plane){b.x - a.x, b.y - a.y, most - pad - (b.at - a.at)});
@@ -123,8 +123,8 @@ static void cut_by_patch(region *r, const outer_side *o, const manifold_patch *p
         cut_by_plane(r, o, facets[p->edges[i]], pad);
         cut_by_plane(r, o, facets[shape_find_edge(o->shape, e.to, e.from)], pad);
     }
-    if (p->count > 1) return;
-    uint32_t v = p->vertices[0], end = starts[v + 1];
+    if (p->at.count > 1) return;
+    uint32_t v = p->at.vertices[0], end = starts[v + 1];
     for (uint32_t i = starts[v]; i < end && i < starts[v] + PATCH_CORNERS; i++) cut_by_plane(r, o, facets[i], pad);
 }
 
@@ -139,7 +139,7 @@ static measured_area compute_outer(const manifold_state *s, double most, double 
     const manifold_frame *m = &s->frame;
     const ovoid_shape *shape_a = m->pair->a, *shape_b = m->pair->b;
     affine top = {vec3_dot(m->n, frame_vertex_a(m->pair, m->low_a)), 0, 0}, low = {top.at + m->gap, 0, 0};
-    affine a = s->a.count > 2 ? get_plane(&s->a) : top, b = s->b.count > 2 ? get_plane(&s->b) : low;
+    affine a = s->a.at.count > 2 ? get_plane(&s->a) : top, b = s->b.at.count > 2 ? get_plane(&s->b) : low;
     outer_side of_a = {m, shape_a, 0, a, b}, of_b = {m, shape_b, 1, b, a};
     of_a.other.at -= most;
     of_b.other.at += most;
@@ -153,14 +153,15 @@ static measured_area compute_outer(const manifold_state *s, double most, double 
 // ---- the whole polygon ----
 
 static void write_corners(const manifold_state *s, int is_exchanged, ovoid_manifold_polygon *out) {
+    corner_placing placing = corner_placing_make(s);
     out->count = s->polygon.count;
     for (uint32_t i = 0; i < out->count; i++) {
         const manifold_corner *c = s->polygon.corners + (is_exchanged ? out->count - 1 - i : i);
-        out->points[i] = manifold_place_corner(s, c);
+        out->points[i] = corner_placing_get_point(&placing, c);
         if (is_exchanged) point_exchange(out->points + i);
-        out->grown = max2(out->grown, manifold_compute_excess(s, c) + point_compute_rounding(out->points + i));
+        out->grown = max2(out->grown, manifold_compute_excess(s, c));
     }
-    out->grown += manifold_compute_rounding(s);
+    out->grown += manifold_compute_world_rounding(s) + manifold_compute_rounding(s);
 }
 
 static ovoid_code compute(const ovoid_pair *pair, const ovoid_manifold *given, const ovoid_manifold_options *options,

@@ -42,15 +42,16 @@ static void add_side(frustum *f, double ox, double oy, double p) {
 // The sides of a patch, with the distances to their inner sides of what is opposite. sign: -1 for those of B. Edges of
 // no length are no sides, and of a segment its ends are none.
 static void add_sides(frustum *f, const manifold_patch *p, const double *distance, double sign) {
-    for (uint32_t i = 0; i < p->count && p->count > 1; i++)
-        if (p->side_x[i] != 0 || p->side_y[i] != 0) add_side(f, sign * p->side_x[i], sign * p->side_y[i], distance[i]);
+    for (uint32_t i = 0; i < p->at.count && p->at.count > 1; i++)
+        if (p->at.side_x[i] != 0 || p->at.side_y[i] != 0)
+            add_side(f, sign * p->at.side_x[i], sign * p->at.side_y[i], distance[i]);
 }
 
 // The largest distance of a patch's corners from a place.
 static double get_reach(const manifold_patch *p, double x, double y) {
     double most = 0;
-    for (uint32_t i = 0; i < p->count; i++) {
-        double dx = p->x[i] - x, dy = p->y[i] - y;
+    for (uint32_t i = 0; i < p->at.count; i++) {
+        double dx = p->at.x[i] - x, dy = p->at.y[i] - y;
         most = max2(most, dx * dx + dy * dy);
     }
     return sqrt(most);
@@ -60,8 +61,8 @@ typedef struct range {
     double low, high;
 } range;
 static range get_range(const manifold_patch *p) {
-    range r = {p->z[0], p->z[0]};
-    for (uint32_t i = 1; i < p->count; i++) r.low = min2(r.low, p->z[i]), r.high = max2(r.high, p->z[i]);
+    range r = {p->at.z[0], p->at.z[0]};
+    for (uint32_t i = 1; i < p->at.count; i++) r.low = min2(r.low, p->at.z[i]), r.high = max2(r.high, p->at.z[i]);
     return r;
 }
 
@@ -97,11 +98,12 @@ static int start(frustum *f, const manifold_frame *m, const slab *s) {
 }
 
 static double prove_by_patches(const manifold_frame *m, const manifold_patch *a, const manifold_patch *b,
-                               const patch_table *to_a, const patch_table *to_b) {
+                               const simd_patch_table *to_a, const simd_patch_table *to_b) {
     frustum f;
     range za = get_range(a), zb = get_range(b);
-    slab s = {za.low - zb.high, za.high - zb.low, get_reach(a, a->x[0], a->y[0]) + get_reach(b, a->x[0], a->y[0])};
-    if ((a->count < 3 && b->count < 3 && a->count + b->count < 4) || !start(&f, m, &s)) return 0;
+    slab s = {za.low - zb.high, za.high - zb.low,
+              get_reach(a, a->at.x[0], a->at.y[0]) + get_reach(b, a->at.x[0], a->at.y[0])};
+    if ((a->at.count < 3 && b->at.count < 3 && a->at.count + b->at.count < 4) || !start(&f, m, &s)) return 0;
     add_sides(&f, a, to_a->most, 1);
     add_sides(&f, b, to_b->most, -1);
     return f.depth - get_pad(m);
@@ -114,20 +116,49 @@ static double prove_by_facet(const manifold_frame *m, const manifold_patch *p, v
     slab s = {sign > 0 ? z.low - vertex.z : vertex.z - z.high, sign > 0 ? z.high - vertex.z : vertex.z - z.low,
               get_reach(p, vertex.x, vertex.y)};
     double distance[PATCH_CORNERS];
-    if (p->count < 3 || !start(&f, m, &s)) return 0;
-    for (uint32_t i = 0; i < p->count; i++) distance[i] = patch_get_side(p, i, vertex.x, vertex.y);
+    if (p->at.count < 3 || !start(&f, m, &s)) return 0;
+    for (uint32_t i = 0; i < p->at.count; i++) distance[i] = patch_get_side(p, i, vertex.x, vertex.y);
     add_sides(&f, p, distance, sign);
     return f.depth - get_pad(m);
 }
 
+// An edge across the normal.
+typedef struct segment {
+    vec3 p, q;
+    double out_x, out_y; ///< unit, orthogonal to it; zero if it has no length
+} segment;
+
+static segment make_segment(vec3 p, vec3 q) {
+    double dx = q.x - p.x, dy = q.y - p.y, square = dx * dx + dy * dy, scale = square > 0 ? 1 / sqrt(square) : 0;
+    return (segment){p, q, -dy * scale, dx * scale};
+}
+
+// Both sides of a segment, with the distances to them of what is opposite.
+static void add_segment(frustum *f, const segment *s, const segment *other, double sign) {
+    double x = s->out_x, y = s->out_y, at = x * s->p.x + y * s->p.y;
+    double p = (x * other->p.x + y * other->p.y) - at, q = (x * other->q.x + y * other->q.y) - at;
+    if (!(x != 0 || y != 0)) return;
+    add_side(f, sign * x, sign * y, max2(p, q));
+    add_side(f, -sign * x, -sign * y, max2(-p, -q));
+}
+
+static double get_distance(vec3 p, vec3 from) {
+    double dx = p.x - from.x, dy = p.y - from.y;
+    return sqrt(dx * dx + dy * dy);
+}
+
 static double prove_by_edges(const manifold_frame *m, const manifold_axis *axis) {
-    manifold_patch a, b;
-    patch_table to_a, to_b;
-    patch_make_a(m, axis->a, &a);
-    patch_make_b(m, axis->b, &b);
-    patch_table_fill(&a, &b, &to_a);
-    patch_table_fill(&b, &a, &to_b);
-    return prove_by_patches(m, &a, &b, &to_a, &to_b);
+    frustum f;
+    edge_ends i = shape_get_ends(m->pair->a, feature_get_index(axis->a)),
+              j = shape_get_ends(m->pair->b, feature_get_index(axis->b));
+    segment a = make_segment(frame_place_a(m, i.from), frame_place_a(m, i.to)),
+            b = make_segment(frame_place_b(m, j.from), frame_place_b(m, j.to));
+    double reach = get_distance(a.q, a.p) + max2(get_distance(b.p, a.p), get_distance(b.q, a.p));
+    slab s = {min2(a.p.z, a.q.z) - max2(b.p.z, b.q.z), max2(a.p.z, a.q.z) - min2(b.p.z, b.q.z), reach};
+    if (!start(&f, m, &s)) return 0;
+    add_segment(&f, &a, &b, 1);
+    add_segment(&f, &b, &a, -1);
+    return f.depth - get_pad(m);
 }
 
 // By edges first where they make the axis: the facets beside them are tilted.

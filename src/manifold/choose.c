@@ -56,9 +56,22 @@ static double get_slant(const ovoid_shape *s, uint32_t edge, vec3 n) {
     return fabs(vec3_dot(d, n));
 }
 
+// 1 if no other facet around the extreme vertex can take the place of the kept one: it faces n so well that none is
+// better by 1e-6.
+static int is_kept_best(const ovoid_shape *s, const facet_choice *c) {
+    uint32_t facet = feature_get_index(c->kept);
+    if (!c->has_kept || s->rank < 2 || feature_get_kind(c->kept) != OVOID_MANIFOLD_FACET) return 0;
+    if (facet >= shape_get_loop_count(s) || feature_get_kind(c->axis) == OVOID_MANIFOLD_EDGE) return 0;
+    if (vec3_dot(shape_get_facet_normal(s, facet), c->n) < 1 - 1e-6) return 0;
+    uint32_t end = shape_loop_starts(s)[facet + 1], i = shape_loop_starts(s)[facet];
+    while (i < end && shape_loop_vertices(s)[i] != c->low) i++;
+    return i < end;
+}
+
 uint32_t facet_choose(const ovoid_shape *s, const facet_choice *c) {
     uint32_t index = feature_get_index(c->axis);
     if (feature_get_kind(c->axis) == OVOID_MANIFOLD_FACET && s->rank >= 2) return c->axis;
+    if (is_kept_best(s, c)) return c->kept;
     int is_edge = feature_get_kind(c->axis) == OVOID_MANIFOLD_EDGE;
     if (s->rank == 1) is_edge = 1, index = shape_loop_edges(s)[0];
     edge_ends hold = is_edge ? shape_get_ends(s, index) : (edge_ends){c->low, c->low};

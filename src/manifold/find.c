@@ -32,7 +32,8 @@ int manifold_terms_make(const ovoid_manifold_options *given, const pair_frame *f
     const ovoid_manifold_options *o = given ? given : &none;
     double tolerance = o->tolerance > 0 ? o->tolerance : 1e-9 * f->size,
            angle = o->angle > 0 ? o->angle : MANIFOLD_ANGLE;
-    *t = (manifold_terms){o->margin, o->keep, tolerance + 8 * f->hidden, compute_cosine(angle), o->cover, o->points};
+    *t = (manifold_terms){o->margin, o->keep,  tolerance + 8 * f->hidden, 0.1 * tolerance, compute_cosine(angle),
+                          o->cover,  o->points};
     return manifold_options_are_valid(o);
 }
 
@@ -128,16 +129,19 @@ static void write_apart(double lower, vec3 normal, ovoid_manifold *out) {
 
 static int is_unit(vec3 n) { return fabs(vec3_norm(n) - 1) <= 1e-13; }
 
+static int is_given_normal(const task *t, const manifold_state *s, const manifold_axis *axis, vec3 given) {
+    if (axis->kind != OVOID_MANIFOLD_FREE || !is_unit(given)) return 0;
+    vec3 n = vec3_unit(frame_direction_from_world(&t->frame, given));
+    return n.x == s->frame.n.x && n.y == s->frame.n.y && n.z == s->frame.n.z;
+}
+
 // given: the world normal that was kept or searched for; where no feature makes another, it is the contact's, so that
 // what is computed from it later has the same bits.
 static void write_points(const task *t, const manifold_state *s, const manifold_axis *axis, vec3 given,
                          ovoid_manifold *out) {
     const manifold_polygon *p = &s->polygon;
-    corner_choice chosen = corners_choose(p, t->earlier);
-    vec3 n = vec3_unit(frame_direction_from_world(&t->frame, given));
-    int is_given =
-        fabs(vec3_norm(given) - 1) <= 1e-13 && n.x == s->frame.n.x && n.y == s->frame.n.y && n.z == s->frame.n.z;
-    out->normal = is_given ? given : frame_direction_to_world(&t->frame, s->frame.n);
+    corner_choice chosen = corners_choose(s, t->earlier, t->terms.slack);
+    out->normal = is_given_normal(t, s, axis, given) ? given : frame_direction_to_world(&t->frame, s->frame.n);
     out->axis = axis->kind;
     out->feature_a = axis->a;
     out->feature_b = axis->b;
@@ -159,8 +163,11 @@ COMPILER_NOINLINE static int find_warm(const task *t, ovoid_manifold *out) {
     const pair_frame *f = &t->frame;
     if (!e || e->axis == OVOID_MANIFOLD_NONE) return 0;
     manifold_axis axis = {e->axis, e->feature_a, e->feature_b};
-    vec3 given = is_unit(e->normal) ? e->normal : vec3_unit(e->normal);
-    vec3 n = vec3_unit(frame_direction_from_world(f, given));
+    vec3 given = e->normal, n = {0, 0, 0};
+    if (axis.kind == OVOID_MANIFOLD_FREE) {
+        if (!is_unit(given)) given = vec3_unit(given);
+        n = vec3_unit(frame_direction_from_world(f, given));
+    }
     if (!axis_compute_normal(f, &axis, &n) || !(fabs(vec3_norm_squared(n) - 1) < 1e-9)) return 0;
     build(t, &axis, n, s);
     bracket b = measure(t, s, &axis, &e->memory);

@@ -7,9 +7,7 @@
 #include "ovoid/manifold.h"
 #include "pair/frame.h"
 #include "shape/loops.h"
-
-/// Most corners of a patch; of a facet with more, as many of them as this are used.
-enum { PATCH_CORNERS = OVOID_MANIFOLD_CORNERS / 2 };
+#include "simd/patch.h"
 
 /// Corners nearer to each other than four times this part of the pair's size are one, and a corner that is outside of a
 /// patch by less than it counts as inside.
@@ -54,34 +52,24 @@ typedef struct manifold_frame {
     uint32_t low_a, low_b; ///< the vertices that are extreme toward the other body
 } manifold_frame;
 
-/// What is clipped of a body. A side is a half-plane across the normal that holds the patch: of a facet one for each
-/// edge; a segment has two along it and two at its ends, a point four around it.
+/// What is clipped of a body, with its plane.
 typedef struct manifold_patch {
-    uint32_t count, side_count;
-    uint32_t vertices[PATCH_CORNERS], edges[PATCH_CORNERS]; ///< an edge goes from its corner to the next
-    double x[PATCH_CORNERS + 2], y[PATCH_CORNERS + 2]; ///< counter-clockwise; the first corner twice again at the end
-    double z[PATCH_CORNERS];
-    double side_x[PATCH_CORNERS], side_y[PATCH_CORNERS]; ///< unit, to the inner side; zero for an edge of no length
-    double side_at[PATCH_CORNERS]; ///< the distance to the inner side is side_x x + side_y y - side_at
+    simd_patch at;
+    uint32_t edges[PATCH_CORNERS]; ///< from a corner to the next
     double slope_x, slope_y;       ///< of the plane: z = z[0] + slope_x (x - x[0]) + slope_y (y - y[0])
     double steepness;              ///< one over the cosine of the angle between the plane's normal and n, not below 1
 } manifold_patch;
 
 static inline double patch_get_height(const manifold_patch *p, double x, double y) {
-    return p->z[0] + (p->slope_x * (x - p->x[0]) + p->slope_y * (y - p->y[0]));
+    return p->at.z[0] + (p->slope_x * (x - p->at.x[0]) + p->slope_y * (y - p->at.y[0]));
 }
 static inline double patch_get_side(const manifold_patch *p, uint32_t i, double x, double y) {
-    return (p->side_x[i] * x + p->side_y[i] * y) - p->side_at[i];
+    return (p->at.side_x[i] * x + p->at.side_y[i] * y) - p->at.side_at[i];
 }
 /// A segment has one edge.
-static inline uint32_t patch_get_edge_count(const manifold_patch *p) { return p->count > 2 ? p->count : p->count - 1; }
-
-/// Where the corners of two patches are to the other one's sides.
-typedef struct patch_table {
-    uint64_t outside[PATCH_CORNERS]; ///< of each side: a bit for each corner of the other patch outside of it
-    double most[PATCH_CORNERS];      ///< of each side: the largest distance of those corners to its inner side
-    double least[PATCH_CORNERS + 1]; ///< of each corner of the other patch: the least distance to the inner sides
-} patch_table;
+static inline uint32_t patch_get_edge_count(const manifold_patch *p) {
+    return p->at.count > 2 ? p->at.count : p->at.count - 1;
+}
 
 /// A corner of the polygon.
 typedef struct manifold_corner {
@@ -89,6 +77,7 @@ typedef struct manifold_corner {
     double separation; ///< of the patches there
     double outside;    ///< its distance from the patch that it is outside of, across the normal; 0 inside
     uint32_t id;
+    uint32_t is_kept; ///< it is one of the earlier contact
 } manifold_corner;
 
 typedef struct manifold_polygon {
@@ -103,7 +92,7 @@ typedef struct manifold_state {
     manifold_frame frame;
     uint32_t facet_a, facet_b; ///< the features of the patches
     manifold_patch a, b;
-    patch_table to_a, to_b; ///< B's corners to the sides of A; A's to those of B
+    simd_patch_table to_a, to_b; ///< B's corners to the sides of A; A's to those of B
     manifold_polygon polygon;
 } manifold_state;
 
@@ -122,10 +111,10 @@ static inline ovoid_pair pair_make_exchanged(const ovoid_pair *p) {
 /// not features of this pair or do not make such an axis.
 int axis_compute_normal(const pair_frame *frame, const manifold_axis *axis, vec3 *n);
 
-/// A vertex in the frame of the normal.
+/// A vertex in the frame of the normal, with the operations of patch_kernels.place.
 static inline vec3 frame_place_a(const manifold_frame *m, uint32_t vertex) {
     vec3 x = frame_vertex_a(m->pair, vertex);
-    return (vec3){vec3_dot(m->u, x), vec3_dot(m->v, x), vec3_dot(m->n, x)};
+    return (vec3){vec3_dot(m->u, x) + 0.0, vec3_dot(m->v, x) + 0.0, vec3_dot(m->n, x) + 0.0};
 }
 static inline vec3 frame_place_b(const manifold_frame *m, uint32_t vertex) {
     vec3 x = vec3_at(shape_vertices(m->pair->b), vertex);
@@ -167,9 +156,6 @@ void patch_make_b(const manifold_frame *m, uint32_t feature, manifold_patch *p);
 /// The distance of a point from a patch; 0 inside.
 double patch_measure_distance(const manifold_patch *patch, double x, double y);
 
-/// The corners of another patch to the sides of a patch.
-void patch_table_fill(const manifold_patch *patch, const manifold_patch *other, patch_table *table);
-
 /// Which corners count.
 typedef struct clip_rules {
     double snap;
@@ -196,8 +182,9 @@ typedef struct corner_choice {
     uint32_t count, index[4];
     double share; ///< of the polygon's area
 } corner_choice;
-/// The corners that span the most area. earlier: its corners are kept while their share is within 2 % of what it was.
-corner_choice corners_choose(const manifold_polygon *polygon, const ovoid_manifold *earlier);
+/// The deepest corner, to the snap, and those that span the most area with it. earlier: its corners are kept while
+/// their share is within 2 % of what it was, and the deepest of them is the deepest of all to the slack.
+corner_choice corners_choose(const manifold_state *state, const ovoid_manifold *earlier, double slack);
 
 // ---- bounds.c: the upper bound ----
 
@@ -219,6 +206,8 @@ double manifold_compute_rounding(const manifold_state *state);
 
 /// How far from the bodies the points of a corner may be, without rounding.
 double manifold_compute_excess(const manifold_state *state, const manifold_corner *corner);
+/// What the rounding of world coordinates moves a point by.
+double manifold_compute_world_rounding(const manifold_state *state);
 
 /// The corner where patches that do not overlap are nearest, as far as the axis shows it.
 manifold_corner manifold_make_nearest(const manifold_state *state, const manifold_axis *axis);
@@ -234,8 +223,15 @@ int manifold_find_corner(const manifold_state *s, const ovoid_manifold *c, uint3
 void manifold_write_points(const manifold_state *s, const corner_choice *chosen, int is_exchanged,
                            ovoid_manifold_points *out);
 
-/// The points of a corner in the world.
-ovoid_manifold_point manifold_place_corner(const manifold_state *state, const manifold_corner *corner);
+/// Corners as points of the world: affine in their place across the normal.
+typedef struct corner_placing {
+    vec3 origin, x, y, at; ///< a point of A is origin + (x p.x + y p.y + at)
+    vec3 n;                ///< world
+    double gap;            ///< of the cores: none is deeper
+    double radii;
+} corner_placing;
+corner_placing corner_placing_make(const manifold_state *state);
+ovoid_manifold_point corner_placing_get_point(const corner_placing *placing, const manifold_corner *corner);
 
 /// The pair and its contact in the order of order.c; the bodies' sides of a point exchanged.
 typedef struct ordered_pair {
@@ -245,10 +241,6 @@ typedef struct ordered_pair {
 } ordered_pair;
 ordered_pair ordered_pair_make(const ovoid_pair *pair, const ovoid_manifold *c);
 void point_exchange(ovoid_manifold_point *point);
-/// What the rounding of world coordinates moves a point by.
-static inline double point_compute_rounding(const ovoid_manifold_point *p) {
-    return 4 * ROUNDING * max2(vec3_max_abs(p->point_a), vec3_max_abs(p->point_b));
-}
 
 // ---- find.c ----
 
@@ -256,6 +248,7 @@ static inline double point_compute_rounding(const ovoid_manifold_point *p) {
 typedef struct manifold_terms {
     double margin, keep;
     double tolerance; ///< of the bracket, beside the allowances
+    double slack;     ///< by which kept points may be less deep than the polygon: a tenth of the tolerance
     double least;     ///< the least cosine between a facet's normal and the axis
     ovoid_cover *cover;
     ovoid_manifold_points *points; ///< room for the points, or NULL

@@ -13,8 +13,16 @@ double manifold_compute_rounding(const manifold_state *s) {
     return s->frame.pair->claim + 1024 * ROUNDING * steep * steep * s->frame.pair->size;
 }
 
+// A corner outside of its facet may be deeper on the facet's plane than the cores are along the normal: its points are
+// brought to the gap, half of the way each.
 double manifold_compute_excess(const manifold_state *s, const manifold_corner *c) {
-    return c->outside * max2(s->a.steepness, s->b.steepness);
+    return c->outside * max2(s->a.steepness, s->b.steepness) + max2(s->frame.gap - c->separation, 0) / 2;
+}
+
+// A place on a plane is within four times the steepness times the size of A's origin.
+double manifold_compute_world_rounding(const manifold_state *s) {
+    const pair_frame *f = s->frame.pair;
+    return 4 * ROUNDING * (vec3_max_abs(f->world_origin) + 4 * max2(s->a.steepness, s->b.steepness) * f->size);
 }
 
 static void set_heights(const manifold_state *s, manifold_corner *c) {
@@ -27,14 +35,14 @@ static void set_heights(const manifold_state *s, manifold_corner *c) {
 static manifold_corner make_vertex_a(const manifold_state *s, uint32_t vertex) {
     vec3 x = frame_place_a(&s->frame, vertex);
     double separation = patch_get_height(&s->b, x.x, x.y) - x.z;
-    return (manifold_corner){x.x, x.y, separation, patch_measure_distance(&s->b, x.x, x.y),
-                             OVOID_MANIFOLD_ID_VERTEX_A | vertex};
+    return (manifold_corner){
+        x.x, x.y, separation, patch_measure_distance(&s->b, x.x, x.y), OVOID_MANIFOLD_ID_VERTEX_A | vertex, 0};
 }
 static manifold_corner make_vertex_b(const manifold_state *s, uint32_t vertex) {
     vec3 x = frame_place_b(&s->frame, vertex);
     double separation = x.z - patch_get_height(&s->a, x.x, x.y);
-    return (manifold_corner){x.x, x.y, separation, patch_measure_distance(&s->a, x.x, x.y),
-                             OVOID_MANIFOLD_ID_VERTEX_B | vertex};
+    return (manifold_corner){
+        x.x, x.y, separation, patch_measure_distance(&s->a, x.x, x.y), OVOID_MANIFOLD_ID_VERTEX_B | vertex, 0};
 }
 
 // Of a facet and another body the vertex that is extreme; of edges and vertices the nearest points.
@@ -101,26 +109,34 @@ int manifold_find_corner(const manifold_state *s, const ovoid_manifold *c, uint3
     }
 }
 
-ovoid_manifold_point manifold_place_corner(const manifold_state *s, const manifold_corner *c) {
-    const pair_frame *f = s->frame.pair;
-    double z = patch_get_height(&s->a, c->x, c->y);
-    vec3 across = vec3_add_scaled(vec3_scale(s->frame.u, c->x), s->frame.v, c->y);
-    vec3 a = vec3_add_scaled(across, s->frame.n, z + f->a->radius);
-    vec3 b = vec3_add_scaled(across, s->frame.n, z + c->separation - f->b->radius);
-    return (ovoid_manifold_point){.point_a = frame_point_to_world(f, a),
-                                  .point_b = frame_point_to_world(f, b),
-                                  .separation = c->separation - (f->a->radius + f->b->radius),
-                                  .id = c->id};
+corner_placing corner_placing_make(const manifold_state *s) {
+    const manifold_frame *m = &s->frame;
+    const pair_frame *f = m->pair;
+    const manifold_patch *a = &s->a;
+    vec3 normal = frame_direction_to_world(f, m->n);
+    double at = a->at.z[0] - (a->slope_x * a->at.x[0] + a->slope_y * a->at.y[0]) + f->a->radius;
+    return (corner_placing){f->world_origin,
+                            frame_direction_to_world(f, vec3_add_scaled(m->u, m->n, a->slope_x)),
+                            frame_direction_to_world(f, vec3_add_scaled(m->v, m->n, a->slope_y)),
+                            vec3_scale(normal, at),
+                            normal,
+                            m->gap,
+                            f->a->radius + f->b->radius};
+}
+
+ovoid_manifold_point corner_placing_get_point(const corner_placing *p, const manifold_corner *c) {
+    double separation = max2(c->separation, p->gap), lower = (c->separation - separation) / 2;
+    vec3 in = vec3_add_scaled(vec3_add_scaled(vec3_scale(p->x, c->x), p->y, c->y), p->n, lower);
+    vec3 a = vec3_add(p->origin, vec3_add(in, p->at));
+    separation -= p->radii;
+    return (ovoid_manifold_point){a, vec3_add_scaled(a, p->n, separation), separation, c->id};
 }
 
 // ---- the order of the bodies ----
 
 static uint32_t exchange_id(uint32_t id) {
-    switch (feature_get_kind(id)) {
-    case OVOID_MANIFOLD_ID_VERTEX_A: return OVOID_MANIFOLD_ID_VERTEX_B | feature_get_index(id);
-    case OVOID_MANIFOLD_ID_VERTEX_B: return OVOID_MANIFOLD_ID_VERTEX_A | feature_get_index(id);
-    default: return feature_get_kind(id) | (id & 0x7fff) << 15 | (id >> 15 & 0x7fff);
-    }
+    if (id < OVOID_MANIFOLD_ID_CROSSING) return id ^ OVOID_MANIFOLD_ID_VERTEX_B;
+    return (id & OVOID_MANIFOLD_KIND) | (id & 0x7fff) << 15 | (id >> 15 & 0x7fff);
 }
 
 void point_exchange(ovoid_manifold_point *p) {
@@ -157,15 +173,16 @@ ordered_pair ordered_pair_make(const ovoid_pair *pair, const ovoid_manifold *c) 
 void manifold_write_points(const manifold_state *s, const corner_choice *chosen, int is_exchanged,
                            ovoid_manifold_points *out) {
     double excess = 0;
+    corner_placing placing = corner_placing_make(s);
     memset(out, 0, sizeof *out);
     for (uint32_t i = 0; i < chosen->count; i++) {
         const manifold_corner *corner = s->polygon.corners + chosen->index[i];
-        out->points[i] = manifold_place_corner(s, corner);
+        out->points[i] = corner_placing_get_point(&placing, corner);
         if (is_exchanged) point_exchange(out->points + i);
-        excess = max2(excess, manifold_compute_excess(s, corner) + point_compute_rounding(out->points + i));
+        excess = max2(excess, manifold_compute_excess(s, corner));
     }
     out->count = chosen->count;
-    out->grown = excess + manifold_compute_rounding(s);
+    out->grown = excess + manifold_compute_world_rounding(s) + manifold_compute_rounding(s);
 }
 
 void manifold_compute_points_internal(const ovoid_pair *pair, const ovoid_manifold *c, ovoid_manifold_points *out) {

@@ -1,11 +1,13 @@
-// Four corners of a polygon that span the most area: the best quadrilateral up to eight corners, and a local best
-// above, where each corner is moved to its best place between its neighbors.
+// Four corners of a polygon: the deepest one, and those that span the most area with it. From a fixed corner the
+// triangle over a diagonal grows up to its best tip and shrinks behind it, and the best tips move on with the
+// diagonal's end: so the best quadrilateral of one corner is found in linear time. Where many corners are equally deep,
+// as of a face on a face, the best of up to eight of them is taken: up to eight corners it is the best quadrilateral.
 #include "manifold/manifold.h"
 
 // A choice must be better by this part to replace an equal one, so that rounding does not choose.
 #define BETTER (1 + 1e-6)
 
-enum { EXHAUSTIVE = 8, SWEEPS = 16 };
+enum { STARTS = 8 };
 
 // Twice the area of a triangle of corners.
 static double get_area(const manifold_corner *c, uint32_t i, uint32_t j, uint32_t k) {
@@ -15,47 +17,67 @@ static double get_area_of_four(const manifold_corner *c, const uint32_t at[4]) {
     return get_area(c, at[0], at[1], at[2]) + get_area(c, at[0], at[2], at[3]);
 }
 
-// The corner that makes the largest triangle over i and k, of those from i + 1 on to before k.
-static uint32_t find_tip(const manifold_polygon *p, uint32_t i, uint32_t k) {
-    uint32_t best = (i + 1) % p->count;
-    double most = get_area(p->corners, i, best, k);
-    for (uint32_t j = best; j != k; j = (j + 1) % p->count) {
-        double area = get_area(p->corners, i, j, k);
-        if (area > most * BETTER) most = area, best = j;
-    }
-    return best;
+// A polygon of which four corners are wanted.
+typedef struct reduction {
+    const manifold_polygon *polygon;
+    double gap, deep; ///< no corner counts as deeper than the gap; a corner up to `deep` is a deepest one
+    uint32_t best[4]; ///< ascending
+    double area;      ///< twice theirs
+} reduction;
+
+static int is_deep(const reduction *r, uint32_t i) {
+    return max2(r->polygon->corners[i].separation, r->gap) <= r->deep;
 }
 
-// Over each diagonal the best tip on each side.
-static double choose_exhaustively(const manifold_polygon *p, uint32_t best[4]) {
-    double most = -1;
-    for (uint32_t i = 0; i + 2 < p->count; i++)
-        for (uint32_t k = i + 2; k < p->count - (i == 0); k++) {
-            const uint32_t at[4] = {i, find_tip(p, i, k), k, find_tip(p, k, i)};
-            double area = get_area_of_four(p->corners, at);
-            if (!(area > most * BETTER)) continue;
-            most = area;
-            for (int c = 0; c < 4; c++) best[c] = at[c];
+static void sort_four(uint32_t at[4]) {
+    for (int i = 1; i < 4; i++)
+        for (int k = i; k > 0 && at[k - 1] > at[k]; k--) {
+            uint32_t swapped = at[k];
+            at[k] = at[k - 1];
+            at[k - 1] = swapped;
         }
-    return most;
 }
 
-static double choose_by_ascent(const manifold_polygon *p, uint32_t best[4]) {
-    double most = -1;
-    for (uint32_t start = 0; start < 4 && start < (p->count + 3) / 4; start++) {
-        uint32_t at[4];
-        for (uint32_t c = 0; c < 4; c++) at[c] = (c * p->count / 4 + start) % p->count;
-        double area = get_area_of_four(p->corners, at), before = -1;
-        for (int sweep = 0; sweep < SWEEPS && area > before * BETTER; sweep++) {
-            before = area;
-            for (int c = 0; c < 4; c++) at[c] = find_tip(p, at[(c + 3) % 4], at[(c + 1) % 4]);
-            area = get_area_of_four(p->corners, at);
+static void take(reduction *r, const uint32_t at[4], double area) {
+    if (!(area > r->area * BETTER)) return;
+    r->area = area;
+    for (int c = 0; c < 4; c++) r->best[c] = at[c];
+}
+
+// The best quadrilateral with corner i: over each diagonal from it the best tip on each side.
+static void choose_from(reduction *r, uint32_t i) {
+    const manifold_polygon *p = r->polygon;
+    uint32_t count = p->count, right = (i + 1) % count, left = (i + 3) % count;
+    for (uint32_t step = 2; step + 1 < count; step++) {
+        uint32_t k = (i + step) % count;
+        double area = get_area(p->corners, i, right, k), more;
+        for (uint32_t next = (right + 1) % count; next != k; next = (right + 1) % count) {
+            more = get_area(p->corners, i, next, k);
+            if (!(more > area * BETTER)) break;
+            area = more;
+            right = next;
         }
-        if (!(area > most * BETTER)) continue;
-        most = area;
-        for (int c = 0; c < 4; c++) best[c] = at[c];
+        if (left == k) left = (k + 1) % count;
+        double other = get_area(p->corners, i, k, left);
+        for (uint32_t next = (left + 1) % count; next != i; next = (left + 1) % count) {
+            more = get_area(p->corners, i, k, next);
+            if (!(more > other * BETTER)) break;
+            other = more;
+            left = next;
+        }
+        const uint32_t at[4] = {i, right, k, left};
+        take(r, at, area + other);
     }
-    return most;
+}
+
+// Of the deepest corners at most STARTS, evenly.
+static void choose(reduction *r) {
+    uint32_t count = 0, seen = 0;
+    for (uint32_t i = 0; i < r->polygon->count; i++) count += (uint32_t)is_deep(r, i);
+    uint32_t stride = (count + STARTS - 1) / STARTS;
+    for (uint32_t i = 0; i < r->polygon->count; i++)
+        if (is_deep(r, i) && seen++ % stride == 0) choose_from(r, i);
+    sort_four(r->best);
 }
 
 // The places of the earlier corners, in the polygon's order; 0 if not all four are there.
@@ -70,32 +92,43 @@ static int find_earlier(const manifold_polygon *p, const ovoid_manifold *earlier
     return count == 4;
 }
 
-// Turns the corners, which go around, so that the first one comes first in the polygon.
-static void begin_with_lowest(uint32_t at[4]) {
-    while (at[0] > at[1] || at[0] > at[2] || at[0] > at[3]) {
-        uint32_t first = at[0];
-        for (int c = 0; c < 3; c++) at[c] = at[c + 1];
-        at[3] = first;
+// The earlier corners; with the deepest one, if it is none of them, in the place of the one that is missed least.
+static void keep(reduction *r, const uint32_t old[4]) {
+    const manifold_corner *c = r->polygon->corners;
+    uint32_t deepest = 0;
+    for (uint32_t i = 1; i < r->polygon->count; i++)
+        if (c[i].separation < c[deepest].separation) deepest = i;
+    int has_deep = 0;
+    for (int k = 0; k < 4; k++) has_deep |= is_deep(r, old[k]);
+    if (has_deep) take(r, old, get_area_of_four(c, old));
+    for (int k = 0; k < 4 && !has_deep; k++) {
+        uint32_t at[4] = {old[0], old[1], old[2], old[3]};
+        at[k] = deepest;
+        sort_four(at);
+        take(r, at, get_area_of_four(c, at));
     }
 }
 
-corner_choice corners_choose(const manifold_polygon *p, const ovoid_manifold *earlier) {
+corner_choice corners_choose(const manifold_state *s, const ovoid_manifold *earlier, double slack) {
+    const manifold_polygon *p = &s->polygon;
     corner_choice choice = {p->count, {0, 1, 2, 3}, 1};
     if (p->count <= 4) return choice;
-    uint32_t old[4] = {0};
-    double all = 2 * p->area, kept = find_earlier(p, earlier, old) ? get_area_of_four(p->corners, old) : -1;
-    choice.count = 4;
-    double most = kept;
-    int is_kept = kept >= 0 && earlier->corners > 4 && kept >= (earlier->share - 0.02) * all;
+    double least = INFINITY, all = 2 * p->area;
+    for (uint32_t i = 0; i < p->count; i++) least = min2(least, p->corners[i].separation);
+    double gap = s->frame.gap, deepest = max2(least, gap), snap = MANIFOLD_SNAP * s->frame.pair->size;
+    reduction r = {p, gap, deepest + snap, {0, 1, 2, 3}, -1};
+    uint32_t old[4];
+    reduction kept = r;
+    kept.deep = deepest + max2(snap, slack);
+    if (find_earlier(p, earlier, old)) keep(&kept, old);
+    int is_kept = kept.area >= 0 && earlier->corners > 4 && kept.area >= (earlier->share - 0.02) * all;
     if (!is_kept) {
-        uint32_t best[4] = {0};
-        most = p->count <= EXHAUSTIVE ? choose_exhaustively(p, best) : choose_by_ascent(p, best);
-        is_kept = kept >= 0.98 * most;
-        for (int c = 0; c < 4 && !is_kept; c++) choice.index[c] = best[c];
+        choose(&r);
+        is_kept = kept.area >= 0.98 * r.area;
     }
-    for (int c = 0; c < 4 && is_kept; c++) choice.index[c] = old[c];
-    begin_with_lowest(choice.index);
-    if (is_kept) most = kept;
-    choice.share = all > 0 ? min2(most / all, 1) : 1;
+    if (is_kept) r = kept;
+    choice.count = 4;
+    for (int c = 0; c < 4; c++) choice.index[c] = r.best[c];
+    choice.share = all > 0 ? min2(r.area / all, 1) : 1;
     return choice;
 }

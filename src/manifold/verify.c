@@ -87,6 +87,26 @@ static int find_place(const manifold_polygon *p, uint32_t id) {
     return -1;
 }
 
+static double get_separation(const checker *c, const manifold_corner *corner) {
+    return max2(corner->separation, c->state.frame.gap);
+}
+
+// No corner of the polygon is deeper than the deepest point. A corner near another one that stands for it is deeper by
+// no more than the snap, once for the polygon here and once for that of the query.
+static ovoid_code verify_deepest(const checker *c) {
+    const manifold_state *s = &c->state;
+    double deepest = INFINITY, given = INFINITY,
+           room = 2 * MANIFOLD_SNAP * c->frame->size + max2(MANIFOLD_SNAP * c->frame->size, c->terms.slack);
+    for (uint32_t i = 0; i < s->polygon.count; i++) deepest = min2(deepest, get_separation(c, s->polygon.corners + i));
+    for (uint32_t i = 0; i < c->given->count; i++) {
+        manifold_corner corner;
+        if (manifold_find_corner(s, c->given, c->given->id[i], &corner))
+            given = min2(given, get_separation(c, &corner));
+    }
+    if (given <= deepest + room + manifold_compute_rounding(s)) return OVOID_OK;
+    return refuse(c, "the deepest point is at %.9g; the polygon has a corner at %.9g", given, deepest);
+}
+
 // The polygon again: without kept corners it does not depend on earlier contacts.
 static ovoid_code verify_polygon(const checker *c) {
     const manifold_polygon *p = &c->state.polygon;
@@ -138,6 +158,7 @@ static ovoid_code verify_contact(checker *c) {
     ovoid_code code = verify_lower(c);
     if (code == OVOID_OK) code = verify_upper(c);
     for (uint32_t i = 0; i < m->count && code == OVOID_OK; i++) code = verify_point(c, i);
+    if (code == OVOID_OK) code = verify_deepest(c);
     if (code == OVOID_OK) code = verify_polygon(c);
     const ovoid_verdict verdict = {.status = m->status, .lower = m->lower, .upper = m->upper};
     if (code == OVOID_OK) code = status_verify_internal(verdict, c->terms.tolerance, c->error);

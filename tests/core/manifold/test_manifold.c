@@ -1,9 +1,6 @@
 // Contacts of plain bodies. Truth: positions by hand; for random pairs the bracket of ovoid_depth, which has its own
 // judge, and the verifier.
-#include "check.h"
-#include "ovoid/ovoid.h"
-
-#include "linear/vec3.h"
+#include "manifolds.h"
 
 static ovoid_quat turn_z(double angle) { return (ovoid_quat){cos(angle / 2), 0, 0, sin(angle / 2)}; }
 #define PI 3.14159265358979323846
@@ -255,6 +252,132 @@ static void test_random(void) {
     check_seed = 0;
 }
 
+// Hulls that are moved and searched again each time, with kept corners: no point is deeper than the bodies, and the
+// deepest one is as deep. Corners that are one differ by 1e-6 of the size, which is below 6, and so do those that a
+// kept corner stands for, and those that the points are chosen among.
+static void test_depth_of_points(void) {
+    ovoid_manifold_points points;
+    ovoid_cover cover;
+    const ovoid_manifold_options o = {.margin = 0.02, .keep = 0.03, .cover = &cover, .points = &points};
+    int kept = 0;
+    for (uint64_t seed = 1; seed <= 200; seed++) {
+        uint64_t s = check_seed = seed;
+        ovoid_shape *a = create_hull(&s), *b = create_hull(&s);
+        ovoid_pair pair = {a, b, {{0, 0, 0}, random_turn(&s)}, {{0, 0, 0}, random_turn(&s)}};
+        place(&pair, random_uniform(&s, -0.1, -0.01), &s);
+        ovoid_manifold m = {0};
+        for (int k = 0; k < 5; k++) {
+            pair.pose_b.position = vec3_add_scaled(pair.pose_b.position, (vec3){random_normal(&s), 1, -1}, 2e-3);
+            pair.pose_b.rotation.x += 2e-3 * random_normal(&s);
+            ovoid_manifold next = ovoid_manifold_find(&pair, &o, &m);
+            kept += k > 0 && next.id[0] == m.id[0];
+            m = next;
+            check_contact(&pair, &m, &o);
+            if (!(m.upper < 0)) continue;
+            double least = find_deepest(points.points, points.count);
+            CHECK_LE(m.lower, least + 1e-12);
+            CHECK_LE(least, m.lower + 18e-6);
+        }
+        ovoid_shape_destroy(a);
+        ovoid_shape_destroy(b);
+    }
+    check_seed = 0;
+    CHECK(kept > 200);
+}
+
+// Twice the area of four points about a normal.
+static double find_area(const ovoid_manifold_point *p[4], vec3 n) {
+    vec3 d = vec3_sub(p[2]->point_a, p[0]->point_a), e = vec3_sub(p[3]->point_a, p[1]->point_a);
+    return vec3_dot(vec3_cross(d, e), n);
+}
+
+// Four corners of the polygon that are less deep than its deepest, with their share: the verifier refuses them.
+static int refuse_without_deepest(const ovoid_pair *pair, const ovoid_manifold *m, const ovoid_manifold_options *o,
+                                  const ovoid_manifold_polygon *polygon) {
+    double all = 0;
+    uint32_t count = polygon->count, deepest = 0;
+    const ovoid_manifold_point *p = polygon->points;
+    for (uint32_t i = 1; i < count; i++)
+        if (p[i].separation < p[deepest].separation) deepest = i;
+    for (uint32_t i = 1; i + 1 < count; i++)
+        all +=
+            vec3_dot(vec3_cross(vec3_sub(p[i].point_a, p->point_a), vec3_sub(p[i + 1].point_a, p->point_a)), m->normal);
+    ovoid_manifold lie = *m;
+    const ovoid_manifold_point *four[4];
+    uint32_t taken = 0;
+    for (uint32_t i = 0; i < count && taken < 4; i++) {
+        if (p[i].separation <= p[deepest].separation + 3e-5) continue;
+        lie.id[taken] = p[i].id;
+        four[taken++] = p + i;
+    }
+    if (taken < 4) return 0;
+    lie.share = (float)(find_area(four, m->normal) / all);
+    CHECK(ovoid_manifold_verify(pair, &lie, o, NULL) != OVOID_OK);
+    return 1;
+}
+
+// A box turned about the normal and tilted over a larger one: of six to eight corners the deepest is among the four,
+// in the next frames too, where other corners are the deepest. To 1e-6 of the size, which is below 6.
+static void test_deepest_of_many(void) {
+    ovoid_error error;
+    ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, NULL, &error);
+    static ovoid_manifold_polygon polygon;
+    ovoid_manifold_points points;
+    ovoid_cover cover;
+    const ovoid_manifold_options o = {.cover = &cover, .points = &points};
+    int many = 0, refused = 0;
+    for (uint64_t seed = 1; seed <= 200; seed++) {
+        uint64_t s = check_seed = seed;
+        ovoid_pair pair = pair_of(box, box, (vec3){0.1, -0.05, 1.95}, turn_z(random_uniform(&s, 0.2, 1.4)));
+        ovoid_manifold m = {0};
+        for (int k = 0; k < 5; k++) {
+            ovoid_pose tilt = {{0, 0, 0}, {1, 2e-3 * random_normal(&s), 2e-3 * random_normal(&s), 0}};
+            ovoid_pose turned = {{0, 0, 0}, turn_z(random_uniform(&s, 0.7, 0.9))};
+            pair.pose_b.rotation = ovoid_pose_compute_product(&tilt, &turned).rotation;
+            m = ovoid_manifold_find(&pair, &o, &m);
+            CHECK_EQ(ovoid_manifold_compute_polygon(&pair, &m, &o, &polygon), OVOID_OK);
+            CHECK_LE(find_deepest(points.points, points.count), find_deepest(polygon.points, polygon.count) + 6e-6);
+            many += m.corners > 4;
+            check_contact(&pair, &m, &o);
+            if (!(m.memory.flags & 2)) refused += refuse_without_deepest(&pair, &m, &o, &polygon);
+        }
+    }
+    check_seed = 0;
+    CHECK(many > 500);
+    CHECK(refused > 20);
+    ovoid_shape_destroy(box);
+}
+
+// A prism of 100 sides that stands on one edge of its end, a little: of its 100 corners 64 are used, the lowest among
+// them, so the point is as deep as the bodies.
+static void test_many_corners(void) {
+    ovoid_error error;
+    ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){3, 3, 1}, NULL, &error);
+    double xyz[3 * 200];
+    for (int i = 0; i < 200; i++) {
+        double angle = 2 * PI * (i % 100) / 100;
+        xyz[3 * i] = cos(angle);
+        xyz[3 * i + 1] = sin(angle);
+        xyz[3 * i + 2] = i < 100 ? -1 : 1;
+    }
+    ovoid_shape *prism = ovoid_shape_create_from_points(xyz, 200, NULL, &error);
+    ovoid_manifold_points points;
+    ovoid_cover cover;
+    const ovoid_manifold_options o = {.cover = &cover, .points = &points};
+    for (int k = 0; k < 20; k++) {
+        ovoid_pair pair = pair_of(box, prism, (vec3){0.1, 0.2, 1.95}, turn_z(0.3 + k));
+        ovoid_pose tilt = {{0, 0, 0}, {1, 0.01, 0.002 * k, 0}};
+        pair.pose_b.rotation = ovoid_pose_compute_product(&tilt, &pair.pose_b).rotation;
+        ovoid_manifold m = ovoid_manifold_find(&pair, &o, NULL);
+        CHECK_EQ(m.count, 4);
+        CHECK_NEAR(find_deepest(points.points, points.count), m.lower, 1e-5);
+        check_contact(&pair, &m, &o);
+        check_exchanged(&pair, &m, &o);
+    }
+    ovoid_shape_destroy(box);
+    ovoid_shape_destroy(prism);
+}
+
 // Equal boxes on one another, moved by rounding: with jitter of 1e-9 no id changes; with 1e-5, where corners are kept
 // while they are outside by 0.005, in at most one frame of 20.
 static void test_rest(void) {
@@ -288,5 +411,8 @@ int main(void) {
     test_round();
     test_margin();
     test_random();
+    test_depth_of_points();
+    test_deepest_of_many();
+    test_many_corners();
     return check_end();
 }
