@@ -127,19 +127,6 @@ struct contact_query {
 };
 
 /**
- * A corner that is kept outside of its facet is measured on the facet's plane, which may be deeper there than the
- * bodies are along the normal: it is brought to their depth, about its middle.
- */
-inline void limit_depth(const ovoid_manifold &of, ovoid_manifold_point &p) {
-    const double more = of.lower - p.separation;
-    if (!(more > 0) || !std::isfinite(more)) return;
-    const ovoid_vec3 n = of.normal;
-    p.point_a = {p.point_a.x - 0.5 * more * n.x, p.point_a.y - 0.5 * more * n.y, p.point_a.z - 0.5 * more * n.z};
-    p.point_b = {p.point_b.x + 0.5 * more * n.x, p.point_b.y + 0.5 * more * n.y, p.point_b.z + 0.5 * more * n.z};
-    p.separation = of.lower;
-}
-
-/**
  * The points of a contact; none if the shapes are farther apart than the margin. kept: the contact of the last step,
  * all zero in the first, which is replaced. A pair that is as far apart as in the last step, along the same direction,
  * costs two supports; one whose balls are far apart next to nothing.
@@ -161,7 +148,6 @@ inline ovoid_manifold_points find_contact(const contact_query &of, const contact
     ovoid_manifold_points points = {};
     options.points = &points;
     kept = ovoid_manifold_find(&pair, &options, &kept);
-    for (std::uint32_t i = 0; i < points.count; i++) limit_depth(kept, points.points[i]);
     return points;
 }
 
