@@ -27,7 +27,8 @@ typedef enum ovoid_manifold_proof {
     OVOID_MANIFOLD_PROOF_POINTS,   /**< the contact's points: no point of A is closer to B than they are */
     OVOID_MANIFOLD_PROOF_FACETS, /**< the facets met: the difference of the bodies holds a frustum around the origin */
     OVOID_MANIFOLD_PROOF_SEARCH /**< the surface around the origin (ovoid_cover) that a search found, now or earlier; an
-                                  earlier one less the motion since then */
+                                  earlier one less the motion since then. Where the options have no cover, also what the
+                                  facets of an earlier contact showed that needed no search, less the motion */
 } ovoid_manifold_proof;
 
 /**
@@ -140,10 +141,12 @@ typedef struct ovoid_manifold_polygon {
 /**
  * The contact of two bodies. earlier: the pair's last contact, of the same two shapes, or NULL. While its bracket,
  * measured again, is at most options.tolerance wide, its features are used again without a search; else the pair is
- * searched as by ovoid_depth, and ids are carried over. Only its upper bound is taken on trust: it may hold any bytes
- * without harm but to `upper`. Refused pairs have a limit that says why, and no points. The contact of the same pair
- * with the bodies exchanged is this one with the sides exchanged, bit for bit (ovoid_manifold_make_swapped), unless
- * shapes and poses are the same. Cost: a depth query, or a fraction of it where the earlier contact serves.
+ * searched as by ovoid_depth, and ids are carried over. Bodies that were farther apart than the margin are measured
+ * along the same direction first, and facets that lie on one another where the line of centres meets them need no
+ * search. Only its upper bound is taken on trust: it may hold any bytes without harm but to `upper`. Refused pairs have
+ * a limit that says why, and no points. The contact of the same pair with the bodies exchanged is this one with the
+ * sides exchanged, bit for bit (ovoid_manifold_make_swapped), unless shapes and poses are the same. Cost: a depth
+ * query, or a fraction of it where the earlier contact serves.
  */
 OVOID_API ovoid_manifold ovoid_manifold_find(const ovoid_pair *pair, const ovoid_manifold_options *options,
                                              const ovoid_manifold *earlier);

@@ -39,10 +39,19 @@ int manifold_terms_make(const ovoid_manifold_options *given, const pair_frame *f
 
 // ---- what the features show ----
 
+// A unit direction and the gap of the cores along it.
+typedef struct gap_along {
+    vec3 n, n_in_b;
+    double gap;
+} gap_along;
+
+static double compute_lower_along(const pair_frame *f, const gap_along *g) {
+    double lower = g->gap - f->lower_radii - f->claim;
+    return frame_take_gain(lower, frame_compute_gain(f, g->n, g->n_in_b, AXIS_CLAIM));
+}
+
 double manifold_compute_lower(const manifold_frame *m) {
-    const pair_frame *f = m->pair;
-    double lower = m->gap - f->lower_radii - f->claim;
-    return frame_take_gain(lower, frame_compute_gain(f, m->n, m->n_in_b, AXIS_CLAIM));
+    return compute_lower_along(m->pair, &(gap_along){m->n, m->n_in_b, m->gap});
 }
 
 double manifold_compute_points_upper(const manifold_state *s) {
@@ -93,18 +102,23 @@ static void take_upper(bracket *b, double upper, ovoid_manifold_proof proof) {
     b->proof = proof;
 }
 
+// How wide a bracket may be, beside the allowances, and what an earlier search left, or NULL.
+typedef struct demand {
+    double width;
+    const ovoid_manifold_memory *memory;
+} demand;
+
 // The bounds that the features show; of overlaps also the one that is left of an earlier search, where they show less
 // than enough.
-static bracket measure(const task *t, const manifold_state *s, const manifold_axis *axis,
-                       const ovoid_manifold_memory *memory) {
+static bracket measure(const task *t, const manifold_state *s, const manifold_axis *axis, const demand *d) {
     const pair_frame *f = &t->frame;
     bracket b = {manifold_compute_lower(&s->frame), INFINITY, OVOID_MANIFOLD_PROOF_NONE};
-    double enough = b.lower + t->terms.tolerance + frame_get_allowance(f);
+    double enough = b.lower + d->width + frame_get_allowance(f);
     take_upper(&b, manifold_compute_points_upper(s), OVOID_MANIFOLD_PROOF_POINTS);
     if (!(s->frame.gap < 0) || b.upper <= enough) return b;
     double depth = manifold_prove_depth(s, axis, -enough - f->upper_radii);
     if (depth > 0) take_upper(&b, -depth - f->upper_radii, OVOID_MANIFOLD_PROOF_FACETS);
-    if (b.upper > enough) take_upper(&b, memory_compute_upper(memory, f), OVOID_MANIFOLD_PROOF_SEARCH);
+    if (b.upper > enough && d->memory) take_upper(&b, memory_compute_upper(d->memory, f), OVOID_MANIFOLD_PROOF_SEARCH);
     return b;
 }
 
@@ -154,7 +168,73 @@ static void write_points(const task *t, const manifold_state *s, const manifold_
     if (t->terms.points) manifold_write_points(s, &chosen, t->is_exchanged, t->terms.points);
 }
 
+// ---- a guess ----
+
+// Of the facets around a vertex the one that a ray along d from the inner centre meets first.
+static uint32_t find_exit(const ovoid_shape *s, uint32_t vertex, vec3 d) {
+    const uint32_t *starts = shape_neighbor_starts(s);
+    uint32_t best = UINT32_MAX;
+    double most = 0;
+    for (uint32_t i = starts[vertex]; i < starts[vertex + 1]; i++) {
+        uint32_t facet = shape_edge_facets(s)[i];
+        const ovoid_plane *plane = shape_planes(s) + facet;
+        double rate = vec3_dot(plane->normal, d) / (plane->offset - vec3_dot(plane->normal, s->inner.center));
+        if (rate > most) most = rate, best = facet;
+    }
+    return best;
+}
+
+// The facets that the line of centres meets, if they are on one another.
+static int guess_facets(const pair_frame *f, manifold_axis *axis, vec3 *n) {
+    if (f->a->rank < 3 || f->b->rank < 3) return 0;
+    vec3 d = vec3_sub(frame_b(f, f->b->inner.center), f->a->inner.center);
+    vec3 in_b = vec3_neg(mat3_mul_transposed_vec3(f->rotation, d));
+    simd_pair ends = frame_find_pair(f, d, in_b);
+    uint32_t a = find_exit(f->a, ends.high.index, d), b = find_exit(f->b, ends.low.index, in_b);
+    if (a == UINT32_MAX || b == UINT32_MAX) return 0;
+    *n = shape_get_facet_normal(f->a, a);
+    vec3 other = mat3_mul_vec3(f->rotation, shape_get_facet_normal(f->b, b));
+    *axis = (manifold_axis){OVOID_MANIFOLD_FACE_A, OVOID_MANIFOLD_FACET | a, OVOID_MANIFOLD_VERTEX | ends.low.index};
+    return vec3_dot(*n, other) <= -1 + 1e-12;
+}
+
+// 1 if facets that are on one another show the contact as exactly as a search would.
+COMPILER_NOINLINE static int find_guess(const task *t, ovoid_manifold *out) {
+    manifold_state state, *s = &state;
+    manifold_axis axis;
+    vec3 n;
+    if (!guess_facets(&t->frame, &axis, &n)) return 0;
+    build(t, &axis, n, s);
+    axis.b = OVOID_MANIFOLD_VERTEX | s->frame.low_b;
+    double width = min2(t->terms.tolerance, 1e-9 * t->frame.size);
+    bracket b = measure(t, s, &axis, &(demand){width, NULL});
+    if (b.lower > t->terms.margin) {
+        write_apart(b.lower, frame_direction_to_world(&t->frame, n), out);
+        return 1;
+    }
+    if (!(b.upper - b.lower <= width + frame_get_allowance(&t->frame))) return 0;
+    write_points(t, s, &axis, n, out);
+    write_bracket(t, &b, OVOID_LIMIT_NONE, out);
+    // Where a cover is wanted an upper bound that ages is one that the cover shows.
+    if (!t->terms.cover && b.upper < 0) memory_set_search(&out->memory, &t->pair, &t->frame, b.upper);
+    return 1;
+}
+
 // ---- the earlier contact's features ----
+
+// 1 if the bodies are farther apart than the margin along the direction that showed it last.
+static int find_apart(const task *t, ovoid_manifold *out) {
+    const ovoid_manifold *e = t->earlier;
+    const pair_frame *f = &t->frame;
+    if (!e || e->axis != OVOID_MANIFOLD_NONE || e->status != OVOID_SEPARATED || !is_unit(e->normal)) return 0;
+    vec3 n = vec3_unit(frame_direction_from_world(f, e->normal)), in_b = mat3_mul_transposed_vec3(f->rotation, n);
+    simd_pair ends = frame_find_pair(f, n, vec3_neg(in_b));
+    double gap = (vec3_dot(n, f->translation) - ends.low.value) - ends.high.value;
+    double lower = compute_lower_along(f, &(gap_along){n, in_b, gap});
+    if (!(lower > t->terms.margin)) return 0;
+    write_apart(lower, e->normal, out);
+    return 1;
+}
 
 // 1 if the earlier contact's features, measured again, are the contact.
 COMPILER_NOINLINE static int find_warm(const task *t, ovoid_manifold *out) {
@@ -170,7 +250,7 @@ COMPILER_NOINLINE static int find_warm(const task *t, ovoid_manifold *out) {
     }
     if (!axis_compute_normal(f, &axis, &n) || !(fabs(vec3_norm_squared(n) - 1) < 1e-9)) return 0;
     build(t, &axis, n, s);
-    bracket b = measure(t, s, &axis, &e->memory);
+    bracket b = measure(t, s, &axis, &(demand){t->terms.tolerance, &e->memory});
     if (b.lower > t->terms.margin) {
         write_apart(b.lower, frame_direction_to_world(f, n), out);
         return 1;
@@ -217,7 +297,7 @@ COMPILER_NOINLINE static void take_answer(const task *t, const ovoid_answer *ans
     if (answer->proof.kind == OVOID_PROOF_COVER) memory_set_search(&memory, &t->pair, f, answer->upper);
     manifold_axis axis = axis_choose(f, 0.25 * min2(1e-9 * f->size, t->terms.tolerance), &n);
     build(t, &axis, n, s);
-    bracket b = measure(t, s, &axis, &memory);
+    bracket b = measure(t, s, &axis, &(demand){t->terms.tolerance, &memory});
     if (!is_narrow(t, &b) && answer->proof.kind == OVOID_PROOF_COVER)
         take_upper(&b, answer->upper, OVOID_MANIFOLD_PROOF_SEARCH);
     write_points(t, s, &axis, given, out);
@@ -260,7 +340,7 @@ void manifold_find_internal(const ovoid_pair *pair, const ovoid_manifold_options
     t.earlier = earlier;
     if (t.is_exchanged && earlier) before = ovoid_manifold_make_swapped(earlier), t.earlier = &before;
     memset(out, 0, sizeof *out);
-    if (!find_warm(&t, out)) find_cold(&t, out);
+    if (!find_apart(&t, out) && !find_warm(&t, out) && !find_guess(&t, out)) find_cold(&t, out);
     out->memory.flags &= ~(uint32_t)MANIFOLD_EXCHANGED;
     if (t.is_exchanged) *out = ovoid_manifold_make_swapped(out);
 }

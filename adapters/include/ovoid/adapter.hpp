@@ -138,8 +138,6 @@ inline ovoid_manifold_points find_contact(const contact_query &of, const contact
         return {};
     }
     const ovoid_pair pair = of.pair();
-    const bool was_apart = kept.status == OVOID_SEPARATED && kept.count == 0;
-    if (was_apart && ovoid_pair_compute_gap(&pair, kept.normal) > of.margin) return {};
     const double size = std::min(of.a->radius, of.b->radius);
     ovoid_manifold_options options = {};
     options.margin = of.margin;

@@ -316,6 +316,46 @@ static int refuse_without_deepest(const ovoid_pair *pair, const ovoid_manifold *
     return 1;
 }
 
+// Boxes on one another need no search: the cover stays as it was, whose kind no search writes. So do boxes that were
+// apart and are farther than the margin along the same direction; boxes that then touch are found.
+static void test_without_search(void) {
+    ovoid_error error;
+    ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, NULL, &error);
+    static ovoid_cover cover, untouched;
+    memset(&untouched, 0x5a, sizeof untouched);
+    ovoid_manifold_options o = {.margin = 0.05, .cover = &cover};
+    for (uint64_t seed = 1; seed <= 50; seed++) {
+        uint64_t s = check_seed = seed;
+        vec3 at = {random_uniform(&s, -0.8, 0.8), random_uniform(&s, -0.8, 0.8), 1.99};
+        ovoid_pair pair = pair_of(box, box, at, turn_z(random_uniform(&s, 0, 6)));
+        cover = untouched;
+        ovoid_manifold m = ovoid_manifold_find(&pair, &o, NULL);
+        CHECK(memcmp(&cover, &untouched, sizeof cover) == 0);
+        CHECK_NEAR(m.lower, -0.01, 1e-12);
+        CHECK_NEAR(m.upper, -0.01, 1e-9 * 6);
+        check_contact(&pair, &m, &o);
+        check_exchanged(&pair, &m, &o);
+    }
+    check_seed = 0;
+    // Apart along a diagonal, where no facets are on one another.
+    ovoid_pair pair = pair_of(box, box, (vec3){2.2, 2.2, 2.2}, straight);
+    ovoid_manifold m = ovoid_manifold_find(&pair, &o, NULL);
+    CHECK_EQ(m.axis, OVOID_MANIFOLD_NONE);
+    vec3 n = m.normal;
+    pair.pose_b.position = (vec3){2.15, 2.2, 2.25};
+    cover = untouched;
+    m = ovoid_manifold_find(&pair, &o, &m);
+    CHECK(memcmp(&cover, &untouched, sizeof cover) == 0);
+    CHECK(m.axis == OVOID_MANIFOLD_NONE && memcmp(&m.normal, &n, sizeof n) == 0);
+    check_contact(&pair, &m, &o);
+    CHECK_NEAR(m.lower, ovoid_pair_compute_gap(&pair, n), 1e-12);
+    pair.pose_b.position = (vec3){1.97, 1.98, 1.99};
+    m = ovoid_manifold_find(&pair, &o, &m);
+    CHECK_NEAR(m.lower, -0.01, 1e-9);
+    check_contact(&pair, &m, &o);
+    ovoid_shape_destroy(box);
+}
+
 // A box turned about the normal and tilted over a larger one: of six to eight corners the deepest is among the four,
 // in the next frames too, where other corners are the deepest. To 1e-6 of the size, which is below 6.
 static void test_deepest_of_many(void) {
@@ -411,6 +451,7 @@ int main(void) {
     test_round();
     test_margin();
     test_random();
+    test_without_search();
     test_depth_of_points();
     test_deepest_of_many();
     test_many_corners();
