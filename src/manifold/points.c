@@ -45,6 +45,13 @@ static manifold_corner make_vertex_b(const manifold_state *s, uint32_t vertex) {
         x.x, x.y, separation, patch_measure_distance(&s->a, x.x, x.y), OVOID_MANIFOLD_ID_VERTEX_B | vertex, 0};
 }
 
+// A vertex that is no corner of its own patch is none of the polygon: its patch is not there where it is.
+static int patch_has_vertex(const manifold_patch *p, uint32_t vertex) {
+    int found = 0;
+    for (uint32_t i = 0; i < p->at.count; i++) found |= p->at.vertices[i] == vertex;
+    return found;
+}
+
 // Of a facet and another body the vertex that is extreme; of edges and vertices the nearest points.
 manifold_corner manifold_make_nearest(const manifold_state *s, const manifold_axis *axis) {
     const manifold_frame *m = &s->frame;
@@ -97,11 +104,11 @@ int manifold_find_corner(const manifold_state *s, const ovoid_manifold *c, uint3
     const manifold_axis axis = {c->axis, c->feature_a, c->feature_b};
     switch (feature_get_kind(id)) {
     case OVOID_MANIFOLD_ID_VERTEX_A:
-        if (index >= s->frame.pair->a->vertex_count) return 0;
+        if (!patch_has_vertex(&s->a, index)) return 0;
         *corner = make_vertex_a(s, index);
         return 1;
     case OVOID_MANIFOLD_ID_VERTEX_B:
-        if (index >= s->frame.pair->b->vertex_count) return 0;
+        if (!patch_has_vertex(&s->b, index)) return 0;
         *corner = make_vertex_b(s, index);
         return 1;
     case OVOID_MANIFOLD_ID_CROSSING: return find_crossing(s, id, corner);

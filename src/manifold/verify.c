@@ -153,6 +153,8 @@ static ovoid_code verify_contact(checker *c) {
         if (m->id[i]) return refuse(c, "an id without a point");
     vec3 n = frame_direction_to_world(c->frame, c->state.frame.n);
     if (!(vec3_norm(vec3_sub(n, m->normal)) <= 1e-12)) return refuse(c, "the normal is not that of the features");
+    if (max2(c->state.a.steepness, c->state.b.steepness) * c->terms.least > 1 + 1e-5)
+        return refuse(c, "a facet that is turned from the plane of contact by more than the angle");
     c->axis = (manifold_axis){m->axis, m->feature_a, m->feature_b};
     manifold_clip(&c->terms, &c->axis, m, &c->state);
     ovoid_code code = verify_lower(c);

@@ -47,6 +47,10 @@ static inline const char *find_lie_of_points(const asked_manifold *q, double sla
     ovoid_manifold_points p = ovoid_manifold_compute_points(&q->pair, m);
     static ovoid_manifold_polygon polygon;
     if (p.count != m->count) return "points";
+    // A corner is outside of the other facet by at most `keep` or the snap, across a normal that is steep by at
+    // most 8.4.
+    int is_corner = p.count && (p.points[0].id & OVOID_MANIFOLD_KIND) != OVOID_MANIFOLD_ID_NEAREST;
+    if (is_corner && !(p.grown <= 8.4 * fmax(q->options.keep, 1e-6 * q->size) + slack)) return "points off the bodies";
     for (uint32_t i = 0; i < p.count; i++) {
         const ovoid_manifold_point *x = p.points + i;
         vec3 off = vec3_sub(vec3_sub(x->point_b, x->point_a), vec3_scale(m->normal, x->separation));

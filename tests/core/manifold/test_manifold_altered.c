@@ -30,6 +30,8 @@ static alter_count of_bytes, of_share, of_mixed;
 static int is_lie(const asked_manifold *q, const ovoid_manifold *right) {
     const ovoid_manifold *m = &q->manifold;
     if (find_lie(q)) return 1;
+    // Corners and share of a polygon with kept corners depend on the contact before.
+    if (q->options.keep > 0) return 0;
     if (m->axis != right->axis || m->facet_a != right->facet_a || m->facet_b != right->facet_b) return 0;
     return m->corners != right->corners || m->count != right->count || fabs((double)(m->share - right->share)) > 1e-4;
 }
@@ -111,7 +113,7 @@ int main(void) {
         ovoid_pair pair = {a, b, ovoid_pose_make_identity(), ovoid_pose_make_identity()};
         pair.pose_b.rotation = is_face ? (ovoid_quat){1, 0, 0, random_normal(&s)} : random_turn(&s);
         place(&pair, random_uniform(&s, -0.05, 0.03), &s);
-        ovoid_manifold_options o = {.margin = 0.02, .cover = &cover};
+        ovoid_manifold_options o = {.margin = 0.02, .keep = seed % 3 ? 0 : 0.005, .cover = &cover};
         asked_manifold q = ask_manifold(&pair, &o, NULL);
         check_manifold(&q);
         const ovoid_manifold right = q.manifold;
