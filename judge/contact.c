@@ -1,267 +1,259 @@
-// The points of a contact, and the polygon in which two facets overlap, seen along the contact's normal: clipped in
-// exact arithmetic. A corner of one facet is a corner of the overlap if it is on the inner side of every edge of the
-// other; a point where two edges cross is one too; there are no others. Which corners there are is decided by signs of
-// determinants; where they are is then a quotient, in doubles.
+// The claims of a contact: its points, the polygon in which two facets overlap, seen along the normal, and the bracket
+// of the area in contact. Facets are clipped, and the zone of contact of the bodies is made, in exact arithmetic; their
+// areas and the separations at their corners are quotients, bracketed to 2^-200.
 #include "parts.h"
+#include "zone.h"
 
 #include <math.h>
 #include <stdlib.h>
 
-enum { EDGES = OVOID_MANIFOLD_CORNERS / 2, CORNERS = 4 * OVOID_MANIFOLD_CORNERS };
+enum { FACET_CORNERS = OVOID_MANIFOLD_CORNERS / 2 };
 
-// A facet's boundary: directed edges with the facet to their left, seen from the tip of the normal. Points carry k.
-typedef struct outline {
-    uint32_t count;
-    nvec from[EDGES], to[EDGES];
-} outline;
-
-typedef struct place {
-    double x, y, z;
-} place;
-
-// The exact overlap.
-typedef struct overlap {
-    uint32_t count;
-    place corners[CORNERS]; ///< world
-    double nearest;         ///< of all distances between a corner and an edge's line that decided something, the least
-} overlap;
+/// How many snaps a corner may be from where it is exactly: corners nearer than four are one.
+#define APART 5
 
 typedef struct context {
     pool *p;
+    const judge_contact *k;
     posed s;
-    nvec n; ///< the normal
-    double n_length;
-    outline a, b;
-    overlap exact;
+    view w;
+    seen_body a, b;
+    flat_polygon facet_a, facet_b; ///< the facets
+    flat_polygon exact;            ///< their overlap
+    flat_polygon given;            ///< the hull of the given corners
+    flat_polygon zone;
+    const seen_plane *plane_a, *plane_b; ///< of the facets
+    uint32_t corners;                    ///< of both facets together, as they are listed
+    ovoid_error *error;
 } context;
 
-// ---- outlines ----
+// ---- what is seen ----
 
-static int has_edge(const uint32_t (*edges)[2], uint32_t count, uint32_t from, uint32_t to) {
-    for (uint32_t i = 0; i < count; i++)
-        if (edges[i][0] == from && edges[i][1] == to) return 1;
-    return 0;
-}
-
-// The directed edges of a facet's triangles without those that are there both ways. 0: it has too many edges.
-static int list_edges(const ovoid_polytope *t, uint32_t facet, uint32_t (*out)[2], uint32_t *count) {
-    uint32_t all[3 * EDGES][2], found = 0;
-    for (uint32_t i = 0; i < 3 * t->triangle_count; i++) {
-        if (t->triangle_facets[i / 3] != (t->rank == 2 ? 0 : facet)) continue;
-        if (found == 3 * EDGES) return 0;
-        all[found][0] = t->triangles[i];
-        all[found++][1] = t->triangles[i % 3 == 2 ? i - 2 : i + 1];
-    }
-    *count = 0;
-    for (uint32_t i = 0; i < found; i++) {
-        if (has_edge((const uint32_t(*)[2])all, found, all[i][1], all[i][0])) continue;
-        if (*count == EDGES) return 0;
-        out[*count][0] = all[i][0];
-        out[(*count)++][1] = all[i][1];
-    }
-    return *count >= 3;
-}
-
-static int make_outline(context *c, const body *b, num scale, uint32_t feature, int is_b, outline *o) {
-    uint32_t edges[EDGES][2];
-    uint32_t facet = feature & ~OVOID_MANIFOLD_KIND;
-    if ((feature & OVOID_MANIFOLD_KIND) != OVOID_MANIFOLD_FACET) return 0;
-    if (!list_edges(&b->polytope, facet, edges, &o->count)) return 0;
-    int is_turned = is_b != (b->polytope.rank == 2 && facet == 1);
-    for (uint32_t i = 0; i < o->count; i++) {
-        o->from[i] = nvec_scale(c->p, body_vertex(c->p, b, edges[i][is_turned]), scale);
-        o->to[i] = nvec_scale(c->p, body_vertex(c->p, b, edges[i][!is_turned]), scale);
-    }
-    return 1;
-}
-
-// ---- exact clipping ----
-
-static place place_of(const context *c, nvec x) {
-    double k = num_to_double(c->s.k);
-    return (place){num_to_double(x.x) / k, num_to_double(x.y) / k, num_to_double(x.z) / k};
-}
-
-// The determinant whose sign says on which side of an edge a point is, seen along the normal; its distance is noted.
-static num find_side(context *c, const outline *o, uint32_t i, nvec x) {
+/// The square of a length across the normal, in the metric of the view.
+static num square_of(const context *c, double length) {
     pool *p = c->p;
-    nvec edge = nvec_sub(p, o->to[i], o->from[i]);
-    nvec across = nvec_cross(p, c->n, edge);
-    num side = nvec_dot(p, across, nvec_sub(p, x, o->from[i]));
-    double length = sqrt(num_to_double(nvec_norm_squared(p, across))) * num_to_double(c->s.k);
-    if (length > 0) c->exact.nearest = fmin(c->exact.nearest, fabs(num_to_double(side)) / length);
-    return side;
+    num scaled = num_mul(p, number_from(p, length), c->w.k);
+    return num_mul(p, num_mul(p, scaled, scaled), c->w.vv);
 }
 
-static void add_corner(context *c, place at) {
-    if (c->exact.count < CORNERS) c->exact.corners[c->exact.count++] = at;
+/// 1 if a point is farther than a length from a polygon.
+static int is_farther(const context *c, const flat_polygon *g, const flat_point *at, double length) {
+    const num measure[2] = {c->w.nn, square_of(c, length)};
+    return flat_is_farther(c->p, g, at, measure);
 }
 
-static void add_inside(context *c, const outline *own, const outline *other) {
-    for (uint32_t i = 0; i < own->count; i++) {
-        int is_inside = 1;
-        for (uint32_t k = 0; k < other->count && is_inside; k++)
-            is_inside = num_sign(find_side(c, other, k, own->from[i])) >= 0;
-        if (is_inside) add_corner(c, place_of(c, own->from[i]));
+/// The length across the normal that a number of the view is, in doubles.
+static double to_length(const context *c, double seen) {
+    return seen / (num_to_double(c->w.k) * sqrt(num_to_double(c->w.vv)));
+}
+
+/// The hull of a facet's vertices, and the plane of its largest triangle. 0: the feature is no facet, or one of too
+/// many vertices.
+typedef struct facet {
+    const body *body;
+    const seen_body *seen;
+    uint32_t feature;
+    uint32_t count; ///< of vertices
+    const seen_plane *plane;
+} facet;
+static int make_facet(const context *c, facet *f, flat_polygon *out) {
+    const ovoid_polytope *t = &f->body->polytope;
+    flat_point points[FACET_CORNERS];
+    uint32_t index[FACET_CORNERS], wanted = f->feature & ~OVOID_MANIFOLD_KIND;
+    double most = 0;
+    if ((f->feature & OVOID_MANIFOLD_KIND) != OVOID_MANIFOLD_FACET) return 0;
+    for (uint32_t i = 0; i < 3 * t->triangle_count; i++) {
+        if (t->triangle_facets[i / 3] != (t->rank == 2 ? 0 : wanted)) continue;
+        uint32_t k = 0;
+        while (k < f->count && index[k] != t->triangles[i]) k++;
+        if (k == FACET_CORNERS) return 0;
+        index[k] = t->triangles[i];
+        points[k] = f->seen->vertices[index[k]].at;
+        if (k == f->count) f->count++;
+        const seen_plane *plane = f->seen->planes + i / 3;
+        double size = hypot(hypot(plane->a.d, plane->b.d), plane->c.d);
+        if (size > most) most = size, f->plane = plane;
     }
+    if (f->count < 3) return 0;
+    flat_make_hull(c->p, points, f->count, out);
+    return out->count > 2;
 }
 
-static void add_crossings(context *c) {
-    for (uint32_t i = 0; i < c->a.count; i++)
-        for (uint32_t k = 0; k < c->b.count; k++) {
-            size_t mark = pool_get_mark(c->p);
-            num p = find_side(c, &c->a, i, c->b.from[k]), q = find_side(c, &c->a, i, c->b.to[k]);
-            num r = find_side(c, &c->b, k, c->a.from[i]), s = find_side(c, &c->b, k, c->a.to[i]);
-            if (num_sign(p) * num_sign(q) < 0 && num_sign(r) * num_sign(s) < 0) {
-                double t = num_to_double(p) / num_to_double(num_sub(c->p, p, q));
-                place from = place_of(c, c->b.from[k]), to = place_of(c, c->b.to[k]);
-                add_corner(c, (place){from.x + t * (to.x - from.x), from.y + t * (to.y - from.y),
-                                      from.z + t * (to.z - from.z)});
-            }
-            pool_release(c->p, mark);
-        }
+/// By how much the height of a plane changes along a length across the normal, at most.
+static double find_slope(const context *c, const seen_plane *w) {
+    double x = w->a.d * sqrt(num_to_double(c->w.nn)), steep = hypot(x, w->b.d) / fabs(w->c.d);
+    return steep * sqrt(num_to_double(c->w.vv)) / sqrt(num_to_double(c->w.nn));
 }
 
-// ---- the overlap in doubles, seen along the normal ----
-
-typedef struct flat {
-    double x, y;
-} flat;
-
-// Two directions across the normal.
-typedef struct across {
-    place u, v;
-} across;
-
-static double dot(place a, place b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-static place cross(place a, place b) {
-    return (place){a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-static place unit(place a) {
-    double l = sqrt(dot(a, a));
-    return (place){a.x / l, a.y / l, a.z / l};
-}
-static across make_across(place n) {
-    place axis = fabs(n.x) < 0.6 ? (place){1, 0, 0} : (place){0, 1, 0};
-    place u = unit(cross(n, axis));
-    return (across){u, cross(unit(n), u)};
-}
-static flat see(const across *a, place x) { return (flat){dot(a->u, x), dot(a->v, x)}; }
-
-static flat middle;
-static int compare_turns(const void *p, const void *q) {
-    const flat *a = p, *b = q;
-    double s = atan2(a->y - middle.y, a->x - middle.x), t = atan2(b->y - middle.y, b->x - middle.x);
-    return (s > t) - (s < t);
-}
-static void sort_corners(flat *x, uint32_t count) {
-    middle = (flat){0, 0};
-    for (uint32_t i = 0; i < count; i++) middle.x += x[i].x / count, middle.y += x[i].y / count;
-    qsort(x, count, sizeof *x, compare_turns);
-}
-static double find_area(const flat *x, uint32_t count) {
-    double sum = 0;
-    for (uint32_t i = 1; i + 1 < count; i++)
-        sum += (x[i].x - x[0].x) * (x[i + 1].y - x[0].y) - (x[i].y - x[0].y) * (x[i + 1].x - x[0].x);
-    return sum / 2;
-}
-// The distance of a point from a convex polygon whose corners are in order; 0 inside.
-static double find_distance(const flat *x, uint32_t count, flat p) {
-    double nearest = INFINITY;
-    int is_inside = count > 2;
-    for (uint32_t i = 0; i < count; i++) {
-        flat a = x[i], b = x[(i + 1) % count];
-        double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy;
-        double t = square > 0 ? ((p.x - a.x) * dx + (p.y - a.y) * dy) / square : 0;
-        t = t < 0 ? 0 : t > 1 ? 1 : t;
-        nearest = fmin(nearest, hypot(a.x + t * dx - p.x, a.y + t * dy - p.y));
-        is_inside &= dx * (p.y - a.y) - dy * (p.x - a.x) >= 0;
-    }
-    return is_inside ? 0 : nearest;
+/// The height of a plane at a point, times k |n|.
+static num find_height(const context *c, const seen_plane *w, const flat_point *at) {
+    pool *p = c->p;
+    num over =
+        num_sub(p, num_sub(p, num_mul(p, w->d.n, at->w.n), num_mul(p, w->a.n, at->x.n)), num_mul(p, w->b.n, at->y.n));
+    num under = num_mul(p, w->c.n, at->w.n);
+    if (num_sign(under) < 0) over = num_neg(p, over), under = num_neg(p, under);
+    return num_quotient_below(p, over, under, 240);
 }
 
-// ---- the claims ----
+/// The separation of the bodies at a point over both facets, radii taken off.
+static double find_separation(const context *c, const flat_point *at) {
+    size_t mark = pool_get_mark(c->p);
+    num gap = num_sub(c->p, find_height(c, c->plane_b, at), find_height(c, c->plane_a, at));
+    num scaled = num_quotient_below(c->p, gap, c->w.k, 120);
+    double cores = num_to_double(scaled) / sqrt(num_to_double(c->w.nn));
+    pool_release(c->p, mark);
+    return cores - num_to_double(c->s.radii);
+}
 
-static ovoid_code verify_points(context *c, const judge_contact *k, ovoid_error *error) {
-    const ovoid_manifold_polygon *g = k->polygon;
-    num grown = number_from(c->p, g->grown);
+// ---- the points ----
+
+static ovoid_code verify_points(const context *c) {
+    const ovoid_manifold_polygon *g = c->k->polygon;
+    pool *p = c->p;
+    num grown = number_from(p, g->grown), radii[2] = {c->s.a.radius, c->s.b.radius};
     for (uint32_t i = 0; i < g->count; i++) {
         const ovoid_manifold_point *x = g->points + i;
-        size_t mark = pool_get_mark(c->p);
-        nvec a = nvec_from(c->p, x->point_a), b = nvec_from(c->p, x->point_b);
-        if (!body_holds(c->p, &c->s.a, a, num_add(c->p, c->s.a.radius, grown)))
-            return judge_reject(error, OVOID_ERROR_PROOF, "corner %u: point_a is not in A grown by %.3g", i, g->grown);
-        if (!body_holds(c->p, &c->s.b, b, num_add(c->p, c->s.b.radius, grown)))
-            return judge_reject(error, OVOID_ERROR_PROOF, "corner %u: point_b is not in B grown by %.3g", i, g->grown);
-        nvec off = nvec_sub(c->p, nvec_sub(c->p, b, a), nvec_scale(c->p, c->n, number_from(c->p, x->separation)));
-        double found = sqrt(num_to_double(nvec_norm_squared(c->p, off)));
-        pool_release(c->p, mark);
-        if (!(found <= g->grown))
-            return judge_reject(error, OVOID_ERROR_PROOF, "corner %u: the points are off the normal by %.3g", i, found);
+        size_t mark = pool_get_mark(p);
+        nvec a = nvec_from(p, x->point_a), b = nvec_from(p, x->point_b);
+        if (!body_holds(p, &c->s.a, a, num_add(p, radii[0], grown)))
+            return judge_reject(c->error, OVOID_ERROR_PROOF, "corner %u: point_a is not in A grown by %.3g", i,
+                                g->grown);
+        if (!body_holds(p, &c->s.b, b, num_add(p, radii[1], grown)))
+            return judge_reject(c->error, OVOID_ERROR_PROOF, "corner %u: point_b is not in B grown by %.3g", i,
+                                g->grown);
+        nvec off = nvec_sub(p, nvec_sub(p, b, a), nvec_scale(p, c->w.n, number_from(p, x->separation)));
+        int is_off = num_compare(p, nvec_norm_squared(p, off), num_mul(p, grown, grown)) > 0;
+        pool_release(p, mark);
+        if (is_off) return judge_reject(c->error, OVOID_ERROR_PROOF, "corner %u: the points are off the normal", i);
+        int is_nearest = (x->id & OVOID_MANIFOLD_KIND) == OVOID_MANIFOLD_ID_NEAREST;
+        if (!is_nearest && !(x->separation <= c->k->margin + c->s.allowed + g->grown))
+            return judge_reject(c->error, OVOID_ERROR_PROOF, "corner %u is farther than the margin", i);
     }
     return OVOID_OK;
 }
 
-static double find_distance_from(const context *c, const outline *o, const across *a, flat p) {
-    flat x[EDGES];
-    for (uint32_t i = 0; i < o->count; i++) x[i] = see(a, place_of(c, o->from[i]));
-    sort_corners(x, o->count);
-    return find_distance(x, o->count, p);
-}
+// ---- the polygon ----
 
-// Corners within the margin that are exact must be there, and what is there must be in each of both facets, to the
-// snap: where edges are nearly parallel, the overlap itself may begin much farther away than the snap.
-static ovoid_code compare_polygons(context *c, const judge_contact *k, flat *exact, const across *a,
-                                   ovoid_error *error) {
-    const ovoid_manifold_polygon *g = k->polygon;
-    flat given[OVOID_MANIFOLD_CORNERS];
-    int is_cut = 0;
-    for (uint32_t i = 0; i < g->count; i++)
-        given[i] = see(a, (place){g->points[i].point_a.x, g->points[i].point_a.y, g->points[i].point_a.z});
+/// The corners that are given are in each facet, to the snap.
+static ovoid_code verify_given(const context *c) {
+    const ovoid_manifold_polygon *g = c->k->polygon;
     for (uint32_t i = 0; i < g->count; i++) {
-        double off = fmax(find_distance_from(c, &c->a, a, given[i]), find_distance_from(c, &c->b, a, given[i]));
-        if (!(off <= k->snap + g->grown))
-            return judge_reject(error, OVOID_ERROR_PROOF, "corner %u is outside of a facet by %.3g", i, off);
+        size_t mark = pool_get_mark(c->p);
+        flat_point at = view_see(&c->w, g->points[i].point_a);
+        double room = c->k->snap + g->grown;
+        int is_out = is_farther(c, &c->facet_a, &at, room) || is_farther(c, &c->facet_b, &at, room);
+        pool_release(c->p, mark);
+        if (is_out) return judge_reject(c->error, OVOID_ERROR_PROOF, "corner %u is outside of a facet", i);
     }
-    // Where corners are left out, as farther apart than the margin, the polygon is smaller than the overlap.
-    for (uint32_t i = 0; i < c->exact.count; i++) {
-        double nearest = INFINITY;
-        for (uint32_t j = 0; j < g->count; j++)
-            nearest = fmin(nearest, hypot(given[j].x - exact[i].x, given[j].y - exact[i].y));
-        is_cut |= nearest > 5 * k->snap + g->grown;
-    }
-    if (is_cut && isinf(k->margin))
-        return judge_reject(error, OVOID_ERROR_PROOF, "a corner of the exact polygon is missing");
-    double area = find_area(exact, c->exact.count), doubt = 1e-13 * (1 + area);
-    if (!(g->inner <= area + doubt))
-        return judge_reject(error, OVOID_ERROR_PROOF, "inner area %.17g; the overlap has %.17g", g->inner, area);
-    if (!is_cut && !(g->outer >= area - doubt))
-        return judge_reject(error, OVOID_ERROR_PROOF, "outer area %.17g; the overlap has %.17g", g->outer, area);
-    double nearest = c->exact.nearest;
-    for (uint32_t i = 0; i < c->exact.count; i++) {
-        flat next = exact[(i + 1) % c->exact.count];
-        nearest = fmin(nearest, hypot(next.x - exact[i].x, next.y - exact[i].y));
-    }
-    if (!is_cut && nearest > 5 * k->snap && g->count != c->exact.count)
-        return judge_reject(error, OVOID_ERROR_PROOF, "%u corners; the exact polygon has %u", g->count, c->exact.count);
     return OVOID_OK;
 }
 
-static ovoid_code verify_polygon(context *c, const judge_contact *k, ovoid_error *error) {
-    flat exact[CORNERS];
-    ovoid_vec3 n = k->manifold->normal;
-    if (!make_outline(c, &c->s.a, c->s.b.n, k->manifold->facet_a, 0, &c->a)) return OVOID_OK;
-    if (!make_outline(c, &c->s.b, c->s.a.n, k->manifold->facet_b, 1, &c->b)) return OVOID_OK;
-    c->exact.count = 0;
-    c->exact.nearest = INFINITY;
-    add_inside(c, &c->a, &c->b);
-    add_inside(c, &c->b, &c->a);
-    add_crossings(c);
+/// The least distance that decides which corners there are, in doubles: of a corner from a line of the other facet.
+static double find_nearest(const context *c, const flat_polygon *corners, const flat_polygon *lines) {
+    double nearest = INFINITY, metric = num_to_double(c->w.nn);
+    for (uint32_t i = 0; i < corners->count; i++)
+        for (uint32_t k = 0; k < lines->count; k++) {
+            const flat_line *l = lines->lines + k;
+            const flat_point *x = corners->corners + i;
+            if (lines == corners && (k == i || (k + 1) % corners->count == i)) continue;
+            double side = l->a.d * (x->x.d / x->w.d) + l->b.d * (x->y.d / x->w.d) + l->c.d;
+            nearest = fmin(nearest, fabs(side) * sqrt(metric) / sqrt(l->a.d * l->a.d + metric * l->b.d * l->b.d));
+        }
+    return to_length(c, nearest);
+}
+
+/// The least distance between corners of the overlap, in doubles.
+static double find_closest(const context *c) {
+    double closest = INFINITY;
+    for (uint32_t i = 0; i < c->exact.count; i++) {
+        const flat_point *x = c->exact.corners + i, *y = c->exact.corners + (i + 1) % c->exact.count;
+        double dx = x->x.d / x->w.d - y->x.d / y->w.d, dy = x->y.d / x->w.d - y->y.d / y->w.d;
+        closest = fmin(closest, sqrt(num_to_double(c->w.nn) * dx * dx + dy * dy));
+    }
+    return to_length(c, closest);
+}
+
+// The corners of the overlap within the margin are at most some snaps away from the polygon that is given; where none
+// of them, and nothing that decides about them, is in doubt, there are as many as are given. `doubt`: by how much the
+// separation at a corner may differ from that at the corner which stands for it.
+static ovoid_code verify_exact(const context *c) {
+    const ovoid_manifold_polygon *g = c->k->polygon;
+    double room = APART * c->k->snap + g->grown;
+    double doubt = room * (find_slope(c, c->plane_a) + find_slope(c, c->plane_b)) + g->grown;
+    int is_clear = c->corners == c->facet_a.count + c->facet_b.count && find_closest(c) > room &&
+                   fmin(find_nearest(c, &c->facet_a, &c->facet_b), find_nearest(c, &c->facet_b, &c->facet_a)) > room &&
+                   fmin(find_nearest(c, &c->facet_a, &c->facet_a), find_nearest(c, &c->facet_b, &c->facet_b)) > room;
+    uint32_t wanted = 0;
+    for (uint32_t i = 0; i < c->exact.count; i++) {
+        double separation = find_separation(c, &c->exact.corners[i]);
+        is_clear &= fabs(separation - c->k->margin) > doubt;
+        wanted += separation <= c->k->margin;
+        if (separation > c->k->margin - doubt || !is_farther(c, &c->given, &c->exact.corners[i], room)) continue;
+        return judge_reject(c->error, OVOID_ERROR_PROOF, "corner %u of the exact polygon is missing", i);
+    }
+    if (is_clear && wanted && wanted != g->count)
+        return judge_reject(c->error, OVOID_ERROR_PROOF, "%u corners; the exact polygon has %u", g->count, wanted);
+    return OVOID_OK;
+}
+
+/// The sign of an area less a number of the view that is twice an area.
+static int compare_area(const context *c, double area, num twice) {
+    pool *p = c->p;
+    num scale = num_scaled(p, num_mul(p, num_mul(p, c->w.k, c->w.k), c->w.uu), 1);
+    return num_compare_roots(p, num_mul(p, number_from(p, area), scale), c->w.nn, twice, number_from_integer(p, 1));
+}
+
+static ovoid_code verify_facets(context *c) {
+    const ovoid_manifold *m = c->k->manifold;
+    facet a = {.body = &c->s.a, .seen = &c->a, .feature = m->facet_a},
+          b = {.body = &c->s.b, .seen = &c->b, .feature = m->facet_b};
+    if (!make_facet(c, &a, &c->facet_a) || !make_facet(c, &b, &c->facet_b)) return OVOID_OK;
+    c->plane_a = a.plane;
+    c->plane_b = b.plane;
+    c->corners = a.count + b.count;
+    ovoid_code code = verify_given(c);
+    if (code != OVOID_OK) return code;
+    c->exact = c->facet_a;
+    for (uint32_t i = 0; i < c->facet_b.count; i++)
+        if (!flat_cut(c->p, &c->facet_b.lines[i], &c->exact)) return OVOID_OK;
     if (c->exact.count < 3) return OVOID_OK;
-    across a = make_across((place){n.x, n.y, n.z});
-    for (uint32_t i = 0; i < c->exact.count; i++) exact[i] = see(&a, c->exact.corners[i]);
-    sort_corners(exact, c->exact.count);
-    return compare_polygons(c, k, exact, &a, error);
+    num_bracket area = flat_find_area(c->p, &c->exact);
+    if (compare_area(c, c->k->polygon->inner, area.above) > 0)
+        return judge_reject(c->error, OVOID_ERROR_PROOF, "the inner area is more than that of the facets' overlap");
+    return verify_exact(c);
+}
+
+// ---- the area ----
+
+static ovoid_code verify_areas(context *c) {
+    const ovoid_manifold_polygon *g = c->k->polygon;
+    pool *p = c->p;
+    num length = num_mul(p, num_add(p, number_from(p, c->k->margin), c->s.radii), c->w.k);
+    num roots[2] = {num_root_below(p, c->w.nn, 200), num_root_above(p, c->w.nn, 200)};
+    for (int is_outer = 0; is_outer < 2; is_outer++) {
+        const zone_terms terms = {&c->a, &c->b, num_mul(p, length, roots[is_outer]), is_outer};
+        if (!zone_make(&c->w, &terms, &c->zone)) return OVOID_OK;
+        num_bracket area = flat_find_area(p, &c->zone);
+        if (is_outer && compare_area(c, g->inner, area.above) > 0)
+            return judge_reject(c->error, OVOID_ERROR_PROOF, "the inner area is more than that in contact");
+        if (!is_outer && compare_area(c, g->outer, area.below) < 0)
+            return judge_reject(c->error, OVOID_ERROR_PROOF, "the outer area is less than that in contact");
+    }
+    return OVOID_OK;
+}
+
+static ovoid_code verify_polygon(context *c) {
+    const ovoid_manifold_polygon *g = c->k->polygon;
+    flat_point corners[OVOID_MANIFOLD_CORNERS];
+    c->a = seen_body_make(&c->w, &c->s.a, c->s.b.n, 1);
+    c->b = seen_body_make(&c->w, &c->s.b, c->s.a.n, -1);
+    for (uint32_t i = 0; i < g->count; i++) corners[i] = view_see(&c->w, g->points[i].point_a);
+    flat_make_hull(c->p, corners, g->count, &c->given);
+    ovoid_code code = verify_facets(c);
+    if (code == OVOID_OK) code = verify_areas(c);
+    seen_body_free(&c->a);
+    seen_body_free(&c->b);
+    return code;
 }
 
 ovoid_code judge_verify_contact(judge *j, const ovoid_pair *pair, const judge_contact *k, ovoid_error *error) {
@@ -271,14 +263,19 @@ ovoid_code judge_verify_contact(judge *j, const ovoid_pair *pair, const judge_co
     size_t mark = pool_get_mark(j->p);
     context *c = judge_allocate(1, sizeof *c);
     c->p = j->p;
+    c->k = k;
+    c->error = error;
     c->s = posed_make(j->p, pair);
-    c->n = nvec_from(j->p, m->normal);
+    nvec n = nvec_from(j->p, m->normal);
     ovoid_proof proof = {.normal = m->normal};
     num core = num_add(j->p, num_add(j->p, number_from(j->p, m->lower), c->s.radii), c->s.outside);
     claim lower = {j, &c->s, &proof, core, error};
     ovoid_code code = judge_verify_lower(&lower);
-    if (code == OVOID_OK) code = verify_points(c, k, error);
-    if (code == OVOID_OK) code = verify_polygon(c, k, error);
+    if (code == OVOID_OK && k->polygon->count) {
+        c->w = view_make(&c->s, n);
+        code = verify_points(c);
+        if (code == OVOID_OK) code = verify_polygon(c);
+    }
     free(c);
     pool_release(j->p, mark);
     return code;

@@ -59,15 +59,18 @@ ovoid_code judge_verify_points(judge *context, const ovoid_pair *pair, const ovo
 typedef struct judge_contact {
     const ovoid_manifold *manifold;
     const ovoid_manifold_polygon *polygon;
-    double margin; ///< of the options; infinity: it is so large that no corner was left out
-    double snap;   ///< how far a corner may be from where it is, or outside: a length
+    double margin; ///< of the options
+    double snap;   ///< how far a corner may be outside of a facet: a length
 } judge_contact;
 
-/// OVOID_OK if what a contact says of its points is true: `lower` is shown by the normal; each pair of points lies on
-/// the bodies grown by polygon->grown, apart by the separation along the normal; the polygon is that in which the
-/// facets overlap, seen along the normal, to the snap, and its area is between inner and outer. The facets are clipped
-/// in exact arithmetic, by themselves: corners of one inside of the other, and crossings of edges. `upper` is not
-/// looked at. Else OVOID_ERROR_PROOF with a sentence in *error (may be NULL).
+/// OVOID_OK if what a contact says of its points is true, all in exact arithmetic: `lower` is shown by the normal; each
+/// pair of points lies on the bodies grown by polygon->grown, apart by the separation along the normal, and within the
+/// margin (of bodies with an allowance: and that), but for the nearest points of features that do not overlap. Seen
+/// along the normal, each corner is in both facets, to the snap; each corner of the facets' overlap within the margin
+/// is at most five snaps outside of the polygon; where none of them is in doubt there are as many as are given. The
+/// area in which the hulls of the bodies are within the margin and the radii is between inner and outer, and inner is
+/// at most the area of the facets' overlap. `upper` is not looked at. A polygon without corners: `lower` alone. Else
+/// OVOID_ERROR_PROOF with a sentence in *error (may be NULL). Facets of more than 64 vertices are not clipped.
 ovoid_code judge_verify_contact(judge *j, const ovoid_pair *pair, const judge_contact *k, ovoid_error *error);
 
 /// The truth about a pair of few vertices, by brute force over all features, independent of any proof.
