@@ -46,4 +46,29 @@ HEAP_INLINE void heap_pop(heap h, void *top) {
     if (h.count > 0) heap_sink(h, 0, all + h.count * h.size);
 }
 
+/// Places that are sorted in place: of one array, or of arrays side by side. is_after: 1 if what is at place i comes
+/// behind what is at k.
+typedef struct heap_places {
+    void *items;
+    int (*is_after)(const void *items, size_t i, size_t k);
+    void (*exchange)(void *items, size_t i, size_t k);
+} heap_places;
+
+HEAP_INLINE void heap_sift(const heap_places *p, size_t at, size_t count) {
+    for (size_t child; (child = 2 * at + 1) < count; at = child) {
+        if (child + 1 < count && p->is_after(p->items, child + 1, child)) child++;
+        if (!p->is_after(p->items, child, at)) return;
+        p->exchange(p->items, child, at);
+    }
+}
+
+/// Sorts `count` places, without memory.
+HEAP_INLINE void heap_sort(const heap_places *p, size_t count) {
+    for (size_t i = count / 2; i-- > 0;) heap_sift(p, i, count);
+    while (count > 1) {
+        p->exchange(p->items, 0, --count);
+        heap_sift(p, 0, count);
+    }
+}
+
 #endif

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "body/search.h"
 #include "manifold/manifold.h"
+#include "tools/heap.h"
 
 // ---- order
 
@@ -16,32 +17,31 @@ static int compare(const ovoid_body_manifold *a, const ovoid_body_manifold *b) {
     return a->part_b < b->part_b ? -1 : a->part_b > b->part_b;
 }
 
-static void exchange(ovoid_body_manifold *items, ovoid_manifold_points *points, size_t i, size_t k) {
-    ovoid_body_manifold item = items[i];
-    items[i] = items[k];
-    items[k] = item;
-    if (!points) return;
-    ovoid_manifold_points of_item = points[i];
-    points[i] = points[k];
-    points[k] = of_item;
+// Manifolds and the points beside them; NULL: none.
+typedef struct manifold_columns {
+    ovoid_body_manifold *items;
+    ovoid_manifold_points *points;
+} manifold_columns;
+
+static int is_after(const void *items, size_t i, size_t k) {
+    const manifold_columns *c = items;
+    return compare(&c->items[i], &c->items[k]) > 0;
 }
 
-static void sift(ovoid_body_manifold *items, ovoid_manifold_points *points, size_t at, size_t count) {
-    for (size_t child = 2 * at + 1; child < count; child = 2 * at + 1) {
-        if (child + 1 < count && compare(&items[child + 1], &items[child]) > 0) child++;
-        if (compare(&items[child], &items[at]) <= 0) return;
-        exchange(items, points, child, at);
-        at = child;
-    }
+static void exchange(void *items, size_t i, size_t k) {
+    const manifold_columns *c = items;
+    ovoid_body_manifold item = c->items[i];
+    c->items[i] = c->items[k];
+    c->items[k] = item;
+    if (!c->points) return;
+    ovoid_manifold_points of_item = c->points[i];
+    c->points[i] = c->points[k];
+    c->points[k] = of_item;
 }
 
-// Heap sort: J. W. J. Williams, Algorithm 232, 1964.
 void body_manifolds_sort(ovoid_body_manifold *items, ovoid_manifold_points *points, size_t count) {
-    for (size_t i = count / 2; i-- > 0;) sift(items, points, i, count);
-    while (count > 1) {
-        exchange(items, points, 0, --count);
-        sift(items, points, 0, count);
-    }
+    manifold_columns columns = {items, points};
+    heap_sort(&(heap_places){&columns, is_after, exchange}, count);
 }
 
 // The earlier manifold of the same two parts, or NULL, by bisection.

@@ -4,6 +4,7 @@
 #include "base/environment.h"
 #include "base/error.h"
 #include "compound/compound.h"
+#include "tools/heap.h"
 #include "world/body_bounds.h"
 #include "world/find/bodies_query.h"
 #include "world/state.h"
@@ -200,27 +201,21 @@ ovoid_code ovoid_world_find_any(const ovoid_world *w, const ovoid_world_ids *ids
     ENVIRONMENT_RETURN(ovoid_code, w, find_any(w, ids, hit, error));
 }
 
-// ---- overlaps, sorted in place by heap sort (J. W. J. Williams, 1964)
+// ---- overlaps
 
-static void sift(ovoid_world_hit *hits, size_t at, size_t count) {
-    for (size_t child = 2 * at + 1; child < count; child = 2 * at + 1) {
-        if (child + 1 < count && hits[child + 1].b > hits[child].b) child++;
-        if (hits[child].b <= hits[at].b) return;
-        ovoid_world_hit swapped = hits[at];
-        hits[at] = hits[child];
-        hits[child] = swapped;
-        at = child;
-    }
+static int is_after(const void *items, size_t i, size_t k) {
+    const ovoid_world_hit *hits = items;
+    return hits[i].b > hits[k].b;
+}
+
+static void exchange(void *items, size_t i, size_t k) {
+    ovoid_world_hit *hits = items, swapped = hits[i];
+    hits[i] = hits[k];
+    hits[k] = swapped;
 }
 
 static void sort_hits(ovoid_world_hit *hits, size_t count) {
-    for (size_t i = count / 2; i-- > 0;) sift(hits, i, count);
-    while (count > 1) {
-        ovoid_world_hit swapped = hits[0];
-        hits[0] = hits[--count];
-        hits[count] = swapped;
-        sift(hits, 0, count);
-    }
+    heap_sort(&(heap_places){hits, is_after, exchange}, count);
 }
 
 static ovoid_code find_overlaps(const ovoid_world *w, const ovoid_world_query *query, ovoid_world_hits *hits,

@@ -33,6 +33,38 @@ static void test_heap(void) {
     check_seed = 0;
 }
 
+// Two columns that are sorted together.
+typedef struct columns {
+    uint64_t key[MOST], beside[MOST];
+} columns;
+
+static int is_after(const void *items, size_t i, size_t k) {
+    const columns *c = items;
+    return c->key[i] > c->key[k];
+}
+
+static void exchange(void *items, size_t i, size_t k) {
+    columns *c = items, was = {{c->key[i]}, {c->beside[i]}};
+    c->key[i] = c->key[k], c->beside[i] = c->beside[k];
+    c->key[k] = was.key[0], c->beside[k] = was.beside[0];
+}
+
+static void test_sort(void) {
+    uint64_t s = 1, sorted[MOST];
+    columns all = {{0}, {0}};
+    for (size_t count = 0; count < MOST; count++) {
+        check_seed = count;
+        for (size_t i = 0; i < count; i++)
+            sorted[i] = all.key[i] = random_next(&s) % (count + 1), all.beside[i] = 3 * all.key[i];
+        all.key[count] = 0; // which is beyond the end, and stays
+        qsort(sorted, count, sizeof *sorted, compare_numbers);
+        heap_sort(&(heap_places){&all, is_after, exchange}, count);
+        for (size_t i = 0; i < count; i++) CHECK_EQ(all.key[i], sorted[i]), CHECK_EQ(all.beside[i], 3 * sorted[i]);
+        CHECK_EQ(all.key[count], 0);
+    }
+    check_seed = 0;
+}
+
 static int ends_search(const void *table, size_t slot, const void *key) {
     const double *point = (const double *)table + 3 * slot;
     return isnan(point[0]) || hash_is_same_point(point, key);
@@ -81,6 +113,7 @@ static void test_array(void) {
 
 int main(void) {
     test_heap();
+    test_sort();
     test_hash();
     test_array();
     return check_end();
