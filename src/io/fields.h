@@ -26,6 +26,11 @@ typedef enum field_kind {
     FIELD_OWN      ///< written and read by functions
 } field_kind;
 
+/// What readers say of a field that is not of its kind.
+#define WRONG_WHOLE "must be a whole number >= 0"
+#define WRONG_NUMBER "must be a number"
+#define WRONG_VECTOR "must be three numbers"
+
 /// The names of an enum's values, from the first on.
 typedef struct field_names {
     const char *(*get)(int value);

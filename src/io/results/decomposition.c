@@ -15,8 +15,8 @@ static const char wrong_keys[] = "lacks a key, or has another one";
 
 #define LENGTH(member) FIELD_AT(ovoid_decomposition_length, member)
 static const field length_fields[] = {
-    {"lower", FIELD_FINITE, LENGTH(lower), .wrong = "must be a number"},
-    {"upper", FIELD_FINITE, LENGTH(upper), .wrong = "must be a number"},
+    {"lower", FIELD_FINITE, LENGTH(lower), .wrong = WRONG_NUMBER},
+    {"upper", FIELD_FINITE, LENGTH(upper), .wrong = WRONG_NUMBER},
     {"point", FIELD_VECTOR, LENGTH(point), .wrong = "must be a point of three numbers"},
     {"part", FIELD_WHOLE, LENGTH(part), .wrong = "must be the number of a part"},
 };
@@ -25,8 +25,8 @@ static const field_table length = FIELD_TABLE_READ(ovoid_decomposition_length, l
 #define LINE(member) FIELD_AT(proof_line, member)
 static const field line_fields[] = {
     {"decomposition", FIELD_WHOLE, LINE(version), .wrong = "must be the version, 1"},
-    {"triangles", FIELD_WHOLE, LINE(triangles), .wrong = "must be a whole number >= 0"},
-    {"parts", FIELD_WHOLE, LINE(parts), .wrong = "must be a whole number >= 0"},
+    {"triangles", FIELD_WHOLE, LINE(triangles), .wrong = WRONG_WHOLE},
+    {"parts", FIELD_WHOLE, LINE(parts), .wrong = WRONG_WHOLE},
     {"uncovered", FIELD_OBJECT, LINE(uncovered), .table = &length},
     {"excess", FIELD_OBJECT, LINE(excess), .table = &length},
 };

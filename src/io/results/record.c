@@ -106,9 +106,6 @@ static const field_own own_a = {write_a, read_a}, own_b = {write_b, read_b}, own
 
 // ---- tables
 
-#define WHOLE "must be a whole number >= 0"
-#define NUMBER "must be a number"
-#define VECTOR "must be three numbers"
 #define TIMES "must be a number, as all of an impact"
 #define RANGES "must have ranges of two whole numbers"
 #define TRIANGLE "goes with a solid or a surface, and with a proof that has \"surfaces\""
@@ -120,17 +117,17 @@ static const field_own own_a = {write_a, read_a}, own_b = {write_b, read_b}, own
 static const field exclusion_fields[] = {
     {"a", FIELD_RANGE, EXCLUSION(first_a), .wrong = RANGES},
     {"b", FIELD_RANGE, EXCLUSION(first_b), .wrong = RANGES},
-    {"normal", FIELD_VECTOR, EXCLUSION(normal), .wrong = VECTOR},
-    {"normal_low", FIELD_VECTOR, EXCLUSION(normal_low), .bit = FIELD_NOT_ZERO, .wrong = VECTOR},
-    {"lower", FIELD_NUMBER, EXCLUSION(lower), .if_null = -INFINITY, .wrong = NUMBER},
+    {"normal", FIELD_VECTOR, EXCLUSION(normal), .wrong = WRONG_VECTOR},
+    {"normal_low", FIELD_VECTOR, EXCLUSION(normal_low), .bit = FIELD_NOT_ZERO, .wrong = WRONG_VECTOR},
+    {"lower", FIELD_NUMBER, EXCLUSION(lower), .if_null = -INFINITY, .wrong = WRONG_NUMBER},
 };
 static const field_table exclusions =
     FIELD_TABLE_READ(ovoid_exclusion, exclusion_fields, "is not that of an exclusion", "is not that of an exclusion");
 
 #define STEP(member) FIELD_AT(ovoid_step, member)
 static const field step_fields[] = {
-    {"until", FIELD_NUMBER, STEP(until), .if_null = NAN, .wrong = NUMBER},
-    {"normal", FIELD_VECTOR, STEP(normal), .wrong = VECTOR},
+    {"until", FIELD_NUMBER, STEP(until), .if_null = NAN, .wrong = WRONG_NUMBER},
+    {"normal", FIELD_VECTOR, STEP(normal), .wrong = WRONG_VECTOR},
     {"frame", FIELD_NAME, STEP(frame), .bit = FIELD_NOT_ZERO, .names = &frames,
      .wrong = "of a step must be \"a\" or \"b\""},
 };
@@ -141,7 +138,7 @@ static const field_table steps =
 static const field group_fields[] = {
     {"a", FIELD_RANGE, GROUP(first_a), .wrong = RANGES},
     {"b", FIELD_RANGE, GROUP(first_b), .wrong = RANGES},
-    {"count", FIELD_WHOLE, GROUP(count), .wrong = WHOLE},
+    {"count", FIELD_WHOLE, GROUP(count), .wrong = WRONG_WHOLE},
 };
 static const field_table groups =
     FIELD_TABLE_READ(ovoid_step_group, group_fields, "is not that of a group", "is not that of a group");
@@ -162,23 +159,23 @@ static const field_table surfaces = FIELD_TABLE_READ(ovoid_answer, surface_field
 #define LIST(items, number) RECORD(items), .count = offsetof(record_line, record.number)
 #define COUNTED(member) PROOF(member), .count = offsetof(record_line, record.answer.proof.count), .bit = RECORD_POINTS
 static const field proof_fields[] = {
-    {"normal", FIELD_VECTOR, PROOF(normal), .wrong = VECTOR},
-    {"normal_low", FIELD_VECTOR, PROOF(normal_low), .bit = FIELD_NOT_ZERO, .wrong = VECTOR},
+    {"normal", FIELD_VECTOR, PROOF(normal), .wrong = WRONG_VECTOR},
+    {"normal_low", FIELD_VECTOR, PROOF(normal_low), .bit = FIELD_NOT_ZERO, .wrong = WRONG_VECTOR},
     {"kind", FIELD_NAME, PROOF(kind), .names = &proofs, .wrong = "is not a kind of proof"},
     {"a", FIELD_WHOLES, COUNTED(a), .wrong = "must be vertex indices", .apart = POINTS},
     {"b", FIELD_WHOLES, COUNTED(b), .wrong = "must be vertex indices", .apart = POINTS},
     {"weight_a", FIELD_NUMBERS, COUNTED(weight_a), .wrong = "must be weights", .apart = POINTS},
     {"weight_b", FIELD_NUMBERS, COUNTED(weight_b), .wrong = "must be weights", .apart = POINTS},
-    {"inner_a", FIELD_VECTOR, PROOF(inner_a), .bit = RECORD_INNER_A, .wrong = VECTOR,
+    {"inner_a", FIELD_VECTOR, PROOF(inner_a), .bit = RECORD_INNER_A, .wrong = WRONG_VECTOR,
      .apart = "does not go with the kind"},
-    {"inner_b", FIELD_VECTOR, PROOF(inner_b), .bit = RECORD_INNER_B, .wrong = VECTOR,
+    {"inner_b", FIELD_VECTOR, PROOF(inner_b), .bit = RECORD_INNER_B, .wrong = WRONG_VECTOR,
      .apart = "does not go with the kind"},
     {"cover", FIELD_OWN, .bit = RECORD_COVER, .own = &own_cover},
     {"exclusions", FIELD_LIST, LIST(exclusions, exclusion_count), .table = &exclusions},
     {"steps", FIELD_LIST, LIST(steps, step_count), .table = &steps},
     {"groups", FIELD_LIST, LIST(groups, group_count), .table = &groups},
     {"surfaces", FIELD_OBJECT, SOLID(deciding), .bit = RECORD_SURFACES, .table = &surfaces},
-    {"parting", FIELD_VECTOR, SOLID(parting), .bit = RECORD_PARTING, .wrong = VECTOR,
+    {"parting", FIELD_VECTOR, SOLID(parting), .bit = RECORD_PARTING, .wrong = WRONG_VECTOR,
      .apart = "goes with \"surfaces\" and a lower bound of at most 0"},
 };
 static const field_table proof = FIELD_TABLE_READ(record_line, proof_fields, "does not belong into a proof", NULL);
@@ -186,7 +183,7 @@ static const field_table proof = FIELD_TABLE_READ(record_line, proof_fields, "do
 #define COLUMN .column = FIELD_COLUMN
 #define TIMED(name, bits, null, columns_bits)                                                                          \
     RECORD(name), .bit = (bits), .if_null = (null), .column = (columns_bits), .apart = TIMES
-#define SIDE(bits) .bit = (bits), .wrong = WHOLE, .apart = TRIANGLE, .column = OVOID_RECORD_SOLIDS
+#define SIDE(bits) .bit = (bits), .wrong = WRONG_WHOLE, .apart = TRIANGLE, .column = OVOID_RECORD_SOLIDS
 #define KIND(member)                                                                                                   \
     RECORD(member), .bit = RECORD_KINDS, .names = &kinds, COLUMN, .wrong = "is not a kind of mesh", .apart = KINDS
 #define ALLOWANCE(member, bits)                                                                                        \
@@ -199,15 +196,15 @@ static const field_table proof = FIELD_TABLE_READ(record_line, proof_fields, "do
     .bit = (bits), .column = OVOID_RECORD_CONTACTS,                                                                    \
     .apart = "goes with \"contact_margin\" and \"contact_angle\", and a limit or contacts with one another not"
 static const field record_fields[] = {
-    {"time", FIELD_FINITE, TIMED(time, RECORD_TIME, 0, OVOID_RECORD_TIME), .wrong = NUMBER},
+    {"time", FIELD_FINITE, TIMED(time, RECORD_TIME, 0, OVOID_RECORD_TIME), .wrong = WRONG_NUMBER},
     {"frame", FIELD_FINITE, TIMED(frame, RECORD_IMPACT, 0, OVOID_RECORD_IMPACT), .wrong = TIMES},
     {"free_for", FIELD_FINITE, TIMED(free_for, RECORD_IMPACT, 0, OVOID_RECORD_IMPACT), .wrong = TIMES},
     {"hit_after", FIELD_NUMBER, TIMED(hit_after, RECORD_IMPACT, INFINITY, OVOID_RECORD_IMPACT), .wrong = TIMES},
     {"a", FIELD_OWN, .own = &own_a, COLUMN},
-    {"part_a", FIELD_WHOLE, RECORD(part_a), .bit = RECORD_PART_A, COLUMN, .wrong = WHOLE},
+    {"part_a", FIELD_WHOLE, RECORD(part_a), .bit = RECORD_PART_A, COLUMN, .wrong = WRONG_WHOLE},
     {"triangle_a", FIELD_WHOLE, SOLID(part_a), SIDE(RECORD_TRIANGLE_A)},
     {"b", FIELD_OWN, .own = &own_b, COLUMN},
-    {"part_b", FIELD_WHOLE, RECORD(part_b), .bit = RECORD_PART_B, COLUMN, .wrong = WHOLE},
+    {"part_b", FIELD_WHOLE, RECORD(part_b), .bit = RECORD_PART_B, COLUMN, .wrong = WRONG_WHOLE},
     {"triangle_b", FIELD_WHOLE, SOLID(part_b), SIDE(RECORD_TRIANGLE_B)},
     {"status", FIELD_NAME, RECORD(answer.status), .names = &statuses, COLUMN, .wrong = "is not a status"},
     {"limit", FIELD_NAME, RECORD(answer.limit), .names = &limits, COLUMN, .wrong = "is not a limit"},
@@ -218,17 +215,17 @@ static const field record_fields[] = {
      .apart = "is not what the bracket and the limit say of the margin"},
     {"inside", FIELD_NAME, SOLID(inside), .bit = RECORD_INSIDE, .names = &insides, .column = OVOID_RECORD_SOLIDS,
      .wrong = INSIDE, .apart = INSIDE},
-    {"common", FIELD_VECTOR, SOLID(common), .bit = RECORD_COMMON, .wrong = VECTOR,
+    {"common", FIELD_VECTOR, SOLID(common), .bit = RECORD_COMMON, .wrong = WRONG_VECTOR,
      .apart = "goes with \"inside\": \"common point\""},
-    {"component", FIELD_WHOLE, SOLID(component), .bit = RECORD_COMPONENT, .wrong = WHOLE,
+    {"component", FIELD_WHOLE, SOLID(component), .bit = RECORD_COMPONENT, .wrong = WRONG_WHOLE,
      .apart = "goes with \"inside\": \"a in b\" or \"b in a\""},
-    {"lower", FIELD_NUMBER, RECORD(answer.lower), .if_null = -INFINITY, COLUMN, .wrong = NUMBER},
-    {"upper", FIELD_NUMBER, RECORD(answer.upper), .if_null = INFINITY, COLUMN, .wrong = NUMBER},
-    {"point_a", FIELD_VECTOR, RECORD(answer.point_a), COLUMN, .wrong = VECTOR},
-    {"point_b", FIELD_VECTOR, RECORD(answer.point_b), COLUMN, .wrong = VECTOR},
-    {"normal", FIELD_VECTOR, RECORD(answer.normal), COLUMN, .wrong = VECTOR},
+    {"lower", FIELD_NUMBER, RECORD(answer.lower), .if_null = -INFINITY, COLUMN, .wrong = WRONG_NUMBER},
+    {"upper", FIELD_NUMBER, RECORD(answer.upper), .if_null = INFINITY, COLUMN, .wrong = WRONG_NUMBER},
+    {"point_a", FIELD_VECTOR, RECORD(answer.point_a), COLUMN, .wrong = WRONG_VECTOR},
+    {"point_b", FIELD_VECTOR, RECORD(answer.point_b), COLUMN, .wrong = WRONG_VECTOR},
+    {"normal", FIELD_VECTOR, RECORD(answer.normal), COLUMN, .wrong = WRONG_VECTOR},
     {"stage", FIELD_NAME, RECORD(answer.stage), .names = &stages, COLUMN, .wrong = "is not a stage"},
-    {"iterations", FIELD_WHOLE, RECORD(answer.iterations), COLUMN, .wrong = WHOLE},
+    {"iterations", FIELD_WHOLE, RECORD(answer.iterations), COLUMN, .wrong = WRONG_WHOLE},
     {"kind_a", FIELD_NAME, KIND(kind_a)},
     {"allowance_a", FIELD_NUMBER, ALLOWANCE(mesh_a.allowance, RECORD_ALLOWANCE_A)},
     {"mesh_volume_a", FIELD_MEASURE, VOLUME(mesh_a.mesh_volume)},
@@ -237,8 +234,8 @@ static const field record_fields[] = {
     {"allowance_b", FIELD_NUMBER, ALLOWANCE(mesh_b.allowance, RECORD_ALLOWANCE_B)},
     {"mesh_volume_b", FIELD_MEASURE, VOLUME(mesh_b.mesh_volume)},
     {"hull_volume_b", FIELD_MEASURE, VOLUME(mesh_b.hull_volume)},
-    {"contact_margin", FIELD_FINITE, RECORD(contact_margin), CONTACT(RECORD_CONTACTS), .wrong = NUMBER},
-    {"contact_angle", FIELD_FINITE, RECORD(contact_angle), CONTACT(RECORD_CONTACTS), .wrong = NUMBER},
+    {"contact_margin", FIELD_FINITE, RECORD(contact_margin), CONTACT(RECORD_CONTACTS), .wrong = WRONG_NUMBER},
+    {"contact_angle", FIELD_FINITE, RECORD(contact_angle), CONTACT(RECORD_CONTACTS), .wrong = WRONG_NUMBER},
     {"contact_limit", FIELD_NAME, RECORD(contact_limit), .names = &limits, CONTACT(RECORD_CONTACT_LIMIT),
      .wrong = "is not a limit"},
     {"contacts", FIELD_LIST, LIST(contacts, contact_count), .table = &record_contact_table,

@@ -63,40 +63,36 @@ static const field_own own_proof = {write_proof, read_proof}, own_share = {write
 
 // ---- tables
 
-#define WHOLE "must be a whole number >= 0"
-#define NUMBER "must be a number"
-#define VECTOR "must be three numbers"
-
 #define POINT(member) FIELD_AT(ovoid_manifold_point, member)
 static const field point_fields[] = {
-    {"id", FIELD_WHOLE, POINT(id), .wrong = WHOLE},
-    {"point_a", FIELD_VECTOR, POINT(point_a), .wrong = VECTOR},
-    {"point_b", FIELD_VECTOR, POINT(point_b), .wrong = VECTOR},
-    {"separation", FIELD_FINITE, POINT(separation), .wrong = NUMBER},
+    {"id", FIELD_WHOLE, POINT(id), .wrong = WRONG_WHOLE},
+    {"point_a", FIELD_VECTOR, POINT(point_a), .wrong = WRONG_VECTOR},
+    {"point_b", FIELD_VECTOR, POINT(point_b), .wrong = WRONG_VECTOR},
+    {"separation", FIELD_FINITE, POINT(separation), .wrong = WRONG_NUMBER},
 };
 static const field_table points =
     FIELD_TABLE_READ(ovoid_manifold_point, point_fields, "is not that of a point of contact", NULL);
 
 #define CONTACT(member) FIELD_AT(ovoid_record_contact, member)
 static const field contact_fields[] = {
-    {"part_a", FIELD_WHOLE, CONTACT(part_a), .wrong = WHOLE},
-    {"part_b", FIELD_WHOLE, CONTACT(part_b), .wrong = WHOLE},
+    {"part_a", FIELD_WHOLE, CONTACT(part_a), .wrong = WRONG_WHOLE},
+    {"part_b", FIELD_WHOLE, CONTACT(part_b), .wrong = WRONG_WHOLE},
     {"status", FIELD_NAME, CONTACT(manifold.status), .names = &statuses, .wrong = "is not a status"},
     {"limit", FIELD_NAME, CONTACT(manifold.limit), .names = &limits, .wrong = "is not a limit"},
-    {"lower", FIELD_NUMBER, CONTACT(manifold.lower), .if_null = -INFINITY, .wrong = NUMBER},
-    {"upper", FIELD_NUMBER, CONTACT(manifold.upper), .if_null = INFINITY, .wrong = NUMBER},
-    {"normal", FIELD_VECTOR, CONTACT(manifold.normal), .wrong = VECTOR},
+    {"lower", FIELD_NUMBER, CONTACT(manifold.lower), .if_null = -INFINITY, .wrong = WRONG_NUMBER},
+    {"upper", FIELD_NUMBER, CONTACT(manifold.upper), .if_null = INFINITY, .wrong = WRONG_NUMBER},
+    {"normal", FIELD_VECTOR, CONTACT(manifold.normal), .wrong = WRONG_VECTOR},
     {"axis", FIELD_NAME, CONTACT(manifold.axis), .names = &axes, .wrong = "is not an axis of a contact"},
-    {"feature_a", FIELD_WHOLE, CONTACT(manifold.feature_a), .wrong = WHOLE},
-    {"feature_b", FIELD_WHOLE, CONTACT(manifold.feature_b), .wrong = WHOLE},
-    {"facet_a", FIELD_WHOLE, CONTACT(manifold.facet_a), .wrong = WHOLE},
-    {"facet_b", FIELD_WHOLE, CONTACT(manifold.facet_b), .wrong = WHOLE},
-    {"flags", FIELD_WHOLE, CONTACT(manifold.memory.flags), .wrong = WHOLE},
-    {"corners", FIELD_WHOLE, CONTACT(manifold.corners), .wrong = WHOLE},
+    {"feature_a", FIELD_WHOLE, CONTACT(manifold.feature_a), .wrong = WRONG_WHOLE},
+    {"feature_b", FIELD_WHOLE, CONTACT(manifold.feature_b), .wrong = WRONG_WHOLE},
+    {"facet_a", FIELD_WHOLE, CONTACT(manifold.facet_a), .wrong = WRONG_WHOLE},
+    {"facet_b", FIELD_WHOLE, CONTACT(manifold.facet_b), .wrong = WRONG_WHOLE},
+    {"flags", FIELD_WHOLE, CONTACT(manifold.memory.flags), .wrong = WRONG_WHOLE},
+    {"corners", FIELD_WHOLE, CONTACT(manifold.corners), .wrong = WRONG_WHOLE},
     {"share", FIELD_OWN, .own = &own_share},
-    {"inner", FIELD_FINITE, CONTACT(inner), .wrong = NUMBER},
-    {"outer", FIELD_FINITE, CONTACT(outer), .wrong = NUMBER},
-    {"grown", FIELD_FINITE, CONTACT(grown), .wrong = NUMBER},
+    {"inner", FIELD_FINITE, CONTACT(inner), .wrong = WRONG_NUMBER},
+    {"outer", FIELD_FINITE, CONTACT(outer), .wrong = WRONG_NUMBER},
+    {"grown", FIELD_FINITE, CONTACT(grown), .wrong = WRONG_NUMBER},
     {"points", FIELD_LIST, CONTACT(points), .count = offsetof(ovoid_record_contact, point_count), .table = &points},
     {"proof", FIELD_OWN, .own = &own_proof},
     {"cover", FIELD_OWN, CONTACT(cover), .bit = FIELD_NOT_ZERO, .own = &own_cover},

@@ -48,8 +48,6 @@ enum {
 
 #define TEXT "must be a text"
 #define TEXTS "must be a list of texts"
-#define NUMBER "must be a number"
-#define WHOLE "must be a whole number >= 0"
 #define FLAG "must be true or false"
 #define STATUS "does not go with the status"
 
@@ -57,10 +55,10 @@ enum {
 #define SIDES "of a pair must be a link and an element, or an obstacle and a part"
 static const field side_fields[] = {
     {"link", FIELD_TEXT, SIDE(link), .bit = SIDE_LINK, .wrong = TEXT, .apart = SIDES},
-    {"element", FIELD_WHOLE, SIDE(number), .bit = SIDE_LINK, .wrong = WHOLE, .apart = SIDES},
+    {"element", FIELD_WHOLE, SIDE(number), .bit = SIDE_LINK, .wrong = WRONG_WHOLE, .apart = SIDES},
     {"name", FIELD_TEXT, SIDE(name), .bit = SIDE_NAME, .wrong = TEXT, .apart = SIDES},
     {"obstacle", FIELD_TEXT, SIDE(obstacle), .bit = SIDE_OBSTACLE, .wrong = TEXT, .apart = SIDES},
-    {"part", FIELD_WHOLE, SIDE(number), .bit = SIDE_OBSTACLE, .wrong = WHOLE, .apart = SIDES},
+    {"part", FIELD_WHOLE, SIDE(number), .bit = SIDE_OBSTACLE, .wrong = WRONG_WHOLE, .apart = SIDES},
 };
 static const field_table side_table = FIELD_TABLE_READ(ovoid_robot_proof_side, side_fields, SIDES, SIDES);
 
@@ -110,7 +108,7 @@ static const field_own own_digest = {NULL, read_digest}, own_pairs = {NULL, read
 #define SOURCE(member) FIELD_AT(source_line, source.member)
 #define LIST(items, number) SOURCE(items), .count = offsetof(source_line, source.number), .wrong = TEXTS
 static const field source_fields[] = {
-    {"path_proofs", FIELD_WHOLE, FIELD_AT(source_line, version), .wrong = WHOLE},
+    {"path_proofs", FIELD_WHOLE, FIELD_AT(source_line, version), .wrong = WRONG_WHOLE},
     {"robot", FIELD_TEXT, SOURCE(robot), .wrong = TEXT},
     {"srdf", FIELD_TEXT, SOURCE(srdf), .wrong = TEXT},
     {"scene", FIELD_TEXT, SOURCE(scene), .wrong = TEXT},
@@ -123,10 +121,10 @@ static const field source_fields[] = {
     {"hull", FIELD_FLAG, SOURCE(hull), .wrong = FLAG},
     {"visual", FIELD_FLAG, SOURCE(visual), .wrong = FLAG},
     {"fixed_base", FIELD_FLAG, SOURCE(fixed_base), .wrong = FLAG},
-    {"cylinder_tolerance", FIELD_FINITE, SOURCE(tolerance), .wrong = NUMBER},
-    {"margin", FIELD_FINITE, SOURCE(margin), .wrong = NUMBER},
-    {"limit_slack", FIELD_FINITE, SOURCE(limit_slack), .wrong = NUMBER},
-    {"paths", FIELD_WHOLE, SOURCE(path_count), .wrong = WHOLE},
+    {"cylinder_tolerance", FIELD_FINITE, SOURCE(tolerance), .wrong = WRONG_NUMBER},
+    {"margin", FIELD_FINITE, SOURCE(margin), .wrong = WRONG_NUMBER},
+    {"limit_slack", FIELD_FINITE, SOURCE(limit_slack), .wrong = WRONG_NUMBER},
+    {"paths", FIELD_WHOLE, SOURCE(path_count), .wrong = WRONG_WHOLE},
     {"digest", FIELD_OWN, .own = &own_digest},
     {"variables", FIELD_TEXTS, LIST(variables, variable_count)},
     {"pairs", FIELD_OWN, .own = &own_pairs},
@@ -180,27 +178,28 @@ static const field_own own_a = {NULL, read_a}, own_b = {NULL, read_b}, own_q = {
 
 #define PATH(member) FIELD_AT(path_line, proof.member)
 static const field path_fields[] = {
-    {"path", FIELD_WHOLE, PATH(number), .wrong = WHOLE},
+    {"path", FIELD_WHOLE, PATH(number), .wrong = WRONG_WHOLE},
     {"status", FIELD_NAME, PATH(answer.status), .names = &statuses, .wrong = "is not a status"},
-    {"states", FIELD_WHOLE, PATH(count), .wrong = WHOLE},
-    {"margin", FIELD_FINITE, PATH(margin), .wrong = NUMBER},
-    {"refused", FIELD_WHOLE, PATH(answer.refused), .bit = PATH_REFUSED, .wrong = WHOLE, .apart = STATUS},
+    {"states", FIELD_WHOLE, PATH(count), .wrong = WRONG_WHOLE},
+    {"margin", FIELD_FINITE, PATH(margin), .wrong = WRONG_NUMBER},
+    {"refused", FIELD_WHOLE, PATH(answer.refused), .bit = PATH_REFUSED, .wrong = WRONG_WHOLE, .apart = STATUS},
     {"code", FIELD_TEXT, FIELD_AT(path_line, code), .bit = PATH_REFUSED, .wrong = TEXT, .apart = STATUS},
     {"variable", FIELD_TEXT, FIELD_AT(path_line, variable), .bit = PATH_REFUSED, .wrong = TEXT, .apart = STATUS},
-    {"free_until", FIELD_FINITE, PATH(answer.free_until), .bit = PATH_FREE, .wrong = NUMBER, .apart = STATUS},
-    {"free_until_time", FIELD_FINITE, PATH(free_until_time), .bit = PATH_FREE_TIME, .wrong = NUMBER, .apart = STATUS},
-    {"hit_at", FIELD_FINITE, PATH(answer.hit_at), .bit = PATH_HIT, .wrong = NUMBER, .apart = STATUS},
-    {"hit_at_time", FIELD_FINITE, PATH(hit_at_time), .bit = PATH_HIT_TIME, .wrong = NUMBER, .apart = STATUS},
-    {"segment", FIELD_WHOLE, PATH(segment), .bit = PATH_PAIR, .wrong = WHOLE, .apart = STATUS},
-    {"pair", FIELD_WHOLE, PATH(pair), .bit = PATH_PAIR, .wrong = WHOLE, .apart = STATUS},
+    {"free_until", FIELD_FINITE, PATH(answer.free_until), .bit = PATH_FREE, .wrong = WRONG_NUMBER, .apart = STATUS},
+    {"free_until_time", FIELD_FINITE, PATH(free_until_time), .bit = PATH_FREE_TIME, .wrong = WRONG_NUMBER,
+     .apart = STATUS},
+    {"hit_at", FIELD_FINITE, PATH(answer.hit_at), .bit = PATH_HIT, .wrong = WRONG_NUMBER, .apart = STATUS},
+    {"hit_at_time", FIELD_FINITE, PATH(hit_at_time), .bit = PATH_HIT_TIME, .wrong = WRONG_NUMBER, .apart = STATUS},
+    {"segment", FIELD_WHOLE, PATH(segment), .bit = PATH_PAIR, .wrong = WRONG_WHOLE, .apart = STATUS},
+    {"pair", FIELD_WHOLE, PATH(pair), .bit = PATH_PAIR, .wrong = WRONG_WHOLE, .apart = STATUS},
     {"a", FIELD_OWN, .own = &own_a, .bit = PATH_PAIR, .apart = STATUS},
     {"b", FIELD_OWN, .own = &own_b, .bit = PATH_PAIR, .apart = STATUS},
-    {"lower", FIELD_NUMBER, PATH(answer.hit.lower), .bit = PATH_PAIR, .if_null = -INFINITY, .wrong = NUMBER,
+    {"lower", FIELD_NUMBER, PATH(answer.hit.lower), .bit = PATH_PAIR, .if_null = -INFINITY, .wrong = WRONG_NUMBER,
      .apart = STATUS},
-    {"upper", FIELD_NUMBER, PATH(answer.hit.upper), .bit = PATH_PAIR, .if_null = INFINITY, .wrong = NUMBER,
+    {"upper", FIELD_NUMBER, PATH(answer.hit.upper), .bit = PATH_PAIR, .if_null = INFINITY, .wrong = WRONG_NUMBER,
      .apart = STATUS},
-    {"looked_at", FIELD_WHOLE, PATH(answer.states), .wrong = WHOLE},
-    {"steps", FIELD_WHOLE, PATH(answer.step_count), .wrong = WHOLE},
+    {"looked_at", FIELD_WHOLE, PATH(answer.states), .wrong = WRONG_WHOLE},
+    {"steps", FIELD_WHOLE, PATH(answer.step_count), .wrong = WRONG_WHOLE},
     {"q", FIELD_OWN, .own = &own_q},
     {"times", FIELD_OWN, .own = &own_times, .bit = PATH_TIMES},
 };
@@ -239,8 +238,8 @@ static const field_own own_mask = {NULL, read_mask};
 #define NORMAL "must be three numbers of a step \"middle\" or \"ends\""
 static const field step_fields[] = {
     {"step", FIELD_NAME, STEP(kind), .names = &step_kinds, .wrong = "is no kind of step"},
-    {"begin", FIELD_FINITE, STEP(begin), .wrong = NUMBER},
-    {"end", FIELD_FINITE, STEP(end), .wrong = NUMBER},
+    {"begin", FIELD_FINITE, STEP(begin), .wrong = WRONG_NUMBER},
+    {"end", FIELD_FINITE, STEP(end), .wrong = WRONG_NUMBER},
     {"normal", FIELD_VECTOR, STEP(normal), .bit = STEP_NORMAL, .wrong = NORMAL, .apart = NORMAL},
     {"pairs", FIELD_OWN, .own = &own_mask},
 };
