@@ -18,13 +18,15 @@ const double eps = sizeof(btScalar) == 4 ? 1e-5 : 1e-12;
 struct bullet_world {
     btDefaultCollisionConfiguration configuration;
     btCollisionDispatcher dispatcher{&configuration};
-    ovoid::bullet::adapter adapter{dispatcher};
+    ovoid::bullet::adapter adapter;
     btDbvtBroadphase broad;
     btSequentialImpulseConstraintSolver solver;
     btDiscreteDynamicsWorld world{&dispatcher, &broad, &solver, &configuration};
     std::vector<std::unique_ptr<btRigidBody>> bodies;
 
-    bullet_world() { world.setGravity({0, 0, btScalar(-9.81)}); }
+    explicit bullet_world(const ovoid::bullet::settings &chosen = {}) : adapter(dispatcher, chosen) {
+        world.setGravity({0, 0, btScalar(-9.81)});
+    }
     ~bullet_world() {
         for (const auto &b : bodies) world.removeRigidBody(b.get());
     }
@@ -198,6 +200,21 @@ void test_depths() {
     }
 }
 
+/// A box that is apart by half of the threshold has points, and none where only bodies that touch are asked for.
+void test_margin() {
+    btBoxShape box({btScalar(0.5), btScalar(0.5), btScalar(0.5)});
+    const double gap = 0.5 * double(box.getContactBreakingThreshold(gContactBreakingThreshold));
+    for (const double margin : {1.0, 0.4, 0.0})
+        for (const double apart : {gap, -gap}) {
+            ovoid::bullet::settings chosen;
+            chosen.margin = margin;
+            bullet_world w(chosen);
+            w.add(box, 0, 0, 0, 0);
+            w.add(box, 0, 0, 1 + apart);
+            CHECK_EQ(w.detect().size(), apart < 0 || margin == 1 ? 4u : 0u);
+        }
+}
+
 /// Points at rest keep their impulses and grow old; a body that leaves has none.
 void test_rest() {
     bullet_world w;
@@ -356,6 +373,7 @@ int main() {
     test_translations();
     test_cones();
     test_boxes();
+    test_margin();
     test_depths();
     test_rest();
     test_parts();
