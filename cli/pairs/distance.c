@@ -4,6 +4,7 @@
 #include "base/inputs.h"
 #include "base/message.h"
 #include "base/outputs.h"
+#include "contacts.h"
 #include "pairs/answers.h"
 #include "pairs/solids.h"
 #include "results.h"
@@ -19,6 +20,7 @@ typedef struct settings {
     ovoid_pose pose_a, pose_b;
     double margin, tolerance; ///< margin negative: not given
     solids_choice choice;
+    contacts_settings contacts;
 } settings;
 
 static const cli_option options[] = {
@@ -31,6 +33,7 @@ static const cli_option options[] = {
      "also ask whether the bodies are within M of each other: exit code 1 if they are"},
     {"tol", 0, OPTION_LENGTH, offsetof(settings, tolerance), "T", NULL,
      "stop when the bracket is at most T wide, or 1e-9 of the pair's size (default: the latter alone)"},
+    CONTACTS_OPTIONS(settings),
     INPUTS_OPTIONS(settings),
     RESULTS_OPTIONS(settings),
     {0},
@@ -151,9 +154,10 @@ static void print_report(const report *r, const cli_body bodies[2], const ovoid_
     fprintf(file, "\n%-11s %s; ", "proof", ovoid_proof_kind_get_name(answer->proof.kind));
     if (bodies[0].compound) fprintf(file, "exclusions: %zu; ", record->exclusion_count);
     fprintf(file, "%s\n", holds ? "checked" : "DOES NOT HOLD");
+    (void)ovoid_record_write_contacts(file, record);
 }
 
-/// Verifies a record by its proof alone.
+/// Verifies a record by its proof alone, and its contacts by theirs.
 static int verify_record(const ovoid_body_pair *pair, const ovoid_record *record, double tolerance) {
     ovoid_error error;
     const ovoid_options asked = {.absolute_tolerance = tolerance};
@@ -163,9 +167,10 @@ static int verify_record(const ovoid_body_pair *pair, const ovoid_record *record
                                    .capacity = record->exclusion_count,
                                    .count = record->exclusion_count,
                                    .cover = (ovoid_cover *)record->cover};
-    if (ovoid_body_verify(pair, &answer, &(ovoid_body_basis){.options = &asked, .exclusions = &exclusions}, &error) ==
-        OVOID_OK)
-        return 1;
+    ovoid_code code =
+        ovoid_body_verify(pair, &answer, &(ovoid_body_basis){.options = &asked, .exclusions = &exclusions}, &error);
+    if (code == OVOID_OK && record->contact_angle > 0) code = contacts_verify(pair, record, tolerance, &error);
+    if (code == OVOID_OK) return 1;
     message_error("the proof does not hold: %s", error.message);
     return 0;
 }
@@ -173,8 +178,12 @@ static int verify_record(const ovoid_body_pair *pair, const ovoid_record *record
 /// Answers the pair, verifies the proof, writes the record. Returns the exit code.
 static int answer_pair(const settings *s, const cli_body bodies[2], const char *const paths[2]) {
     ovoid_body_pair pair = {inputs_get_body(&bodies[0], &s->pose_a), inputs_get_body(&bodies[1], &s->pose_b)};
-    const answers_query query = {
-        .query = QUERY_DISTANCE, .margin = s->margin, .tolerance = s->tolerance, .wants_proof = 1};
+    const ovoid_manifold_options contacts = contacts_make_options(&s->contacts, s->margin, s->tolerance);
+    const answers_query query = {.query = QUERY_DISTANCE,
+                                 .margin = s->margin,
+                                 .tolerance = s->tolerance,
+                                 .wants_proof = 1,
+                                 .contacts = s->contacts.wanted ? &contacts : NULL};
     answer_room room = {.cover = NULL};
     cli_results results;
     ovoid_record record = {.a = paths[0], .b = paths[1], .margin = s->margin};
@@ -187,8 +196,10 @@ static int answer_pair(const settings *s, const cli_body bodies[2], const char *
     int code = holds ? (int)results_judge(&record.answer, s->margin) : EXIT_NOT_PROVEN;
     const char *unit = inputs_get_unit(&s->read);
     solids_describe_bodies(bodies, &record);
-    unsigned fields = record.fields | OVOID_RECORD_PARTS | (s->margin >= 0 ? OVOID_RECORD_MARGIN : 0);
+    unsigned fields = record.fields | OVOID_RECORD_PARTS | (s->margin >= 0 ? OVOID_RECORD_MARGIN : 0) |
+                      (s->contacts.wanted ? OVOID_RECORD_CONTACTS : 0);
     if (results_open(&results, &s->out, fields, unit)) {
+        contacts_clear(&record);
         answer_room_clear(&room);
         return EXIT_INPUT;
     }
@@ -199,6 +210,7 @@ static int answer_pair(const settings *s, const cli_body bodies[2], const char *
         code = results_add(&results, &record) ? EXIT_INPUT : code;
     else
         print_report(&text, bodies, &record, holds);
+    contacts_clear(&record);
     answer_room_clear(&room);
     return results_close(&results, code);
 }
@@ -206,7 +218,8 @@ static int answer_pair(const settings *s, const cli_body bodies[2], const char *
 /// Answers as solids if one of the bodies is a solid: the exit code, or -1 if none is.
 static int answer_solids(const settings *s, const cli_body bodies[2], const char *const paths[2]) {
     const ovoid_pose poses[2] = {s->pose_a, s->pose_b};
-    solids_query query = {s->margin, s->tolerance, inputs_get_unit(&s->read)};
+    const ovoid_manifold_options contacts = contacts_make_options(&s->contacts, s->margin, s->tolerance);
+    solids_query query = {s->margin, s->tolerance, inputs_get_unit(&s->read), s->contacts.wanted ? &contacts : NULL};
     solids_pair pair;
     return solids_make_pair(paths, bodies, poses, &pair) ? solids_answer(&pair, &query, &s->out) : -1;
 }
@@ -221,6 +234,7 @@ static int run(const cli_command *command, int argc, char **argv) {
     int code = command_parse(command, argc, argv, &s, &paths);
     if (code < 0) code = results_settle(command, &s.out);
     if (code < 0) code = solids_settle(command, &s.choice);
+    if (code < 0) code = contacts_settle(command, &s.contacts);
     if (code >= 0) return code;
     s.read = solids_get_read(&s.read, &s.choice);
     if ((code = inputs_open_pair(paths.items, &s.read, s.choice.parts, bodies)) != 0) return code;
@@ -257,6 +271,7 @@ const cli_command command_distance = {
              "4 the sign (with --margin: the side of M) is not proven",
     .examples = "ovoid distance a.stl b.obj --pose-b \"0 0 1.5\"\n"
                 "ovoid distance a.ovoid b.ovoid --margin 0.05 || echo too near\n"
+                "ovoid distance a.ovoid b.ovoid --margin 0.001 --contacts\n"
                 "ovoid distance peg.stl ring.stl --unit mm\n"
                 "ovoid distance part.stl tool.stl --unit mm --json\n"
                 "ovoid distance chair.obj lamp.obj --parts --pose-b \"0.4 0 0 1 0 0 0\"",

@@ -2,6 +2,7 @@
 #include "pairs/solids.h"
 
 #include "base/message.h"
+#include "contacts.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -105,13 +106,14 @@ static int find_answer(const solids_pair *p, const solids_query *q, solids_resul
     return 1;
 }
 
-static ovoid_record make_record(const solids_pair *p, const solids_query *q, const solids_result *r) {
-    ovoid_record record = {.a = p->paths[0], .b = p->paths[1], .margin = q->margin};
-    ovoid_record_set_solid(&record, &r->answer);
-    solids_describe(p, &record);
-    record.exclusions = r->exclusions.items;
-    record.exclusion_count = r->exclusions.count;
-    return record;
+/// The record of the answer, with its contacts. 0 if memory runs out.
+static int make_record(const solids_pair *p, const solids_query *q, const solids_result *r, ovoid_record *record) {
+    *record = (ovoid_record){.a = p->paths[0], .b = p->paths[1], .margin = q->margin};
+    ovoid_record_set_solid(record, &r->answer);
+    solids_describe(p, record);
+    record->exclusions = r->exclusions.items;
+    record->exclusion_count = r->exclusions.count;
+    return !q->contacts || contacts_find(&p->pair, q->contacts, record);
 }
 
 // ---- for people
@@ -187,22 +189,28 @@ static void print_report(FILE *file, const solids_pair *p, const solids_query *q
 int solids_answer(const solids_pair *p, const solids_query *q, const output_settings *out) {
     solids_result r = {.exclusions.grows = 1};
     cli_results results;
-    if (!find_answer(p, q, &r)) {
+    ovoid_record record;
+    if (!find_answer(p, q, &r) || !make_record(p, q, &r, &record)) {
         message_error("out of memory");
-        return EXIT_INPUT;
-    }
-    ovoid_record record = make_record(p, q, &r);
-    unsigned fields = OVOID_RECORD_MESHES | OVOID_RECORD_SOLIDS | (q->margin >= 0 ? OVOID_RECORD_MARGIN : 0);
-    int code = r.holds ? (int)results_judge(&record.answer, q->margin) : EXIT_NOT_PROVEN;
-    if (results_open(&results, out, fields, q->unit)) {
         ovoid_exclusions_release(&r.exclusions);
         return EXIT_INPUT;
     }
-    record.fields = results.fields;
-    if (results_are_lines(&results))
-        code = results_add(&results, &record) ? EXIT_INPUT : code;
-    else
-        print_report(results.file, p, q, &r);
+    unsigned fields = OVOID_RECORD_MESHES | OVOID_RECORD_SOLIDS | (q->margin >= 0 ? OVOID_RECORD_MARGIN : 0) |
+                      (q->contacts ? OVOID_RECORD_CONTACTS : 0);
+    int code = r.holds ? (int)results_judge(&record.answer, q->margin) : EXIT_NOT_PROVEN;
+    if (results_open(&results, out, fields, q->unit))
+        code = EXIT_INPUT;
+    else {
+        record.fields = results.fields;
+        if (results_are_lines(&results))
+            code = results_add(&results, &record) ? EXIT_INPUT : code;
+        else {
+            print_report(results.file, p, q, &r);
+            (void)ovoid_record_write_contacts(results.file, &record);
+        }
+        code = results_close(&results, code);
+    }
+    contacts_clear(&record);
     ovoid_exclusions_release(&r.exclusions);
-    return results_close(&results, code);
+    return code;
 }

@@ -58,6 +58,7 @@ void solids_describe(const solids_pair *pair, ovoid_record *record);
 typedef struct solids_query {
     double margin, tolerance; ///< margin negative: not given
     const char *unit;
+    const ovoid_manifold_options *contacts; ///< of the contacts that are written too; NULL: none
 } solids_query;
 
 /// Answers, verifies the proof, writes the answer as text, JSON or CSV. Returns the exit code.

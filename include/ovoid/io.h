@@ -427,6 +427,8 @@ OVOID_API size_t ovoid_answer_write_distance(char text[64], const ovoid_answer *
  * with its points.
  */
 OVOID_API ovoid_code ovoid_records_write_table(FILE *file, const ovoid_record *records, size_t count, const char *unit);
+/** The contacts of a record, as they stand below its row of a table. */
+OVOID_API ovoid_code ovoid_record_write_contacts(FILE *file, const ovoid_record *record);
 
 /** A results file of JSON lines, read strictly: the keys above, each once, no other. A record's fields are its keys. */
 typedef struct ovoid_results_reader ovoid_results_reader;

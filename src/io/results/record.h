@@ -55,9 +55,6 @@ void record_contacts_clear(ovoid_record *record);
 /// The room that contacts take in a line, in items of OVOID_RECORD_ITEMS_MAX.
 size_t record_contacts_count_items(const ovoid_record *record);
 
-/// Writes the contacts of a record as lines of a table, below its row; of one without any nothing.
-void table_write_contacts(FILE *file, const ovoid_record *record);
-
 /// The bits of what the line has.
 uint64_t record_find_bits(const record_line *line);
 

@@ -197,7 +197,7 @@ ovoid_code ovoid_records_write_table(FILE *file, const ovoid_record *records, si
     for (size_t i = 0; i < count; i++) {
         table_row row = make_row(&records[i]);
         write_row(file, widths, first, &row);
-        table_write_contacts(file, &records[i]);
+        (void)ovoid_record_write_contacts(file, &records[i]);
     }
     return ferror(file) ? OVOID_ERROR_FILE : OVOID_OK;
 }

@@ -62,9 +62,10 @@ static void write_contact(FILE *file, const ovoid_record *record, const ovoid_re
     }
 }
 
-void table_write_contacts(FILE *file, const ovoid_record *record) {
+ovoid_code ovoid_record_write_contacts(FILE *file, const ovoid_record *record) {
     for (size_t i = 0; i < record->contact_count; i++) write_contact(file, record, &record->contacts[i]);
     if (record->fields & OVOID_RECORD_CONTACTS && record->contact_limit != OVOID_LIMIT_NONE)
         fprintf(file, "  no contacts (%s): solids and surfaces have none\n",
                 ovoid_limit_get_name(record->contact_limit));
+    return ferror(file) ? OVOID_ERROR_FILE : OVOID_OK;
 }
