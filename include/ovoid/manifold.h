@@ -84,9 +84,10 @@ typedef struct ovoid_manifold_options {
     double angle; /**< facets that meet the plane of contact at more than this angle (radians, at most 1.45) are not
                      faces of the contact: only their edge or vertex touches; 0 means 1.45 */
     ovoid_cover *cover; /**< room for the proof of a search, or NULL. Untouched by a query that needs no search, so that
-                           the cover of the last search stays; ovoid_manifold_verify reads it */
-    ovoid_manifold_points *points; /**< room for the points, or NULL: those of ovoid_manifold_compute_points, at a
-                                      fraction of its cost; a batch has its own */
+                           the cover of the last search stays; ovoid_manifold_verify reads it. Bit 1 of memory.flags is
+                           set where the bodies were measured as (b, a): then cover->a are vertices of B */
+    ovoid_manifold_points *points; /**< room for the points, or NULL: those of ovoid_manifold_compute_points, bit for
+                                      bit, at a fraction of its cost; a batch has its own */
 } ovoid_manifold_options;
 
 /**
@@ -134,7 +135,8 @@ typedef struct ovoid_manifold_polygon {
     double grown;   /**< as in ovoid_manifold_points */
     double inner;   /**< the area of the polygon of the facets alone: all of it is in contact */
     double outer;   /**< the area of a polygon that holds every point of contact: nothing outside of it is within the
-                       margin along the normal */
+                       margin along the normal; of rounded bodies, no points of their cores are within the margin and
+                       both radii */
     ovoid_manifold_point points[OVOID_MANIFOLD_CORNERS];
 } ovoid_manifold_polygon;
 

@@ -39,7 +39,10 @@ typedef struct ovoid_world_manifold_query {
                      most by its last move since the last step, but of that no more than its size; 0 to 100 */
 } ovoid_world_manifold_query;
 
-/** Is a pair in contact for the first time? */
+/**
+ * Is a pair in contact for the first time? In contact are bodies that are not proven farther apart than their margin:
+ * they may still be apart, as the pair's verdict.status says, and a contact that ends may never have touched.
+ */
 typedef enum ovoid_manifold_event {
     OVOID_MANIFOLD_BEGIN = 0, /**< the manifolds before these had none of this pair */
     OVOID_MANIFOLD_STAY
