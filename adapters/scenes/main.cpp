@@ -1,8 +1,9 @@
 /// @file main.cpp
 /// Runs scenes in an engine, with its own narrow phase and with ovoid's, and prints a table.
 ///
-///     scenes_ENGINE [--smoke] [--seconds S] [SCENE...]
+///     scenes_ENGINE [--smoke] [--seconds S] [--write FILE.json] [SCENE...]
 ///
+/// --write: the last scene where it ends with ovoid's narrow phase, for `ovoid check FILE.json --contacts`.
 /// Both sides step in turn, fifty steps each, so that a busy machine burdens both; the time is the processor's. The
 /// exact queries are outside of it, in every twentieth step.
 #include "scenes/measure.hpp"
@@ -14,6 +15,7 @@
 #include <cstring>
 #include <ctime>
 #include <exception>
+#include <fstream>
 
 namespace scenes {
 
@@ -51,6 +53,8 @@ class side {
             found_.steps++;
         }
     }
+
+    const state &last() const { return before_; }
 
     const findings &finish() {
         std::size_t moving = 0;
@@ -90,6 +94,51 @@ void print(const scene &of, const char *who, const findings &f) {
     std::fflush(stdout);
 }
 
+/// A hull as an OFF file.
+void write_mesh(const part &of, const std::string &path) {
+    const ovoid::shape shape = make_shape(of, 0);
+    const ovoid_polytope hull = shape.polytope();
+    std::ofstream file(path);
+    file.precision(17);
+    file << "OFF\n" << hull.vertex_count << ' ' << hull.triangle_count << " 0\n";
+    for (std::uint32_t i = 0; i < hull.vertex_count; i++) {
+        const double *v = hull.vertices + 3 * std::size_t(i);
+        file << v[0] + hull.origin.x << ' ' << v[1] + hull.origin.y << ' ' << v[2] + hull.origin.z << '\n';
+    }
+    for (std::uint32_t i = 0; i < hull.triangle_count; i++) {
+        const std::uint32_t *t = hull.triangles + 3 * std::size_t(i);
+        file << "3 " << t[0] << ' ' << t[1] << ' ' << t[2] << '\n';
+    }
+}
+
+/// The free bodies that are a box or a hull, as a scene of ovoid; without those that are fixed, as walls would hide
+/// the others.
+void write_scene(const scene &of, const state &at, const std::string &path) {
+    std::ofstream file(path);
+    file.precision(17);
+    std::vector<bool> is_written(of.parts.size());
+    file << "{\"objects\": [";
+    for (std::size_t i = 0, count = 0; i < of.bodies.size(); i++) {
+        const body &b = of.bodies[i];
+        const std::size_t number = b.parts[0].part;
+        const part &p = of.parts[number];
+        if (b.moves != motion::free || b.parts.size() != 1 || (p.is != kind::box && p.is != kind::hull)) continue;
+        const std::string mesh = path + "." + std::to_string(number) + ".off";
+        if (p.is == kind::hull && !is_written[number]) write_mesh(p, mesh);
+        is_written[number] = true;
+        file << (count++ ? ",\n " : "\n ") << "{\"name\": \"" << i << "\", ";
+        if (p.is == kind::hull)
+            file << "\"mesh\": \"" << mesh.substr(mesh.rfind('/') + 1) << "\", \"radius\": " << hull_margin * of.size;
+        else
+            file << "\"box\": [" << 2 * p.size.x << ", " << 2 * p.size.y << ", " << 2 * p.size.z << ']';
+        const ovoid_pose &pose = at.poses[i];
+        file << ", \"pose\": {\"xyz\": [" << pose.position.x << ", " << pose.position.y << ", " << pose.position.z
+             << "], \"quat_wxyz\": [" << pose.rotation.w << ", " << pose.rotation.x << ", " << pose.rotation.y << ", "
+             << pose.rotation.z << "]}}";
+    }
+    file << "\n]}\n";
+}
+
 void add(const findings &from, findings &to) {
     to.pairs += from.pairs, to.phantoms += from.phantoms, to.lost += from.lost, to.steps += from.steps;
     to.worst_phantom = std::max(to.worst_phantom, from.worst_phantom);
@@ -114,11 +163,18 @@ bool run_pairs(bool small) {
     return sums[1].phantoms == 0 && sums[1].lost == 0;
 }
 
+/// What is asked for.
+struct request {
+    bool small = false;
+    double seconds = 0;  ///< 0: those of the scene
+    std::string written; ///< the path of a scene; empty: none
+};
+
 /// Both sides of a scene. True if nothing was wrong on ours.
-bool run(const std::string &name, bool small, double seconds) {
-    if (name == "pairs") return run_pairs(small);
-    scene of = make_scene(name, small);
-    if (seconds > 0) of.seconds = seconds;
+bool run(const std::string &name, const request &asked) {
+    if (name == "pairs") return run_pairs(asked.small);
+    scene of = make_scene(name, asked.small);
+    if (asked.seconds > 0) of.seconds = asked.seconds;
     const truth exact(of);
     std::array<side, 2> sides = {side(of, exact, false), side(of, exact, true)};
     const auto all = static_cast<std::uint64_t>(std::ceil(of.seconds / of.step));
@@ -127,18 +183,21 @@ bool run(const std::string &name, bool small, double seconds) {
     print(of, engine_name, sides[0].finish());
     const findings &ours = sides[1].finish();
     print(of, "ovoid", ours);
+    if (!asked.written.empty()) write_scene(of, sides[1].last(), asked.written);
     return ours.phantoms == 0 && ours.lost == 0 && ours.ejected.empty();
 }
 
 int run_all(int count, char **names) {
-    bool small = false, right = true;
-    double seconds = 0;
+    bool right = true;
+    request how;
     std::vector<std::string> asked;
     for (int i = 1; i < count; i++) {
         if (std::strcmp(names[i], "--smoke") == 0)
-            small = true;
+            how.small = true;
         else if (std::strcmp(names[i], "--seconds") == 0 && i + 1 < count)
-            seconds = std::atof(names[++i]);
+            how.seconds = std::atof(names[++i]);
+        else if (std::strcmp(names[i], "--write") == 0 && i + 1 < count)
+            how.written = names[++i];
         else
             asked.push_back(names[i]);
     }
@@ -146,7 +205,7 @@ int run_all(int count, char **names) {
         "| scene | narrow phase | pairs asked | phantom (worst, m) | lost (worst, m) | ejected (fastest, m/s) | drift, "
         "m "
         "| jitter, m/s | energy gained, J | steps a second |\n|---|---|---:|---:|---:|---:|---:|---:|---:|---:|\n");
-    for (const std::string &name : asked.empty() ? list_scenes() : asked) right = run(name, small, seconds) && right;
+    for (const std::string &name : asked.empty() ? list_scenes() : asked) right = run(name, how) && right;
     return right ? 0 : 1;
 }
 
