@@ -17,7 +17,7 @@ cd "$(dirname "$0")/.." || exit 1
 jobs=${JOBS:-2}
 copy=build/mutate
 tree=$copy/tree
-groups="allowance query prepared growth boxes exact hull shape ellipsoid simd environment tools world world_manifolds compound solid solid_body solid_files decompose motion smooth paper manifold table lanes io robot robot_read robot_solid robot_spheres robot_cover robot_table robot_compare ompl fcl robot_cli robot_spheres_cli shard verify page report python python_solid decompose_watch robot_watch hostile hostile_cli"
+groups="allowance query prepared growth boxes exact hull shape ellipsoid simd environment tools world world_manifolds compound solid solid_body solid_files decompose motion smooth paper manifold table lanes io robot robot_read robot_solid robot_spheres robot_cover robot_table robot_compare ompl fcl adapters robot_cli robot_spheres_cli shard verify page report python python_solid decompose_watch robot_watch hostile hostile_cli contact_faces contact_python"
 
 # The tests of a group, fastest first; arguments after a colon.
 tests_of() {
@@ -54,16 +54,17 @@ tests_of() {
     lanes) echo "test_simd_octet test_simd_gjk8 test_simd_solid8 test_query_batch" ;;
     robot) echo "test_robot_model test_robot_poses test_robot_balls test_robot_hits test_robot_collide test_robot_matrix test_robot_path test_robot_path_altered test_robot_path_bounds test_robot_judge test_robot_clearance test_robot_motion" ;;
     io) echo "test_io_numbers test_io_json test_io_convexity test_io_motion test_io_scene test_io_pairs test_io_mesh test_io_limits test_io_results test_io_solid" ;;
-    contact_faces) echo "test_io_contacts test_cli.sh:check test_cli_lies.sh" ;;
+    contact_faces) echo "test_io_contacts test_cli.sh:check:distance test_cli_lies.sh" ;;
     contact_python) echo "test_python_manifold test_python_pickle" ;;
     robot_read) echo "test_robot_urdf test_robot_srdf test_robot_packages test_robot_scenes test_robot_place test_robot_known" ;;
     robot_solid) echo "test_robot_solid test_robot_urdf test_robot_scenes test_cli.sh:robot_solid" ;;
-    robot_cover) echo "test_robot_cover test_robot_edges test_robot_path test_robot_solid" ;;
+    robot_cover) echo "test_robot_cover test_robot_cover:--rounds:4 test_robot_edges test_robot_path test_robot_solid" ;;
     robot_table) echo "test_robot_table test_robot_apart test_robot_reach" ;;
     robot_compare) echo "test_robot_compare" ;;
     robot_watch) echo "test_robot_watch" ;;
     ompl) echo "test_hpp_ompl" ;;
     fcl) echo "test_hpp_fcl test_hpp_fcl_cache test_fcl_preload.sh" ;;
+    adapters) echo "test_adapter_bullet test_adapter_mujoco test_adapter_dart" ;;
     robot_cli) echo "test_cli.sh:robot:robot_check:robot_path:robot_states:robot_attach test_cli_altered_paths.sh" ;;
     robot_spheres_cli) echo "test_cli.sh:robot_spheres:robot_matrix" ;;
     shard) echo "test_io_pairs test_cli_shard.sh" ;;

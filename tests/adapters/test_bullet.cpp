@@ -265,6 +265,17 @@ void test_parts() {
     for (int i = 0; i < 240; i++) w.world.stepSimulation(btScalar(1.0 / 240), 0);
     CHECK_NEAR(w.bodies[1]->getCenterOfMassPosition().z(), 0.5, 0.01);
     CHECK_NEAR(w.bodies[1]->getCenterOfMassPosition().x(), 0, 0.01);
+    // A triangle that is left has no contact in the same step, though the mesh's box is still met.
+    btTriangleMesh steps;
+    steps.addTriangle({-1, -1, 0}, {1, -1, 0}, {0, 1, 0});
+    steps.addTriangle({9, -1, 5}, {11, -1, 5}, {10, 1, 5});
+    btBvhTriangleMeshShape stairs(&steps, true);
+    bullet_world other;
+    other.add(stairs, 0, 0, 0, 0);
+    other.add(box, 0, 0, 0.49);
+    CHECK_LE(1, other.detect().size());
+    other.bodies[1]->setCenterOfMassTransform(btTransform(btQuaternion::getIdentity(), {5, 0, 2}));
+    CHECK_EQ(other.detect().size(), 0u);
     w.bodies[1]->setCenterOfMassTransform(btTransform(btQuaternion::getIdentity(), {0, 0, 50}));
     CHECK_EQ(w.detect().size(), 0u);
     CHECK_EQ(w.dispatcher.getNumManifolds(), 0);

@@ -67,6 +67,14 @@ void test_boxes() {
             CHECK_NEAR(std::abs(c.point.x()), 0.4, 1e-12);
         }
     }
+    // The object that was added first is the first of a contact, wherever it is; one group's objects do not meet.
+    const auto right = make_frame(make_box(1, 1, 1), {0.9, 0, 0}), left = make_frame(make_box(1, 1, 1));
+    const auto turned = detector()->createCollisionGroup(right.get(), left.get());
+    CHECK(turned->collide(CollisionOption(true, 100), &result));
+    for (const Contact &c : result.getContacts()) CHECK(c.collisionObject1->getShapeFrame() == right.get());
+    const auto far = make_frame(make_box(1, 1, 1), {0.5, 0, 9});
+    const auto alone = detector()->createCollisionGroup(far.get());
+    CHECK(!turned->collide(alone.get(), CollisionOption(true, 100), &result));
     // At most what is asked for; without contacts the pair alone; without a result yes or no.
     both->collide(CollisionOption(true, 3), &result);
     CHECK_EQ(result.getNumContacts(), 3u);

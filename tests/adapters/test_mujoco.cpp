@@ -68,6 +68,27 @@ void test_boxes() {
     CHECK_EQ(d->ncon, 0);
 }
 
+/// A corner that slides out of a face stays where contacts are remembered, and is another point where they are not.
+void test_memory() {
+    const model_owner m = compile({"type=\"box\" size=\".5 .5 .5\"", "type=\"box\" size=\".5 .5 .5\""});
+    for (const bool remember : {true, false}) {
+        ovoid::mujoco::settings chosen;
+        chosen.remember = remember;
+        const ovoid::mujoco::adapter adapter(m.get(), chosen);
+        const data_owner d(mj_makeData(m.get())), fresh(mj_makeData(m.get()));
+        place(*d, 1, {0, -0.001, 0.99});
+        mj_forward(m.get(), d.get());
+        for (mjData *data : {d.get(), fresh.get()}) {
+            place(*data, 1, {0, 0.001, 0.99});
+            mj_forward(m.get(), data);
+            CHECK_EQ(data->ncon, 4);
+        }
+        bool same = d->ncon == fresh->ncon;
+        for (int i = 0; same && i < d->ncon; i++) same = !std::memcmp(d->contact[i].pos, fresh->contact[i].pos, 24);
+        CHECK_EQ(same, !remember);
+    }
+}
+
 /// Each pair of types at random poses: no contact deeper than the proven depth, none missing, all within the margin.
 void test_poses() {
     const std::vector<std::string> geoms = {"type=\"sphere\" size=\".3\"",      "type=\"capsule\" size=\".2 .3\"",
@@ -200,6 +221,7 @@ void test_threads() {
 
 int main() {
     test_boxes();
+    test_memory();
     test_poses();
     test_flush();
     test_rest();

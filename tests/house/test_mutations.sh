@@ -7,7 +7,7 @@ set -u
 work=$OVOID_BUILD_DIR/test_mutations
 rm -rf "$work" && mkdir -p "$work" || exit 1
 # A copy, since a listing is written beside the sources.
-cp -R "$OVOID_SOURCE_DIR/scripts" "$OVOID_SOURCE_DIR/src" "$OVOID_SOURCE_DIR/python" "$OVOID_SOURCE_DIR/cli" "$OVOID_SOURCE_DIR/include" "$OVOID_SOURCE_DIR/docs" "$work" && cd "$work" || exit 1
+cp -R "$OVOID_SOURCE_DIR/scripts" "$OVOID_SOURCE_DIR/src" "$OVOID_SOURCE_DIR/python" "$OVOID_SOURCE_DIR/cli" "$OVOID_SOURCE_DIR/include" "$OVOID_SOURCE_DIR/adapters" "$OVOID_SOURCE_DIR/docs" "$work" && cd "$work" || exit 1
 export OVOID_SOURCE_DIR
 passed=0 failed=0
 check() { # NAME RESULT
@@ -18,8 +18,9 @@ scripts/mutate.sh --check >said
 check "every mutation applies: $(grep FAILED said | head -n 5)" $?
 passed=$((passed + $(sed -n 's/^\([0-9]*\) passed.*/\1/p' said)))
 for test in $(scripts/mutate.sh --list | sed 's/^[^:]*://' | tr ' ' '\n' | sed 's/:.*//' | sort -u); do
-    # A test of Python, test_python_NAME, is python/tests/test_NAME.py; those of the tool are scripts.
-    [ -n "$(find "$OVOID_SOURCE_DIR/tests" -name "$test.c" -o -name "$test.cpp" -o -name "$test")" ] || [ -f "$OVOID_SOURCE_DIR/python/tests/$(echo "$test.py" | sed 's/_python//')" ]
+    # A test of Python, test_python_NAME, is python/tests/test_NAME.py, one of an engine adapters/test_NAME.cpp; those of the tool are scripts.
+    [ -n "$(find "$OVOID_SOURCE_DIR/tests" -name "$test.c" -o -name "$test.cpp" -o -name "$test")" ] || [ -f "$OVOID_SOURCE_DIR/python/tests/$(echo "$test.py" | sed 's/_python//')" ] ||
+        [ -f "$OVOID_SOURCE_DIR/tests/adapters/$(echo "$test.cpp" | sed 's/_adapter//')" ]
     check "there is no $test" $?
 done
 for group in $(scripts/mutate.sh --list | cut -d, -f1); do

@@ -556,6 +556,10 @@ static void test_verdicts(int rounds) {
             if (random_below(&s, 2)) body.pose.rotation = (ovoid_quat){1, 0, 0, 0};
             ids[k] = ovoid_robot_cell_add(m.cell, &body, &error);
         }
+        // Some links are wider toward obstacles.
+        for (uint32_t k = 0; k < m.cell->robot->link_count; k++)
+            if ((i + (int)k) % 3 == 0)
+                CHECK_EQ(ovoid_robot_cell_set_padding(m.cell, k, 0.2 * m.scale, &error), OVOID_OK);
         // Of a chain of boxes that touch their neighbours nothing would be free.
         for (uint32_t a = 0; a < m.cell->robot->link_count; a++)
             for (uint32_t b = a + 1; b < m.cell->robot->link_count; b++)
