@@ -123,10 +123,9 @@ OVOID_API ovoid_shape *ovoid_shape_create_pyramid(const ovoid_prism *prism, cons
                                                   ovoid_error *error);
 
 /**
- * The shape with its vertices moved: the hull of the new points. The search for its ellipsoids starts from those of the
- * shape, so it is faster if the body changed little; the result is proven as in ovoid_shape_create_from_points. xyz:
- * one point for each vertex of ovoid_polytope, in its order, in the user's local frame. Points that are no longer
- * extreme are dropped. Errors as in ovoid_shape_create_from_points, and ARGUMENT (no shape).
+ * The shape with its vertices moved: ovoid_shape_create_from_points of the new points, at the same cost. xyz: one point
+ * for each vertex of ovoid_polytope, in its order, in the user's local frame. Points that are no longer extreme are
+ * dropped. Errors as in ovoid_shape_create_from_points, and ARGUMENT (no shape).
  */
 OVOID_API ovoid_shape *ovoid_shape_create_deformed(const ovoid_shape *shape, const double *xyz,
                                                    const ovoid_shape_options *options, ovoid_error *error);

@@ -2,24 +2,18 @@
 #ifndef OVOID_ELLIPSOID_CERTIFICATE_H
 #define OVOID_ELLIPSOID_CERTIFICATE_H
 
-#include "linear/mat3.h"
+#include "ellipsoid/qp.h"
+#include "ellipsoid/root.h"
 #include "ovoid/polytope.h"
 
-/// The largest number of directions of the bound.
-#define CERTIFICATE_SIZE 11
-
-/// Directions with weights: in the space where the given ellipsoid is the unit ball, unit normals u of halfspaces at
-/// distance d from its centre. Weights for which u u' sums to the identity and u to zero are optimal (John 1948).
+/// Directions with weights, in the body's frame: good ones are normals of the halfspaces that an ellipsoid touches. In
+/// the space where it is the unit ball their unit normals u, weighted, are optimal if u u' sums to the identity and u
+/// to zero (John 1948).
 typedef struct certificate {
     int count;
-    uint32_t halfspace[CERTIFICATE_SIZE]; ///< its index, as given by the caller
-    double weight[CERTIFICATE_SIZE];
-    double moment[CERTIFICATE_SIZE][10]; ///< u u', u, d
+    vec3 direction[QP_SIZE];
+    double weight[QP_SIZE];
 } certificate;
-
-/// Adds a halfspace. If there would be too many, weight is moved among them, with all sums of weight times moment
-/// unchanged, until one has no weight and is dropped (C. Caratheodory, 1907).
-void certificate_add(certificate *c, uint32_t halfspace, double weight, vec3 u, double d);
 
 /// The body of the bound: the vertices, moved by -height to height along `normal`, and the ellipsoid { center + map u :
 /// |u| <= 1 } in it.
@@ -33,9 +27,12 @@ typedef struct inscribed_body {
     double reach; ///< the whole body has |u| <= reach
 } inscribed_body;
 
-/// An upper bound of the volume of any ellipsoid in the body, relative to the given one. directions[i]: of halfspace i
-/// of the certificate, in the body's frame. Any directions give a true bound, good directions a good bound. Cost:
-/// linear in the vertices.
-double certificate_compute_bound(const certificate *c, const inscribed_body *body, const vec3 *directions);
+/// An upper bound of the volume of any ellipsoid in the body, relative to the given one. Any directions give a true
+/// bound, good directions a good bound. Cost: linear in the vertices.
+double certificate_compute_bound(const certificate *c, const inscribed_body *body);
+
+/// The same in doubles, for a solid, the ellipsoid { center + map u } of a lower triangular map, and no reach; INFINITY
+/// where doubles do not suffice, as for a thin ellipsoid or bad weights.
+double certificate_compute_bound_quickly(const certificate *c, const ovoid_polytope *polytope, vec3 center, lower3 map);
 
 #endif

@@ -19,36 +19,57 @@
 #include "polytope/facets.h"
 #include "polytope/winding.h"
 
-double ellipsoid_compute_enclosing_bound(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid) {
-    factor f;
-    if (!factor_make(ellipsoid->q, &f)) return INFINITY;
-    const double center[3] = {ellipsoid->center.x, ellipsoid->center.y, ellipsoid->center.z};
+// |t| for a sum t of up to three terms of the given sum of sizes, enlarged by its rounding. Each term is rounded 5
+// times at most: difference, product, two sums; 7 roundings cover the sums' own, and 2^-500 any underflow.
+static double enlarge(double t, double size) { return fabs(t) + 7 * ROUNDING * size + 0x1p-500; }
+
+// |W d|^2 from above for a factor of three axes.
+static double bound_solid(const factor *f, vec3 d) {
+    d = (vec3){d.x * f->scale[0], d.y * f->scale[1], d.z * f->scale[2]};
+    double x = f->w[0][0] * d.x, yx = f->w[1][0] * d.x, yy = f->w[1][1] * d.y;
+    double zx = f->w[2][0] * d.x, zy = f->w[2][1] * d.y, zz = f->w[2][2] * d.z;
+    x = enlarge(x, fabs(x));
+    double y = enlarge(yx + yy, fabs(yx) + fabs(yy)), z = enlarge((zx + zy) + zz, (fabs(zx) + fabs(zy)) + fabs(zz));
+    return (x * x + y * y) + z * z;
+}
+
+// The same for a flat or narrow ellipsoid. Along an axis where Q is zero the vertices must have exactly the centre's
+// coordinate; else the bound is infinite.
+static double bound_flat(const factor *f, vec3 difference) {
+    const double along[3] = {difference.x, difference.y, difference.z};
+    double d[3], sum = 0;
+    for (int i = 0, k = 0; i < 3; i++) {
+        if (k < f->count && f->axis[k] == i)
+            d[k] = along[i] * f->scale[k], k++;
+        else if (along[i] != 0)
+            return INFINITY;
+    }
+    for (int i = 0; i < f->count; i++) {
+        double t = 0, size = 0;
+        for (int j = 0; j <= i; j++) {
+            t += f->w[i][j] * d[j];
+            size += fabs(f->w[i][j] * d[j]);
+        }
+        t = enlarge(t, size);
+        sum += t * t;
+    }
+    return sum;
+}
+
+double factor_compute_enclosing_bound(const factor *f, const ovoid_polytope *polytope, vec3 center) {
     double bound = 0;
     for (uint32_t v = 0; v < polytope->vertex_count; v++) {
-        const double *p = polytope->vertices + 3 * (size_t)v;
-        // Along an axis where Q is zero the vertices must have exactly the centre's coordinate.
-        double d[3], sum = 0;
-        for (int i = 0, k = 0; i < 3; i++) {
-            if (k < f.count && f.axis[k] == i)
-                d[k] = (p[i] - center[i]) * f.scale[k], k++;
-            else if (p[i] != center[i])
-                return INFINITY;
-        }
-        // Each of up to three terms is rounded 5 times at most: difference, product, two sums; 7 roundings cover the
-        // sums' own, and 2^-500 any underflow.
-        for (int i = 0; i < f.count; i++) {
-            double t = 0, size = 0;
-            for (int j = 0; j <= i; j++) {
-                t += f.w[i][j] * d[j];
-                size += fabs(f.w[i][j] * d[j]);
-            }
-            t = fabs(t) + 7 * ROUNDING * size + 0x1p-500;
-            sum += t * t;
-        }
+        vec3 d = vec3_sub(vec3_at(polytope->vertices, v), center);
+        double sum = f->count == 3 ? bound_solid(f, d) : bound_flat(f, d);
         if (isnan(sum)) return INFINITY;
         bound = max2(bound, sum);
     }
-    return bound * ((1 + 16 * ROUNDING) / (1 - f.defect));
+    return bound * ((1 + 16 * ROUNDING) / (1 - f->defect));
+}
+
+double ellipsoid_compute_enclosing_bound(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid) {
+    factor f;
+    return factor_make(ellipsoid->q, &f) ? factor_compute_enclosing_bound(&f, polytope, ellipsoid->center) : INFINITY;
 }
 
 int ellipsoid_is_enclosing(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid) {
@@ -83,20 +104,20 @@ static double bound_reach(const scaled *s, vec3 direction) {
     return sqrt(fmax(sum.high, 0) + 0x1p-96 * size + 0x1p-900) * (1 + 4 * ROUNDING);
 }
 
-// An upper bound of bound_reach in doubles: products and sums are within 10 roundings of the sum of sizes; 32 roundings
-// exceed that and the rounding of bound_reach.
+// An upper bound of the square of bound_reach in doubles: products and sums are within 10 roundings of the sum of
+// sizes; 40 roundings exceed that, the rounding of bound_reach, and a rounding of each entry of Q.
 static double bound_reach_roughly(const scaled *s, vec3 n) {
     double xx = n.x * n.x * s->q.m[0][0].high, yy = n.y * n.y * s->q.m[1][1].high, zz = n.z * n.z * s->q.m[2][2].high;
     double xy = 2 * n.x * n.y * s->q.m[0][1].high, xz = 2 * n.x * n.z * s->q.m[0][2].high;
     double yz = 2 * n.y * n.z * s->q.m[1][2].high;
     double size = ((fabs(xx) + fabs(yy)) + fabs(zz)) + ((fabs(xy) + fabs(xz)) + fabs(yz));
     double sum = ((xx + yy) + zz) + ((xy + xz) + yz);
-    return sqrt(max2(sum, 0) + 32 * ROUNDING * size + 0x1p-899) * (1 + 8 * ROUNDING);
+    return max2(sum, 0) + 40 * ROUNDING * size + 0x1p-899;
 }
 
-// The largest factor proven along n: the least of n . (v - c) over the triangle, less its rounding (difference,
-// product, two sums: 4 roundings a term, 6 with the bound's own), over the reach.
-static double bound_factor(const scaled *s, const vec3 corner[3], vec3 n, double reach) {
+// The least of n . (v - c) over the triangle, less its rounding: difference, product, two sums, 4 roundings a term; 6
+// with the bound's own.
+static double bound_least(const scaled *s, const vec3 corner[3], vec3 n) {
     double least = INFINITY;
     for (int i = 0; i < 3; i++) {
         vec3 d = vec3_scale(vec3_sub(corner[i], s->center), s->unit);
@@ -104,31 +125,49 @@ static double bound_factor(const scaled *s, const vec3 corner[3], vec3 n, double
         double value = vec3_dot(n, d) - 6 * ROUNDING * size - 0x1p-900;
         if (!(value >= least)) least = value;
     }
-    return least / reach * (1 - 4 * ROUNDING);
+    return least;
+}
+
+// The largest factor proven along n.
+static double bound_factor(const scaled *s, const vec3 corner[3], vec3 n) {
+    return bound_least(s, corner, n) / bound_reach(s, n) * (1 - 4 * ROUNDING);
 }
 
 vec3 triangle_compute_normal(const vec3 corner[3]) { return vec3_unit(compute_area(corner[0], corner[1], corner[2])); }
 
-double ellipsoid_compute_clear_bound(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid) {
+// The factor of a triangle that may limit it: along the plane of its facet, or, if that is below `bound`, along its own
+// normal, which may give a larger one.
+static double bound_triangle(const scaled *s, const vec3 corner[3], vec3 n, double bound) {
+    double clear = bound_factor(s, corner, n);
+    return clear >= bound ? clear : fmax(clear, bound_factor(s, corner, triangle_compute_normal(corner)));
+}
+
+// The bound over all triangles. Most do not limit it, as rough bounds along the planes of their facets show. `rough`:
+// takes the rough bounds of the others too.
+static double compute_clear_bound(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid, int rough) {
     scaled s = scale(ellipsoid);
     double bound = INFINITY;
     for (uint32_t t = 0; t < polytope->triangle_count; t++) {
         const uint32_t *index = polytope->triangles + 3 * (size_t)t;
         vec3 corner[3];
         for (int i = 0; i < 3; i++) corner[i] = vec3_at(polytope->vertices, index[i]);
-        // Uses the facet's plane. Most triangles do not limit the factor, which a rough upper bound of the reach shows.
         vec3 n = polytope->planes[polytope->triangle_facets[t]].normal;
-        double clear = bound_factor(&s, corner, n, bound_reach_roughly(&s, n));
-        if (clear >= bound && clear >= 0) continue;
-        clear = bound_factor(&s, corner, n, bound_reach(&s, n));
-        if (clear >= bound) continue;
-        // If this triangle limits the factor, its own normal may give a larger one.
-        vec3 own = triangle_compute_normal(corner);
-        clear = fmax(clear, bound_factor(&s, corner, own, bound_reach(&s, own)));
+        double least = bound_least(&s, corner, n), reach = bound_reach_roughly(&s, n);
+        // Squares save a root and a division; the first bound is infinite, and never reached.
+        if (least > 0 && least * least * (1 - 8 * ROUNDING) >= bound * bound * reach) continue;
+        double clear = rough ? least / sqrt(reach) * (1 - 8 * ROUNDING) : bound_triangle(&s, corner, n, bound);
         if (!(clear >= bound)) bound = clear;
         if (isnan(bound)) return -INFINITY;
     }
     return polytope->triangle_count ? bound : -INFINITY;
+}
+
+double ellipsoid_compute_clear_bound(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid) {
+    return compute_clear_bound(polytope, ellipsoid, 0);
+}
+
+double ellipsoid_compute_clear_bound_roughly(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid) {
+    return compute_clear_bound(polytope, ellipsoid, 1);
 }
 
 int ellipsoid_is_enclosed(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid) {

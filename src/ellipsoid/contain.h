@@ -3,6 +3,7 @@
 #ifndef OVOID_ELLIPSOID_CONTAIN_H
 #define OVOID_ELLIPSOID_CONTAIN_H
 
+#include "ellipsoid/factor.h"
 #include "ovoid/ellipsoid.h"
 
 /// 1 only if it is proven that Q - (v - c)(v - c)' is positive semidefinite for every vertex v. This is equivalent to
@@ -19,9 +20,16 @@ int ellipsoid_is_enclosed(const ovoid_polytope *polytope, const ovoid_ellipsoid 
 /// An upper bound of the largest (v - c)' Q^-1 (v - c) over the vertices; INFINITY if Q has no proven factor.
 double ellipsoid_compute_enclosing_bound(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid);
 
+/// The same from a factor of Q.
+double factor_compute_enclosing_bound(const factor *f, const ovoid_polytope *polytope, ovoid_vec3 center);
+
 /// A factor s such that the ellipsoid, scaled by s about its centre, meets no triangle of the surface: a lower bound of
 /// the largest factor with this property. At most zero if none is proven.
 double ellipsoid_compute_clear_bound(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid);
+
+/// The same in doubles alone, along the planes of the facets alone: no larger. If Q, scaled by the square of the
+/// result, is rounded, at most three roundings of an entry, the bound of the stored Q is at least 1.
+double ellipsoid_compute_clear_bound_roughly(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid);
 
 /// The unit normal of a triangle, accurate to a few roundings unless it is degenerate. (Computed in doubles, the normal
 /// of a needle's side would lean along the needle.) Zero for a degenerate one.

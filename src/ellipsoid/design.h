@@ -3,45 +3,25 @@
 #ifndef OVOID_ELLIPSOID_DESIGN_H
 #define OVOID_ELLIPSOID_DESIGN_H
 
-#include "linear/mat3.h"
-#include "ovoid/ellipsoid.h"
-
-/// Orthonormal axes and a box along them that contain the points: y = (axes (x - origin)) / half lies in about [-1,
-/// 1]^3, and the points fill a fair part of it, however thin they are.
-typedef struct frame {
-    uint32_t rank;
-    vec3 origin, half;   ///< half: half lengths of the box; beyond the rank that of the first axis
-    mat3 axes;           ///< rows
-    uint32_t extreme[6]; ///< the two extreme points of each coordinate, 2 rank of them
-} frame;
-
-/// The frame of the vertices, at least two of them; rank 1 to 3.
-frame frame_compute(const ovoid_polytope *polytope, uint32_t rank);
-/// The coordinates y of x; those beyond the rank are 0.
-vec3 frame_compute_local(const frame *f, vec3 x);
+#include <stdint.h>
 
 /// The largest number of points that carry weight at a time.
-#define DESIGN_SUPPORT 256
+#define DESIGN_SUPPORT 64
 
 typedef struct design {
-    const ovoid_ellipsoid *near; ///< an ellipsoid near the smallest enclosing one, from which to start; NULL: none
-    uint32_t rank;
-    double *local;       ///< 3 coordinates a point, in the frame
-    uint32_t *candidate; ///< points that may still carry weight at the optimum
-    uint32_t candidate_count;
-    uint32_t count;                  ///< points that carry weight
-    uint32_t point[DESIGN_SUPPORT];  ///< the points with weight, by index
-    double weight[DESIGN_SUPPORT];   ///< their weights, of sum 1 to rounding
-    double variance[DESIGN_SUPPORT]; ///< of the last evaluation
-    vec3 mean;                       ///< weighted, in the frame
-    sym3 inverse;                    ///< of the weighted covariance, with ones on the diagonal beyond the rank
-    double excess;                   ///< largest variance of a candidate, over rank + 1, less 1
-    uint32_t steps;                  ///< exchanges of weight
+    uint32_t rank;        ///< 1 to 3; coordinates beyond it are 0
+    uint32_t point_count; ///< at least 1
+    double *local;        ///< 3 coordinates a point; overwritten
+    uint32_t count;       ///< points that carry weight
+    uint32_t point[DESIGN_SUPPORT];
+    double weight[DESIGN_SUPPORT]; ///< of sum 1 to rounding
+    uint32_t steps;                ///< Newton steps
 } design;
 
-/// Starts with equal weights on the frame's extreme points and on the vertices farthest out in the metric of `near`,
-/// and moves weight until d->excess is at most `excess`, or there is no progress. The caller sets near, candidate and
-/// local (room for one and three numbers a vertex).
-void design_solve(design *d, const frame *f, const ovoid_polytope *polytope, double excess);
+/// Sets weights for which no point's variance exceeds that of the optimum by more than the share `excess`, or for which
+/// there is no more progress; the caller sets rank, points and coordinates. 0, with equal weights on extreme points, if
+/// the points are too thin for doubles. Cost: three to five Newton steps on some ten points, and as many passes over
+/// all points.
+int design_solve(design *d, double excess);
 
 #endif

@@ -3,6 +3,8 @@
 // the best.
 #include "ellipsoid/factor.h"
 
+#include "ellipsoid/root.h"
+
 sym3dd sym3dd_from(sym3 s) {
     dd xy = dd_from(s.xy), xz = dd_from(s.xz), yz = dd_from(s.yz);
     return (sym3dd){{{dd_from(s.xx), xy, xz}, {xy, dd_from(s.yy), yz}, {xz, yz, dd_from(s.zz)}}};
@@ -113,6 +115,34 @@ int factor_make(sym3 q, factor *f) {
     if (!make_unproven(&s, f, a)) return 0;
     f->defect = compute_defect(f->count, a, f->w);
     return f->defect < 0.5;
+}
+
+// With a_i = sum_k |W_ik| sqrt(Q_kk), the row sums of |W| |E| |W'| are at most a_i sum_j a_j. An entry of W Q W' - I in
+// doubles is on any path rounded 9 times at most: two products and up to three sums, twice, and the 1; each is relative
+// to a_i a_j, and 16 roundings cover the bound's own.
+int factor_make_quickly(sym3 q, factor *f, double *size) {
+    double trace = sym3_trace(q);
+    lower3 root;
+    if (!(trace > 1e-200 && trace < 1e200) || !lower3_make_root(q, &root)) return 0;
+    lower3 w = lower3_inverse(root);
+    *f = (factor){.count = 3, .axis = {0, 1, 2}, .scale = {1, 1, 1}};
+    f->w[0][0] = w.xx, f->w[1][0] = w.yx, f->w[1][1] = w.yy, f->w[2][0] = w.zx, f->w[2][1] = w.zy, f->w[2][2] = w.zz;
+    vec3 row[3], edge = {sqrt(q.xx), sqrt(q.yy), sqrt(q.zz)};
+    double a[3], sum = 0;
+    for (int i = 0; i < 3; i++) {
+        row[i] = (vec3){f->w[i][0], f->w[i][1], f->w[i][2]};
+        a[i] = (fabs(row[i].x) * edge.x + fabs(row[i].y) * edge.y) + fabs(row[i].z) * edge.z;
+        sum += a[i];
+    }
+    *size = max2(a[0], max2(a[1], a[2])) * sum;
+    for (int i = 0; i < 3; i++) {
+        vec3 qw = sym3_mul_vec3(q, row[i]);
+        double off = 0;
+        for (int j = 0; j < 3; j++) off += fabs(vec3_dot(row[j], qw) - (i == j));
+        f->defect = max2(f->defect, off);
+    }
+    f->defect += 16 * ROUNDING * *size;
+    return f->defect < 1e-6;
 }
 
 int factor_make_unproven(const sym3dd *s, factor *f) {

@@ -31,6 +31,10 @@ typedef struct factor {
 
 /// 1 and the factor, or 0 if Q is not proven positive definite on its nonzero axes.
 int factor_make(sym3 q, factor *f);
+/// The same in doubles, with all units 1, for matrices of entries between 1e-200 and 1e200 that are not thin: 0 if the
+/// ratio of radii is about 1e5 or more. *size: the largest row sum of |W| |E| |W'| over all E with |E_ij| <= sqrt(Q_ii
+/// Q_jj), at least 3. An error of k roundings in each entry of Q, relative to that, is at most k u *size in W Q W'.
+int factor_make_quickly(sym3 q, factor *f, double *size);
 /// A factor of a matrix in double-double, with no defect computed.
 int factor_make_unproven(const sym3dd *s, factor *f);
 

@@ -1,221 +1,337 @@
-// The maximum-volume inscribed ellipsoid { x + E u }, E symmetric positive definite:
-//     maximise log det E  subject to  |E n_i| + n_i . x <= b_i.
-// Primal-dual interior point on the conditions
-//     E^-1 = sym sum y_i w_i n_i',  w_i = E n_i / |E n_i|,   sum y_i n_i = 0,   |E n_i| + n_i . x + z_i = b_i,   y_i
-//     z_i = mu
-// as in Y. Zhang and L. Gao, On numerical solution of the maximum volume ellipsoid problem, 2003. They solve a system
-// as large as the number of constraints; here the multipliers are eliminated, which leaves the nine unknowns of E and
-// x, so that an iteration is linear in the constraints. Predictor and corrector as in S. Mehrotra, On the
-// implementation of a primal-dual interior point method, 1992. The constraints' convexity makes the system positive
-// definite. The result is not trusted: the caller proves what it returns.
+// The maximum-volume inscribed ellipsoid { x + L u }:
+//     maximise log det E  subject to  |E n_i| + n_i . x <= b_i
+// over symmetric E and x, by sequential quadratic programming (R. B. Wilson, A simplicial algorithm for concave
+// programming, 1963; S. P. Han, A globally convergent method for nonlinear programming, 1977). In each step the present
+// ellipsoid is the unit ball, E = I + D, and x = p, both zero: the constraints are linearised to g' D g + g . p <= beta
+// - 1, and the Lagrangian's second derivative, with multipliers y, is 2 |D|^2 - sum y (g' D g)^2; the centre has none,
+// and gets a small one. The quadratic program in these nine unknowns is solved by its dual, in the multipliers y >= 0:
+// a program of qp.h, whose unknowns are the few halfspaces that are touched. A step ends where the volume, after the
+// ellipsoid is scaled to fit, no longer grows; so each ellipsoid is inside. The multipliers bound how much larger any
+// other can be (certificate.c).
+//
+// With more than 64 halfspaces the steps work on a few of them, as cutting-plane methods do (J. E. Kelley, The
+// cutting-plane method for solving convex programs, 1960): those that were touched, and from each cell of directions
+// the one that the ellipsoid exceeds most. The result is not trusted: the caller proves what it returns.
 #include "ellipsoid/inscribe.h"
 
-// Unknowns: xx xy xz yy yz zz of E, then x.
-enum { UNKNOWNS = 9 };
+// Halfspaces at a time; cells of directions; steps; rounds; halfspaces to begin with; unknowns of D, and of D and p.
+enum { WORKING = 64, CELLS = 24, STEPS = 40, ROUNDS = 40, FIRST = 6, FORM = 6, UNKNOWNS = 9 };
 
-typedef struct newton {
-    double h[UNKNOWNS][UNKNOWNS]; // lower triangle; after factoring, Cholesky's
-    double gradient[UNKNOWNS];    // of log det E
-} newton;
+// The second derivative that the centre gets.
+#define PROXIMAL 1e-3
+#define ROOT_2 1.4142135623730951
 
-typedef struct step {
-    sym3 e;
-    vec3 x;
-} step;
+typedef struct solver {
+    const ovoid_plane *items[WORKING];
+    uint32_t count;
+    inscribed *s;
+    double reach;                        // about the largest |u| of the body
+    vec3 g[WORKING];                     // unit normals where the ellipsoid is the unit ball
+    double beta[WORKING];                // and offsets
+    sym3 second;                         // sum of y g g'
+    double l[FORM][FORM], inverse[FORM]; // Cholesky of the second derivative in D
+    double gradient[FORM];               // L^-1 of that of log det E
+    double step[UNKNOWNS];               // D, its entries off the diagonal times the root of 2, and p
+} solver;
 
-// Computes |E n|, its direction, and the residual of the slack.
-static void evaluate(constraint *c, const inscribed *s) {
-    vec3 p = sym3_mul_vec3(s->e, c->n);
-    c->h = vec3_norm(p);
-    c->w = vec3_scale(p, 1 / c->h);
-    c->miss = (c->b - vec3_dot(c->n, s->x)) - c->h - c->z;
-}
-
-// The gradient of |E n| + n . x in the nine unknowns.
-static void get_gradient(const constraint *c, double g[UNKNOWNS]) {
-    const vec3 *n = &c->n, *w = &c->w;
-    g[0] = n->x * w->x;
-    g[1] = n->y * w->x + n->x * w->y;
-    g[2] = n->z * w->x + n->x * w->z;
-    g[3] = n->y * w->y;
-    g[4] = n->z * w->y + n->y * w->z;
-    g[5] = n->z * w->z;
-    g[6] = n->x;
-    g[7] = n->y;
-    g[8] = n->z;
-}
-
-// Adds the form tr(D c D) in changes D of E: for c = sum (y / h) n n' that is sum (y / h) |D n|^2.
-static void add_curvature(newton *m, sym3 c) {
-    m->h[0][0] += c.xx;
-    m->h[1][0] += c.xy;
-    m->h[2][0] += c.xz;
-    m->h[1][1] += c.xx + c.yy;
-    m->h[2][1] += c.yz;
-    m->h[3][1] += c.xy;
-    m->h[4][1] += c.xz;
-    m->h[2][2] += c.xx + c.zz;
-    m->h[4][2] += c.xy;
-    m->h[5][2] += c.xz;
-    m->h[3][3] += c.yy;
-    m->h[4][3] += c.yz;
-    m->h[4][4] += c.yy + c.zz;
-    m->h[5][4] += c.yz;
-    m->h[5][5] += c.zz;
-}
-
-// The second derivative of -log det E, tr(X D X D) with X = E^-1, and the gradient of log det E.
-static void add_barrier(newton *m, sym3 e) {
-    sym3 x = sym3_inverse(e);
-    const double full[3][3] = {{x.xx, x.xy, x.xz}, {x.xy, x.yy, x.yz}, {x.xz, x.yz, x.zz}};
-    const int at[6][2] = {{0, 0}, {0, 1}, {0, 2}, {1, 1}, {1, 2}, {2, 2}};
-    for (int k = 0; k < 6; k++) {
-        int i = at[k][0], j = at[k][1];
-        m->gradient[k] = (i == j ? 1 : 2) * full[i][j];
-        for (int l = 0; l <= k; l++) {
-            int p = at[l][0], q = at[l][1];
-            double sum = full[i][p] * full[j][q] + full[i][q] * full[j][p];
-            m->h[k][l] += (i == j ? 0.5 : 1) * (p == q ? 0.5 : 1) * 2 * sum;
-        }
+// Evaluates the halfspaces, and scales the ellipsoid until it meets the first. 0 if its centre is outside.
+static int evaluate(solver *w) {
+    inscribed *s = w->s;
+    double least = INFINITY;
+    for (uint32_t i = 0; i < w->count; i++) {
+        vec3 g = lower3_mul_transposed_vec3(s->map, w->items[i]->normal);
+        double part = 1 / vec3_norm(g);
+        w->g[i] = vec3_scale(g, part);
+        w->beta[i] = (w->items[i]->offset - vec3_dot(w->items[i]->normal, s->x)) * part;
+        if (!(w->beta[i] >= least)) least = w->beta[i];
     }
-}
-
-// The system of the Newton step, factored; 0 if it is not positive definite in doubles.
-static int prepare(newton *m, constraint_set set, const inscribed *s) {
-    *m = (newton){0};
-    sym3 curvature = {0, 0, 0, 0, 0, 0};
-    for (uint32_t i = 0; i < set.count; i++) {
-        constraint *c = &set.items[i];
-        evaluate(c, s);
-        double g[UNKNOWNS], bend = c->y / c->h, stiff = c->y / c->z;
-        get_gradient(c, g);
-        curvature = sym3_add(curvature, sym3_outer(c->n, bend));
-        for (int k = 0; k < UNKNOWNS; k++) {
-            double scaled = g[k] * (k < 6 ? stiff - bend : stiff);
-            for (int l = 0; l <= k && l < 6; l++) m->h[k][l] += scaled * g[l];
-            for (int l = 6; l <= k; l++) m->h[k][l] += scaled * g[l];
-        }
-    }
-    add_curvature(m, curvature);
-    add_barrier(m, s->e);
-    for (int j = 0; j < UNKNOWNS; j++)
-        for (int i = j; i < UNKNOWNS; i++) {
-            double sum = m->h[i][j];
-            for (int k = 0; k < j; k++) sum -= m->h[i][k] * m->h[j][k];
-            if (i == j && !(sum > 0)) return 0;
-            m->h[i][j] = i == j ? sqrt(sum) : sum / m->h[j][j];
-        }
+    if (!(least > 0 && isfinite(least))) return 0;
+    s->map = lower3_scale(s->map, least);
+    for (uint32_t i = 0; i < w->count; i++) w->beta[i] *= 1 / least;
     return 1;
 }
 
-// The step toward y z = center, minus the products dy dz of the predictor if `correct` is set.
-static step solve(const newton *m, constraint_set set, double center, int correct) {
-    double r[UNKNOWNS];
-    for (int k = 0; k < UNKNOWNS; k++) r[k] = m->gradient[k];
-    for (uint32_t i = 0; i < set.count; i++) {
-        const constraint *c = &set.items[i];
-        double g[UNKNOWNS], goal = center - (correct ? c->dy * c->dz : 0), q = (goal - c->y * c->miss) / c->z;
-        get_gradient(c, g);
-        for (int k = 0; k < UNKNOWNS; k++) r[k] -= g[k] * q;
-    }
-    for (int i = 0; i < UNKNOWNS; i++) {
-        for (int k = 0; k < i; k++) r[i] -= m->h[i][k] * r[k];
-        r[i] /= m->h[i][i];
-    }
-    for (int i = UNKNOWNS - 1; i >= 0; i--) {
-        for (int k = i + 1; k < UNKNOWNS; k++) r[i] -= m->h[k][i] * r[k];
-        r[i] /= m->h[i][i];
-    }
-    return (step){{r[0], r[1], r[2], r[3], r[4], r[5]}, {r[6], r[7], r[8]}};
-}
-
-// Computes the step of multipliers and slacks; returns the largest share of it, at most 1, that keeps them positive.
-static double spread(constraint_set set, const step *d, double center, int correct) {
-    double part = 1;
-    for (uint32_t i = 0; i < set.count; i++) {
-        constraint *c = &set.items[i];
-        double goal = center - (correct ? c->dy * c->dz : 0);
-        c->dz = c->miss - vec3_dot(c->w, sym3_mul_vec3(d->e, c->n)) - vec3_dot(c->n, d->x);
-        c->dy = (goal - c->y * c->dz) / c->z - c->y;
-        if (part * c->dz < -c->z) part = -c->z / c->dz;
-        if (part * c->dy < -c->y) part = -c->y / c->dy;
-    }
-    return part;
-}
-
-// The sum of y z after that share of the step.
-static double compute_gap(constraint_set set, double part) {
+// The gap that the multipliers show, and w->second.
+static double compute_gap(solver *w) {
+    const inscribed *s = w->s;
+    vec3 first = {0, 0, 0};
     double sum = 0;
-    for (uint32_t i = 0; i < set.count; i++) {
-        const constraint *c = &set.items[i];
-        sum += (c->y + part * c->dy) * (c->z + part * c->dz);
+    w->second = (sym3){0, 0, 0, 0, 0, 0};
+    for (int k = 0; k < s->count; k++) {
+        vec3 g = w->g[s->item[k]];
+        w->second = sym3_add(w->second, sym3_outer(g, s->weight[k]));
+        first = vec3_add_scaled(first, g, s->weight[k]);
+        sum += s->weight[k] * w->beta[s->item[k]];
     }
-    return sum;
+    double third = (sum + vec3_norm(first) * w->reach) / 3, det = sym3_det(w->second);
+    return s->count && det > 0 ? third * third * third / det - 1 : INFINITY;
 }
 
-static int is_positive(sym3 e) {
-    vec3 x;
-    return sym3_solve(e, (vec3){0, 0, 0}, &x);
+// The gradient of a linearised constraint in the nine unknowns.
+static void fill_gradient(vec3 g, double a[UNKNOWNS]) {
+    a[0] = g.x * g.x, a[1] = ROOT_2 * g.x * g.y, a[2] = ROOT_2 * g.x * g.z;
+    a[3] = g.y * g.y, a[4] = ROOT_2 * g.y * g.z, a[5] = g.z * g.z;
+    a[6] = g.x, a[7] = g.y, a[8] = g.z;
 }
 
-// Takes that share of the step; slacks are made exact again if that does not reduce them by much. 0 if only a tiny
-// share leaves E positive definite.
-static int move(inscribed *s, constraint_set set, const step *d, double part) {
-    // E must stay positive definite, with a margin.
-    sym3 e;
-    do {
-        e = sym3_add(s->e, sym3_scale(d->e, part));
-        part *= 0.7;
-    } while (part > 1e-10 && !is_positive(sym3_add(e, sym3_scale(s->e, -0.02))));
-    part /= 0.7;
-    if (!(part > 1e-9)) return 0;
-    s->e = e;
-    s->x = vec3_add_scaled(s->x, d->x, part);
-    for (uint32_t i = 0; i < set.count; i++) {
-        constraint *c = &set.items[i];
-        c->y += part * c->dy;
-        c->z += part * c->dz;
-        c->dy = c->dz = 0;
-        evaluate(c, s);
-        if (c->miss > -0.5 * c->z) c->z += c->miss;
+// x = l^-1 x
+static void solve_lower(const solver *w, double x[FORM]) {
+    for (int i = 0; i < FORM; i++) {
+        for (int k = 0; k < i; k++) x[i] -= w->l[i][k] * x[k];
+        x[i] *= w->inverse[i];
     }
+}
+
+// x = l'^-1 x
+static void solve_upper(const solver *w, double x[FORM]) {
+    for (int i = FORM - 1; i >= 0; i--) {
+        for (int k = i + 1; k < FORM; k++) x[i] -= w->l[k][i] * x[k];
+        x[i] *= w->inverse[i];
+    }
+}
+
+// The second derivative in D, factored. The multipliers are reduced so that the sum of y g g' is at most the identity,
+// which leaves at least |D|^2 of it. Without any, about what is left at the end.
+static int factor_second(solver *w) {
+    const inscribed *s = w->s;
+    sym3 p = w->second;
+    double rows = max2((fabs(p.xx) + fabs(p.xy)) + fabs(p.xz),
+                       max2((fabs(p.xy) + fabs(p.yy)) + fabs(p.yz), (fabs(p.xz) + fabs(p.yz)) + fabs(p.zz)));
+    double part = 1 / max2(1, rows), (*l)[FORM] = w->l;
+    for (int i = 0; i < FORM; i++)
+        for (int j = 0; j <= i; j++) l[i][j] = i == j ? (s->count ? 2 : 1.6) : 0;
+    for (int k = 0; k < s->count; k++) {
+        double a[UNKNOWNS];
+        fill_gradient(w->g[s->item[k]], a);
+        for (int i = 0; i < FORM; i++)
+            for (int j = 0; j <= i; j++) l[i][j] -= s->weight[k] * part * a[i] * a[j];
+    }
+    for (int j = 0; j < FORM; j++) {
+        for (int k = 0; k < j; k++) l[j][j] -= l[j][k] * l[j][k];
+        if (!(l[j][j] > 1e-9)) return 0;
+        l[j][j] = sqrt(l[j][j]);
+        w->inverse[j] = 1 / l[j][j];
+        for (int i = j + 1; i < FORM; i++) {
+            for (int k = 0; k < j; k++) l[i][j] -= l[i][k] * l[j][k];
+            l[i][j] *= w->inverse[j];
+        }
+    }
+    const double identity[FORM] = {1, 0, 0, 1, 0, 1};
+    for (int i = 0; i < FORM; i++) w->gradient[i] = identity[i];
+    solve_lower(w, w->gradient);
     return 1;
 }
 
-// A small ball, slacks to match, and multipliers in proportion to their inverses: sum y |E n| = 3 at the optimum.
-static inscribed start(constraint_set set) {
-    double least = INFINITY, sum = 0;
-    for (uint32_t i = 0; i < set.count; i++) least = fmin(least, set.items[i].b);
-    double r = 0.7 * least;
-    for (uint32_t i = 0; i < set.count; i++) {
-        set.items[i].z = set.items[i].b - r;
-        sum += 1 / set.items[i].z;
-    }
-    for (uint32_t i = 0; i < set.count; i++) {
-        set.items[i].y = 3 / (r * sum * set.items[i].z);
-        set.items[i].dy = set.items[i].dz = 0;
-    }
-    return (inscribed){.e = sym3_diagonal(r, r, r)};
+// Adds a halfspace to the dual program.
+static void add_halfspace(const solver *w, qp *q, uint32_t i, double weight) {
+    double *row = q->row[q->count], c = 1 - w->beta[i];
+    fill_gradient(w->g[i], row);
+    solve_lower(w, row);
+    for (int k = 0; k < FORM; k++) c += row[k] * w->gradient[k];
+    for (int k = FORM; k < UNKNOWNS; k++) row[k] *= 1 / sqrt(PROXIMAL);
+    row[QP_WIDTH - 1] = 0;
+    q->item[q->count] = i;
+    q->c[q->count] = c;
+    qp_add(q, weight);
 }
 
-inscribed inscribe_solve(constraint_set set, double gap) {
-    inscribed s = start(set);
-    s.gap = compute_gap(set, 0);
-    while (s.iterations < 80 && s.gap > gap) {
-        newton m;
-        if (!prepare(&m, set, &s)) break;
-        // Predictor: the length of its step decides how much centring is needed.
-        step d = solve(&m, set, 0, 0);
-        double part = spread(set, &d, 0, 0);
-        double share = compute_gap(set, part) / s.gap;
-        double center = share * share * share * s.gap / set.count;
-        // Corrector.
-        d = solve(&m, set, center, 1);
-        part = spread(set, &d, center, 1);
-        if (!move(&s, set, &d, fmin(1, 0.95 * part))) break;
-        s.iterations++;
-        s.gap = compute_gap(set, 0);
-        if (!isfinite(s.gap)) break;
+// The halfspaces to begin with: those of the last multipliers, or the nearest.
+static void choose_first(const solver *w, qp *q) {
+    for (int k = 0; k < w->s->count; k++) add_halfspace(w, q, w->s->item[k], w->s->weight[k]);
+    if (q->count) return;
+    uint32_t near[FIRST], count = 0;
+    for (uint32_t i = 0; i < w->count; i++) {
+        uint32_t k = count;
+        if (k == FIRST && w->beta[i] >= w->beta[near[k - 1]]) continue;
+        if (k == FIRST)
+            k--;
+        else
+            count++;
+        for (; k > 0 && w->beta[near[k - 1]] > w->beta[i]; k--) near[k] = near[k - 1];
+        near[k] = i;
+    }
+    for (uint32_t k = 0; k < count; k++) add_halfspace(w, q, near[k], 3.0 / count);
+}
+
+// The step that belongs to the multipliers: H^-1 (gradient of log det E - sum y a).
+static void compute_step(solver *w, const qp *q) {
+    double *d = w->step, a[UNKNOWNS];
+    for (int i = 0; i < UNKNOWNS; i++) d[i] = i == 0 || i == 3 || i == 5;
+    for (int k = 0; k < q->count; k++) {
+        fill_gradient(w->g[q->item[k]], a);
+        for (int i = 0; i < UNKNOWNS; i++) d[i] -= q->x[k] * a[i];
+    }
+    solve_lower(w, d);
+    solve_upper(w, d);
+    for (int i = FORM; i < UNKNOWNS; i++) d[i] *= 1 / PROXIMAL;
+}
+
+// The halfspace outside of the program whose linearised constraint the step violates most, if by more than `least`;
+// else their number.
+static uint32_t find_violated(const solver *w, const qp *q, double least) {
+    const double *d = w->step;
+    double xy = ROOT_2 * d[1], xz = ROOT_2 * d[2], yz = ROOT_2 * d[4];
+    uint32_t worst = w->count;
+    for (uint32_t i = 0; i < w->count; i++) {
+        vec3 g = w->g[i];
+        double x = g.x * ((d[0] * g.x + xy * g.y) + (xz * g.z + d[6])), y = g.y * ((d[3] * g.y + yz * g.z) + d[7]);
+        double out = (x + y) + (g.z * (d[5] * g.z + d[8]) - (w->beta[i] - 1));
+        if (out > least && !qp_has(q, i)) least = out, worst = i;
+    }
+    return worst;
+}
+
+// The step and its multipliers.
+static void solve_model(solver *w, double least) {
+    qp q;
+    q.count = 0;
+    choose_first(w, &q);
+    qp_settle(&q);
+    for (int add = 0; add < STEPS; add++) {
+        compute_step(w, &q);
+        uint32_t i = find_violated(w, &q, least);
+        if (i == w->count || q.count == QP_SIZE) break;
+        add_halfspace(w, &q, i, 0);
+        qp_settle(&q);
+    }
+    w->s->count = q.count;
+    for (int k = 0; k < q.count; k++) w->s->item[k] = q.item[k], w->s->weight[k] = q.x[k];
+}
+
+// The square of the factor by which { p + (I + D) u } must be scaled to fit.
+static double compute_fit(const solver *w, sym3 e, vec3 p) {
+    double least = INFINITY;
+    for (uint32_t i = 0; i < w->count; i++) {
+        vec3 u = sym3_mul_vec3(e, w->g[i]);
+        double room = w->beta[i] - vec3_dot(w->g[i], p), square = vec3_norm_squared(u);
+        if (!(room > 0)) return 0;
+        if (room * room < least * square) least = room * room / square;
+    }
+    return least;
+}
+
+// Takes the first of 1, 1/2, 1/4, ... of the step with which the volume grows; near the optimum the growth is below
+// rounding. 0 if there is none.
+static int move(solver *w) {
+    const double *d = w->step;
+    double part = 1;
+    for (int trial = 0; trial < 12; trial++, part *= 0.5) {
+        sym3 e = {1 + part * d[0], part * d[1] / ROOT_2, part * d[2] / ROOT_2,
+                  1 + part * d[3], part * d[4] / ROOT_2, 1 + part * d[5]};
+        vec3 p = {part * d[6], part * d[7], part * d[8]};
+        double det = sym3_det(e);
+        if (!(det > 0 && e.xx > 0 && e.xx * e.yy > e.xy * e.xy)) continue;
+        double fit = compute_fit(w, e, p);
+        if (!(det * fit * sqrt(fit) > (w->s->gap < 1e-5 ? 1 - 1e-12 : 1))) continue;
+        // L (I + D) as a lower triangular matrix times a rotation.
+        sym3 squared = {(e.xx * e.xx + e.xy * e.xy) + e.xz * e.xz, (e.xx * e.xy + e.xy * e.yy) + e.xz * e.yz,
+                        (e.xx * e.xz + e.xy * e.yz) + e.xz * e.zz, (e.xy * e.xy + e.yy * e.yy) + e.yz * e.yz,
+                        (e.xy * e.xz + e.yy * e.yz) + e.yz * e.zz, (e.xz * e.xz + e.yz * e.yz) + e.zz * e.zz};
+        lower3 root;
+        if (!lower3_make_root(squared, &root)) return 0;
+        w->s->x = vec3_add(w->s->x, lower3_mul_vec3(w->s->map, p));
+        w->s->map = lower3_mul(w->s->map, root);
+        return 1;
+    }
+    return 0;
+}
+
+// Steps on the solver's halfspaces until the gap is small, or there is no progress. 0 if the centre is outside.
+static int settle(solver *w, double gap) {
+    inscribed *s = w->s;
+    for (int step = 0; step < STEPS; step++) {
+        if (!evaluate(w)) return 0;
+        s->gap = compute_gap(w);
+        if (s->gap <= gap || !factor_second(w)) return 1;
+        solve_model(w, max2(1e-3 * gap, 1e-14));
+        s->iterations++;
+        // The new multipliers may show that the present ellipsoid is good enough.
+        s->gap = min2(s->gap, compute_gap(w));
+        if (s->gap <= gap || !move(w)) return 1;
+    }
+    return evaluate(w);
+}
+
+// ---- many halfspaces
+
+// One of 24 cells of directions: the coordinate that is largest and its sign, and the signs of the others over it.
+static int find_cell(vec3 n) {
+    double x = fabs(n.x), y = fabs(n.y), z = fabs(n.z);
+    if (x >= y && x >= z) return (n.x < 0) * 4 + (n.y / n.x > 0) + 2 * (n.z / n.x > 0);
+    if (y >= z) return 8 + (n.y < 0) * 4 + (n.z / n.y > 0) + 2 * (n.x / n.y > 0);
+    return 16 + (n.z < 0) * 4 + (n.x / n.z > 0) + 2 * (n.y / n.z > 0);
+}
+
+// The least room of all halfspaces, in units of the ellipsoid's reach; from each cell the halfspace of least room below
+// `most`: -1 if there is none.
+static double find_tightest(halfspace_set set, const inscribed *s, double most, int64_t which[CELLS]) {
+    double tightest = INFINITY, worst[CELLS];
+    for (int cell = 0; cell < CELLS; cell++) worst[cell] = most, which[cell] = -1;
+    for (uint32_t i = 0; i < set.count; i++) {
+        const ovoid_plane *h = &set.items[i];
+        double room = h->offset - vec3_dot(h->normal, s->x);
+        double beta = room / vec3_norm(lower3_mul_transposed_vec3(s->map, h->normal));
+        if (!(beta >= tightest)) tightest = beta;
+        if (!(beta < most)) continue;
+        int cell = find_cell(h->normal);
+        if (beta < worst[cell]) worst[cell] = beta, which[cell] = i;
+    }
+    return tightest;
+}
+
+// Keeps the halfspaces that were touched, and adds the chosen ones.
+static void choose_working(halfspace_set set, solver *w, const int64_t which[CELLS]) {
+    const ovoid_plane *kept[QP_SIZE];
+    uint32_t before = (uint32_t)w->s->count;
+    for (uint32_t k = 0; k < before; k++) kept[k] = w->items[w->s->item[k]], w->s->item[k] = k;
+    for (uint32_t k = 0; k < before; k++) w->items[k] = kept[k];
+    w->count = before;
+    for (int cell = 0; cell < CELLS; cell++) {
+        const ovoid_plane *h = which[cell] >= 0 ? set.items + which[cell] : NULL;
+        for (uint32_t k = 0; k < before && h; k++)
+            if (w->items[k] == h) h = NULL;
+        if (h) w->items[w->count++] = h;
+    }
+}
+
+static double compute_content(const inscribed *s) { return s->map.xx * s->map.yy * s->map.zz; }
+
+// Rounds of steps on the working set and a pass over all halfspaces, from an ellipsoid inside. An ellipsoid whose
+// centre is outside of a halfspace is given up for the last one that was inside.
+static void solve_many(halfspace_set set, solver *w, double gap) {
+    inscribed *s = w->s, inside = *s;
+    double goal = max2(1e-2, gap), slack = 0.1 * gap;
+    int64_t which[CELLS];
+    (void)find_tightest(set, s, INFINITY, which);
+    for (int round = 0; round < ROUNDS; round++) {
+        choose_working(set, w, which);
+        if (!settle(w, goal)) break;
+        double tightest = find_tightest(set, s, 1 - slack, which), fit = min2(tightest, 1);
+        if (fit > 0 && compute_content(s) * (fit * fit * fit) >= compute_content(&inside)) {
+            inside = *s;
+            inside.map = lower3_scale(s->map, fit);
+        }
+        int is_inside = tightest >= 1 - slack;
+        if (goal <= gap && is_inside) break;
+        goal = is_inside ? gap : max2(min2(goal, 0.1 * (1 - tightest)), gap);
+        if (!(tightest > 0)) s->map = inside.map, s->x = inside.x;
+    }
+    s->map = inside.map, s->x = inside.x;
+    for (int k = 0; k < s->count; k++) s->item[k] = (uint32_t)(w->items[s->item[k]] - set.items);
+}
+
+inscribed inscribe_solve(halfspace_set set, double gap) {
+    double least = INFINITY;
+    for (uint32_t i = 0; i < set.count; i++) least = min2(least, set.items[i].offset);
+    inscribed s = {.map = {least, 0, least, 0, 0, least}, .gap = INFINITY};
+    // From the ball the body reaches about twice the whole unit.
+    solver w;
+    w.s = &s, w.count = 0, w.reach = 2.2 / least;
+    if (set.count > WORKING)
+        solve_many(set, &w, gap);
+    else {
+        for (uint32_t i = 0; i < set.count; i++) w.items[w.count++] = set.items + i;
+        (void)settle(&w, gap);
     }
     return s;
 }

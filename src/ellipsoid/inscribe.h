@@ -1,36 +1,31 @@
-// The maximum-volume ellipsoid in an intersection of halfspaces, by a primal-dual interior-point method.
+// The maximum-volume ellipsoid in an intersection of halfspaces, by sequential quadratic programming.
 #ifndef OVOID_ELLIPSOID_INSCRIBE_H
 #define OVOID_ELLIPSOID_INSCRIBE_H
 
-#include "linear/mat3.h"
+#include "ellipsoid/qp.h"
+#include "ellipsoid/root.h"
+#include "ovoid/polytope.h"
 
-/// n . x <= b for a unit normal n, with the state of the method.
-typedef struct constraint {
-    vec3 n;
-    double b;
-    double y, z;   ///< multiplier and slack
-    vec3 w;        ///< E n / |E n|
-    double h;      ///< |E n|
-    double miss;   ///< b - n . x - h - z, the residual
-    double dy, dz; ///< the step of y and z
-} constraint;
-
-typedef struct constraint_set {
-    constraint *items;
+/// Halfspaces n . x <= b, unit normals n.
+typedef struct halfspace_set {
+    const ovoid_plane *items;
     uint32_t count;
-} constraint_set;
+} halfspace_set;
 
-/// The ellipsoid { x + E u : |u| <= 1 }.
+/// The ellipsoid { x + L u : |u| <= 1 }, and the halfspaces that confine it.
 typedef struct inscribed {
-    sym3 e;
+    lower3 map; ///< L
     vec3 x;
-    double gap; ///< sum of y z: about the relative gap of the volume
+    double gap; ///< about the relative gap of the volume
     uint32_t iterations;
+    int count;
+    uint32_t item[QP_SIZE]; ///< halfspaces with a weight, by index
+    double weight[QP_SIZE]; ///< of sum about 3: where the ellipsoid is the unit ball, their u u' sum to the identity
 } inscribed;
 
-/// The constraints must bound a body that contains the origin (all b > 0) and is of about the size of the unit ball,
-/// neither thin nor long. Stops at that gap, or if there is no progress. Cost: 10 to 30 iterations, each linear in the
-/// constraints.
-inscribed inscribe_solve(constraint_set set, double gap);
+/// The halfspaces must bound a body that contains the origin (all b > 0) and is of about the size of the unit ball,
+/// neither thin nor long. Stops at that gap, or if there is no progress. The ellipsoid is in all halfspaces, up to
+/// rounding. Cost: some five steps on up to 64 halfspaces, and as many passes over all.
+inscribed inscribe_solve(halfspace_set set, double gap);
 
 #endif

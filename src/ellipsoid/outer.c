@@ -12,10 +12,14 @@
 #include "ellipsoid/contain.h"
 #include "ellipsoid/design.h"
 #include "ellipsoid/factor.h"
-#include "ellipsoid/refit.h"
+#include "ellipsoid/fit.h"
+#include "ellipsoid/frame.h"
+#include "ellipsoid/root.h"
 
 #include "base/allocator.h"
 #include "base/environment.h"
+
+#include <string.h>
 
 // Centre, rounded, and covariance of the weighted vertices about their true mean.
 typedef struct moments {
@@ -119,7 +123,61 @@ static void fill_fit(const ovoid_polytope *polytope, const design *d, double gap
     }
 }
 
-ovoid_code ellipsoid_refit_outer(const ovoid_polytope *polytope, const fit_options *options, ovoid_fit *fit) {
+// ---- solids that are not thin
+
+// The fit in doubles from the weights of the design. 0 if the gap is not proven. docs/error-analysis.md has the bounds.
+static int fit_quickly(const ovoid_polytope *p, const design *d, double gap, ovoid_fit *fit) {
+    // The mean, relative to vertex 0, and three times the covariance about the centre that is stored.
+    vec3 first = vec3_at(p->vertices, 0), mean = {0, 0, 0};
+    double total = 0, extent = 0;
+    for (uint32_t i = 0; i < d->count; i++) {
+        vec3 x = vec3_sub(vec3_at(p->vertices, d->point[i]), first);
+        total += d->weight[i];
+        mean = vec3_add_scaled(mean, x, d->weight[i]);
+        extent = max2(extent, vec3_max_abs(x));
+    }
+    vec3 center = vec3_add(first, vec3_scale(mean, 1 / total));
+    sym3 q = {0, 0, 0, 0, 0, 0};
+    for (uint32_t i = 0; i < d->count; i++)
+        q = sym3_add(q, sym3_outer(vec3_sub(vec3_at(p->vertices, d->point[i]), center), 3 * (d->weight[i] / total)));
+    factor f;
+    double size;
+    if (!factor_make_quickly(q, &f, &size)) return 0;
+    // Scaled until it encloses, with room for rounding the entries.
+    double scale = factor_compute_enclosing_bound(&f, p, center) * (1 + 16 * ROUNDING * size);
+    // The stored centre is off the mean: in the metric of the covariance by `off` at most.
+    double norm = 0;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j <= i; j++) norm += f.w[i][j] * f.w[i][j];
+    double off = ((d->count + 8) * extent + 2 * vec3_max_abs(center)) * ROUNDING * sqrt(9 * norm);
+    double error = 2 * (d->count + 16) * ROUNDING * size + off * off;
+    fit->ellipsoid = (ovoid_ellipsoid){center, sym3_scale(q, scale)};
+    sym3dd stored = sym3dd_from(fit->ellipsoid.q);
+    fit->volume = ball_get_measure(3) * sym3dd_compute_content(&stored, 3, NULL);
+    fit->gap = scale * sqrt(scale) * (1 + 4 * error) - 1;
+    fit->iterations = d->steps;
+    fit->converged = fit->gap <= gap && fit->gap >= 0;
+    return fit->converged;
+}
+
+// ---- any body
+
+// The design of the vertices as they are; if they are too thin for that, in a frame in which they are round.
+static void compute(const ovoid_polytope *p, design *d, double gap, ovoid_fit *fit) {
+    // An excess of x makes a volume of about 1 + x (rank + 1) / 2; rounding and the last trials need the rest.
+    double excess = 0.5 * fmin(gap, 1) / (d->rank + 1);
+    *fit = (ovoid_fit){0};
+    if (d->rank == 3) {
+        memcpy(d->local, p->vertices, p->vertex_count * 3 * sizeof(double));
+        if (design_solve(d, excess) && fit_quickly(p, d, gap, fit)) return;
+    }
+    frame f = frame_compute(p, d->rank);
+    frame_fill_local(&f, p, d->local);
+    (void)design_solve(d, excess);
+    fill_fit(p, d, gap, fit);
+}
+
+ovoid_code ellipsoid_fit_outer(const ovoid_polytope *polytope, const fit_options *options, ovoid_fit *fit) {
     double gap = options->gap;
     if (!polytope || !fit || !(gap >= 0) || polytope->vertex_count == 0 || polytope->rank > 3)
         return OVOID_ERROR_ARGUMENT;
@@ -130,20 +188,15 @@ ovoid_code ellipsoid_refit_outer(const ovoid_polytope *polytope, const fit_optio
         return OVOID_OK;
     }
     ovoid_allocator memory = allocator_make(options->allocator);
-    double *block = allocator_allocate(&memory, count, 3 * sizeof(double) + sizeof(uint32_t));
-    if (!block) return OVOID_ERROR_MEMORY;
-    design d = {.near = options->start ? &options->start->outer : NULL, .local = block};
-    d.candidate = (uint32_t *)(block + 3 * (size_t)count);
-    frame f = frame_compute(polytope, rank);
-    // An excess of x makes a volume of about 1 + x (rank + 1) / 2; rounding and the last trials need the rest.
-    design_solve(&d, &f, polytope, 0.5 * fmin(gap, 1) / (rank + 1));
-    fill_fit(polytope, &d, gap, fit);
-    allocator_release(&memory, block);
+    double *local = allocator_allocate(&memory, count, 3 * sizeof(double));
+    if (!local) return OVOID_ERROR_MEMORY;
+    compute(polytope, &(design){.rank = rank, .point_count = count, .local = local}, gap, fit);
+    allocator_release(&memory, local);
     return OVOID_OK;
 }
 
 ovoid_code ovoid_ellipsoid_compute_outer(const ovoid_polytope *polytope, const ovoid_ellipsoid_options *options,
                                          ovoid_fit *fit, ovoid_error *error) {
     fit_options o = {options ? options->gap : 0, NULL, options ? options->allocator : NULL};
-    ENVIRONMENT_RETURN(ovoid_code, o, fit_explain(ellipsoid_refit_outer(polytope, &o, fit), error));
+    ENVIRONMENT_RETURN(ovoid_code, o, fit_explain(ellipsoid_fit_outer(polytope, &o, fit), error));
 }

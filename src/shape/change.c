@@ -11,7 +11,7 @@
 
 static ovoid_shape *create_deformed(const ovoid_shape *shape, const double *xyz, const ovoid_shape_options *options,
                                     ovoid_error *error) {
-    if (shape) return shape_create_from_points((xyz_points){xyz, shape->vertex_count}, options, shape, error);
+    if (shape) return shape_create_from_points((xyz_points){xyz, shape->vertex_count}, options, error);
     error_write(error, OVOID_ERROR_ARGUMENT, -1, "no shape to deform");
     return NULL;
 }
@@ -109,7 +109,7 @@ static ovoid_code create_part(division *d, int side, ovoid_shape **part) {
     if (!inside) return OVOID_OK;
     for (size_t i = 0; i < 3 * (size_t)d->cut_count; i++) d->points[3 * count + i] = d->cuts[i];
     ovoid_error why = {0};
-    *part = shape_create_from_points((xyz_points){d->points, count + d->cut_count}, d->options, NULL, &why);
+    *part = shape_create_from_points((xyz_points){d->points, count + d->cut_count}, d->options, &why);
     if (!*part && d->error) *d->error = why;
     return *part ? OVOID_OK : why.code;
 }

@@ -6,8 +6,8 @@
 #include "base/error.h"
 #include "ellipsoid/contain.h"
 #include "ellipsoid/factor.h"
+#include "ellipsoid/fit.h"
 #include "ellipsoid/halfspaces.h"
-#include "ellipsoid/refit.h"
 #include "linear/vec3.h"
 #include "polytope/hull.h"
 #include "shape/block.h"
@@ -89,30 +89,20 @@ int shape_is_inner(const ovoid_shape *shape, const ovoid_ellipsoid *e) {
     return is_vertex(&p, e) || is_flat_inner(&p, &shape->measures, e, 1e-7 * shape->extent);
 }
 
-// The ellipsoids of a shape, transformed to the body frame of another one.
-static fit_start make_start(const ovoid_shape *near, const ovoid_shape *shape) {
-    vec3 shift = vec3_sub(near->origin, shape->origin);
-    fit_start start = {near->outer, near->inner};
-    start.outer.center = vec3_add(start.outer.center, shift);
-    start.inner.center = vec3_add(start.inner.center, shift);
-    return start;
-}
-
-static ovoid_code fit_ellipsoids(ovoid_shape *shape, const ovoid_shape_options *o, const ovoid_shape *near) {
+static ovoid_code fit_ellipsoids(ovoid_shape *shape, const ovoid_shape_options *o) {
     ovoid_polytope p = ovoid_shape_get_polytope(shape);
     ovoid_fit outer, inner;
-    fit_start start;
-    fit_options options = {o->gap, NULL, &shape->allocator};
-    if (near) start = make_start(near, shape), options.start = &start;
-    ovoid_code code = ellipsoid_refit_outer(&p, &options, &outer);
+    fit_options options = {o->gap, &shape->measures, &shape->allocator};
+    ovoid_code code = ellipsoid_fit_outer(&p, &options, &outer);
     if (code != OVOID_OK) return code;
     if (o->inner == OVOID_INNER_MAXIMUM)
-        code = ellipsoid_refit_inner(&p, &options, &inner);
+        code = ellipsoid_fit_inner(&p, &options, &inner);
     else
         inner = compute_phases(&p, &outer.ellipsoid);
     if (code != OVOID_OK) return code;
-    // Ribbons thinner than 1e-8 of their length may have no inner ellipsoid that can be stored; a vertex always can be.
-    if (!shape_is_inner(shape, &inner.ellipsoid))
+    // That of a solid is proven. Ribbons thinner than 1e-8 of their length may have none that can be stored; a vertex
+    // always can be.
+    if (p.rank < 3 && !shape_is_inner(shape, &inner.ellipsoid))
         inner = (ovoid_fit){.ellipsoid.center = vec3_at(p.vertices, 0), .gap = INFINITY};
     shape_set_fits(shape, &outer, &inner);
     return OVOID_OK;
@@ -169,21 +159,19 @@ ovoid_shape *shape_create_block(const hull *polytope, const ovoid_allocator *all
     return shape;
 }
 
-ovoid_shape *shape_create_from_hull(const hull *polytope, const ovoid_shape_options *o, const ovoid_shape *near,
-                                    ovoid_error *error) {
+ovoid_shape *shape_create_from_hull(const hull *polytope, const ovoid_shape_options *o, ovoid_error *error) {
     ovoid_shape *shape = shape_create_block(polytope, o->allocator, error);
     if (!shape) return NULL;
     block_set_radius(shape, o->radius, o->allowance);
     shape->report = polytope->report;
-    ovoid_code code = fit_ellipsoids(shape, o, near);
+    ovoid_code code = fit_ellipsoids(shape, o);
     if (code == OVOID_OK) return shape;
     error_write(error, code, -1, "no memory for the ellipsoids of %u vertices", polytope->vertex_count);
     ovoid_shape_destroy(shape);
     return NULL;
 }
 
-ovoid_shape *shape_create_from_points(xyz_points given, const ovoid_shape_options *options, const ovoid_shape *near,
-                                      ovoid_error *error) {
+ovoid_shape *shape_create_from_points(xyz_points given, const ovoid_shape_options *options, ovoid_error *error) {
     ovoid_shape_options o;
     if (shape_options_make(options, &o, error) != OVOID_OK) return NULL;
     if (!given.xyz && given.count) {
@@ -193,7 +181,7 @@ ovoid_shape *shape_create_from_points(xyz_points given, const ovoid_shape_option
     ovoid_allocator allocator = allocator_make(o.allocator);
     hull polytope;
     if (hull_create(given, &allocator, &polytope, error) != OVOID_OK) return NULL;
-    ovoid_shape *shape = shape_create_from_hull(&polytope, &o, near, error);
+    ovoid_shape *shape = shape_create_from_hull(&polytope, &o, error);
     hull_destroy(&polytope, &allocator);
     return shape;
 }
@@ -201,5 +189,5 @@ ovoid_shape *shape_create_from_points(xyz_points given, const ovoid_shape_option
 ovoid_shape *ovoid_shape_create_from_points(const double *xyz, size_t count, const ovoid_shape_options *options,
                                             ovoid_error *error) {
     const xyz_points given = {xyz, count};
-    ENVIRONMENT_RETURN(ovoid_shape *, xyz, shape_create_from_points(given, options, NULL, error));
+    ENVIRONMENT_RETURN(ovoid_shape *, xyz, shape_create_from_points(given, options, error));
 }

@@ -20,14 +20,10 @@ int shape_is_inner(const ovoid_shape *shape, const ovoid_ellipsoid *ellipsoid);
 /// Sets both ellipsoids and the values that queries read of them.
 void shape_set_fits(ovoid_shape *shape, const ovoid_fit *outer, const ovoid_fit *inner);
 
-/// The shape of a hull with its ellipsoids. The options must be checked. near: a shape from whose ellipsoids the fits
-/// start, or NULL. NULL with MEMORY.
-ovoid_shape *shape_create_from_hull(const hull *polytope, const ovoid_shape_options *options, const ovoid_shape *near,
-                                    ovoid_error *error);
+/// The shape of a hull with its ellipsoids. The options must be checked. NULL with MEMORY.
+ovoid_shape *shape_create_from_hull(const hull *polytope, const ovoid_shape_options *options, ovoid_error *error);
 
-/// ovoid_shape_create_from_points, for callers that have set up the floating-point environment. near: a shape from
-/// whose ellipsoids the fits start, or NULL.
-ovoid_shape *shape_create_from_points(xyz_points given, const ovoid_shape_options *options, const ovoid_shape *near,
-                                      ovoid_error *error);
+/// ovoid_shape_create_from_points, for callers that have set up the floating-point environment.
+ovoid_shape *shape_create_from_points(xyz_points given, const ovoid_shape_options *options, ovoid_error *error);
 
 #endif
