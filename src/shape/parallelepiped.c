@@ -1,6 +1,7 @@
 // Eight points are the corners of a parallelepiped if three edges lead from the first of them to three others, and the
 // sums of these edges to the rest. Only one triple of points can be the ends of those edges, so all 35 triples are
-// tried. Centre and axes are means over all eight corners, to average the rounding of a body that was rotated before.
+// tried, if the first corner has an opposite one across the centre: few other bodies do. Centre and axes are means over
+// all eight corners, to average the rounding of a body that was rotated before.
 #include "shape/parallelepiped.h"
 
 #include "linear/vec3.h"
@@ -53,9 +54,18 @@ static int is_exact(const double *vertices, const parallelepiped *p, double most
     return 1;
 }
 
+// 1 if a corner lies opposite of vertex 0 across the mean of all. In a parallelepiped two opposite corners are off
+// twice the centre by two flatnesses and 12 roundings of the extent, and both means by 9 each.
+static int has_opposite(const double *vertices, double extent) {
+    vec3 twice = {0, 0, 0};
+    for (uint32_t i = 0; i < CORNERS; i++) twice = vec3_add_scaled(twice, vec3_at(vertices, i), 0.25);
+    vec3 opposite = vec3_sub(twice, vec3_at(vertices, 0));
+    return find_vertex(vertices, opposite, 16 * CORNER_FLATNESS * extent) < CORNERS;
+}
+
 parallelepiped parallelepiped_find(const double *vertices, uint32_t count, double extent) {
     const parallelepiped none = {.is_present = 0};
-    if (count != CORNERS) return none;
+    if (count != CORNERS || !has_opposite(vertices, extent)) return none;
     parallelepiped p = {.is_present = 1};
     for (uint32_t i = 1; i < CORNERS; i++)
         for (uint32_t j = i + 1; j < CORNERS; j++)
