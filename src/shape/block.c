@@ -82,7 +82,7 @@ static void copy_array(ovoid_shape *shape, uint64_t at, const void *from, uint64
     if (size) memcpy((char *)shape + at, from, size);
 }
 
-void block_fill(ovoid_shape *shape, const ovoid_polytope *p) {
+void block_fill(ovoid_shape *shape, const ovoid_polytope *p, uint32_t *room) {
     const block_offsets *at = &shape->at;
     const block_counts *c = &shape->counts;
     copy_array(shape, at->vertices, p->vertices, (uint64_t)c->vertices * 3 * sizeof(double));
@@ -103,7 +103,7 @@ void block_fill(ovoid_shape *shape, const ovoid_polytope *p) {
     shape->reach = shape->measures.sphere_radius;
     shape->first = (ovoid_vec3){p->vertices[0], p->vertices[1], p->vertices[2]};
     shape->extent = sphere_compute_radius(p->vertices, p->vertex_count, (ovoid_vec3){0, 0, 0});
-    loops_fill(shape, p);
+    loops_fill(shape, p, room);
     shape->box = parallelepiped_find(p->vertices, p->rank == 3 ? p->vertex_count : 0, shape->extent);
 }
 

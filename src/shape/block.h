@@ -108,8 +108,8 @@ block_offsets block_compute_offsets(block_counts counts);
 ovoid_shape *block_create(block_counts counts, const ovoid_allocator *given, ovoid_error *error);
 
 /// Copies the polytope's arrays into the block, and computes everything that follows from the vertices: structure of
-/// arrays, padding, sphere, extent, measures. The polytope must have the block's counts.
-void block_fill(ovoid_shape *shape, const ovoid_polytope *polytope);
+/// arrays, padding, sphere, extent, measures. The polytope must have the block's counts. room: loops_get_room numbers.
+void block_fill(ovoid_shape *shape, const ovoid_polytope *polytope, uint32_t *room);
 
 /// Sets the radius and the allowance of a block that has been filled, and everything that follows from them. Nothing
 /// else is then known about the true body.

@@ -2,6 +2,7 @@
 #include "shape/create.h"
 
 #include "base/allocator.h"
+#include "base/arena.h"
 #include "base/environment.h"
 #include "base/error.h"
 #include "ellipsoid/contain.h"
@@ -11,6 +12,7 @@
 #include "linear/vec3.h"
 #include "polytope/hull.h"
 #include "shape/block.h"
+#include "shape/loops.h"
 
 #include <string.h>
 
@@ -89,10 +91,10 @@ int shape_is_inner(const ovoid_shape *shape, const ovoid_ellipsoid *e) {
     return is_vertex(&p, e) || is_flat_inner(&p, &shape->measures, e, 1e-7 * shape->extent);
 }
 
-static ovoid_code fit_ellipsoids(ovoid_shape *shape, const ovoid_shape_options *o) {
+static ovoid_code fit_ellipsoids(ovoid_shape *shape, const ovoid_shape_options *o, const ovoid_allocator *work) {
     ovoid_polytope p = ovoid_shape_get_polytope(shape);
     ovoid_fit outer, inner;
-    fit_options options = {o->gap, &shape->measures, &shape->allocator};
+    fit_options options = {o->gap, &shape->measures, work};
     ovoid_code code = ellipsoid_fit_outer(&p, &options, &outer);
     if (code != OVOID_OK) return code;
     if (o->inner == OVOID_INNER_MAXIMUM)
@@ -137,34 +139,38 @@ void shape_set_fits(ovoid_shape *shape, const ovoid_fit *outer, const ovoid_fit 
     shape->inside = make_inside(inner->ellipsoid.q, shape->rank);
 }
 
-ovoid_shape *shape_create_block(const hull *polytope, const ovoid_allocator *allocator, ovoid_error *error) {
+ovoid_shape *shape_create_block(const hull *polytope, const ovoid_allocator *allocator, const ovoid_allocator *work,
+                                ovoid_error *error) {
     ovoid_polytope p = hull_get_polytope(polytope);
-    ovoid_allocator use = allocator_make(allocator);
     support_table support;
     simd_cell *cells;
-    ovoid_code code = support_table_create((xyz_points){p.vertices, p.vertex_count}, &use, &support, &cells);
+    ovoid_code code = support_table_create((xyz_points){p.vertices, p.vertex_count}, work, &support, &cells);
     if (code != OVOID_OK) {
         error_write(error, code, -1, "no memory for the table of supports of %u vertices", p.vertex_count);
         return NULL;
     }
     block_counts counts = {polytope->vertex_count, polytope->triangle_count, polytope->facet_count,
                            polytope->neighbor_starts[polytope->vertex_count], support.cell_count};
-    ovoid_shape *shape = block_create(counts, allocator, error);
+    uint32_t *room = allocator_allocate(work, loops_get_room(counts), sizeof *room);
+    if (!room) error_write(error, OVOID_ERROR_MEMORY, -1, "no memory for the loops of %u facets", counts.facets);
+    ovoid_shape *shape = room ? block_create(counts, allocator, error) : NULL;
     if (shape) {
-        block_fill(shape, &p);
+        block_fill(shape, &p, room);
         shape->support = support;
         if (cells) memcpy((char *)shape + shape->at.cells, cells, support.cell_count * sizeof *cells);
     }
-    allocator_release(&use, cells);
+    allocator_release(work, room);
+    allocator_release(work, cells);
     return shape;
 }
 
-ovoid_shape *shape_create_from_hull(const hull *polytope, const ovoid_shape_options *o, ovoid_error *error) {
-    ovoid_shape *shape = shape_create_block(polytope, o->allocator, error);
+ovoid_shape *shape_create_from_hull(const hull *polytope, const ovoid_shape_options *o, const ovoid_allocator *work,
+                                    ovoid_error *error) {
+    ovoid_shape *shape = shape_create_block(polytope, o->allocator, work, error);
     if (!shape) return NULL;
     block_set_radius(shape, o->radius, o->allowance);
     shape->report = polytope->report;
-    ovoid_code code = fit_ellipsoids(shape, o);
+    ovoid_code code = fit_ellipsoids(shape, o, work);
     if (code == OVOID_OK) return shape;
     error_write(error, code, -1, "no memory for the ellipsoids of %u vertices", polytope->vertex_count);
     ovoid_shape_destroy(shape);
@@ -178,11 +184,15 @@ ovoid_shape *shape_create_from_points(xyz_points given, const ovoid_shape_option
         error_write(error, OVOID_ERROR_ARGUMENT, -1, "the array of points is NULL");
         return NULL;
     }
+    // The working memory of bodies of some 40 vertices; larger ones need the allocator.
+    _Alignas(64) char buffer[16 * 1024];
     ovoid_allocator allocator = allocator_make(o.allocator);
+    arena a;
+    ovoid_allocator work = arena_make(&a, &allocator, buffer, sizeof buffer);
     hull polytope;
-    if (hull_create(given, &allocator, &polytope, error) != OVOID_OK) return NULL;
-    ovoid_shape *shape = shape_create_from_hull(&polytope, &o, error);
-    hull_destroy(&polytope, &allocator);
+    if (hull_create(given, &work, &polytope, error) != OVOID_OK) return NULL;
+    ovoid_shape *shape = shape_create_from_hull(&polytope, &o, &work, error);
+    hull_destroy(&polytope, &work);
     return shape;
 }
 

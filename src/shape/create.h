@@ -12,7 +12,8 @@ ovoid_code shape_options_make(const ovoid_shape_options *given, ovoid_shape_opti
 int allowance_is_normal(const ovoid_allowance *allowance);
 
 /// A block with everything that follows from the hull; radius, report and ellipsoids are not set. NULL with MEMORY.
-ovoid_shape *shape_create_block(const hull *polytope, const ovoid_allocator *allocator, ovoid_error *error);
+ovoid_shape *shape_create_block(const hull *polytope, const ovoid_allocator *allocator, const ovoid_allocator *work,
+                                ovoid_error *error);
 
 /// 1 if the ellipsoid is proven to lie in the shape's hull; for a flat body, if it lies there to 1e-7 of its size.
 int shape_is_inner(const ovoid_shape *shape, const ovoid_ellipsoid *ellipsoid);
@@ -20,8 +21,9 @@ int shape_is_inner(const ovoid_shape *shape, const ovoid_ellipsoid *ellipsoid);
 /// Sets both ellipsoids and the values that queries read of them.
 void shape_set_fits(ovoid_shape *shape, const ovoid_fit *outer, const ovoid_fit *inner);
 
-/// The shape of a hull with its ellipsoids. The options must be checked. NULL with MEMORY.
-ovoid_shape *shape_create_from_hull(const hull *polytope, const ovoid_shape_options *options, ovoid_error *error);
+/// The shape of a hull with its ellipsoids. work: for working memory. The options must be checked. NULL with MEMORY.
+ovoid_shape *shape_create_from_hull(const hull *polytope, const ovoid_shape_options *options,
+                                    const ovoid_allocator *work, ovoid_error *error);
 
 /// ovoid_shape_create_from_points, for callers that have set up the floating-point environment.
 ovoid_shape *shape_create_from_points(xyz_points given, const ovoid_shape_options *options, ovoid_error *error);

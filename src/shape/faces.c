@@ -268,7 +268,7 @@ static ovoid_shape *create_from_faces(const ovoid_faces *faces, const ovoid_shap
     if (validate_indices(&c) || hull_create(given, &allocator, &polytope, error)) return NULL;
     c.hull = &polytope;
     polytope.report.faces = faces->face_count;
-    ovoid_shape *shape = validate_surface(&c) ? NULL : shape_create_from_hull(&polytope, &o, error);
+    ovoid_shape *shape = validate_surface(&c) ? NULL : shape_create_from_hull(&polytope, &o, &allocator, error);
     hull_destroy(&polytope, &allocator);
     return shape;
 }

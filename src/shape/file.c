@@ -330,7 +330,7 @@ static ovoid_code set_radius(const reader *r, const content *c, ovoid_shape *sha
 
 static ovoid_shape *make_shape(const reader *r, const content *c, hull *polytope, const ovoid_allocator *allocator) {
     polytope->origin = c->origin;
-    ovoid_shape *shape = shape_create_block(polytope, allocator, r->error);
+    ovoid_shape *shape = shape_create_block(polytope, allocator, allocator, r->error);
     if (!shape) return NULL;
     shape->report = c->report;
     shape_set_fits(shape, &c->outer, &c->inner);

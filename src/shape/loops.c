@@ -1,6 +1,6 @@
 // The boundaries of facets from triangles that know their facet: an edge is on the boundary where the facets of its two
 // sides differ. Around the end of a boundary edge, from triangle to triangle of the same facet, is the next one. While
-// the loops are made, the table of an edge's facet holds its triangle.
+// the loops are made, the table of an edge's facet holds its corner.
 #include "shape/loops.h"
 
 #define NOTHING UINT32_MAX
@@ -8,24 +8,22 @@
 typedef struct tables {
     ovoid_shape *shape;
     const ovoid_polytope *p;
-    uint32_t *tails;                               // of directed edges
-    uint32_t *lefts;                               // of directed edges, the triangle; of a polygon the side
+    uint32_t *tails;   // of directed edges
+    uint32_t *lefts;   // of directed edges, the corner of a triangle where it begins; of a polygon the side
+    uint32_t *edges;   // of the corners of triangles, the directed edge to the next
+    uint32_t *reverse; // of directed edges, the one back
     uint32_t *starts, *loop_vertices, *loop_edges; // of loops
 } tables;
 
 static uint32_t *get_table(ovoid_shape *shape, uint64_t at) { return (uint32_t *)((char *)shape + at); }
 
-static uint32_t get_reverse(const tables *t, uint32_t edge) {
-    return shape_find_edge(t->shape, t->p->neighbors[edge], t->tails[edge]);
-}
-
 static uint32_t get_facet(const tables *t, uint32_t edge) {
-    return t->p->rank == 3 ? t->p->triangle_facets[t->lefts[edge]] : t->lefts[edge];
+    return t->p->rank == 3 ? t->p->triangle_facets[t->lefts[edge] / 3] : t->lefts[edge];
 }
 
-static int is_boundary(const tables *t, uint32_t edge) {
-    return get_facet(t, get_reverse(t, edge)) != get_facet(t, edge);
-}
+static int is_boundary(const tables *t, uint32_t edge) { return get_facet(t, t->reverse[edge]) != get_facet(t, edge); }
+
+static uint32_t get_next_corner(uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
 
 // Of a polygon the lists of neighbors hold the corner before, then the corner after.
 static void set_lefts(tables *t) {
@@ -35,27 +33,27 @@ static void set_lefts(tables *t) {
             t->tails[i] = v;
             t->lefts[i] = p->rank == 2 && i == p->neighbor_starts[v];
         }
-    for (size_t i = 0; p->rank == 3 && i < 3 * (size_t)p->triangle_count; i++) {
-        uint32_t next = p->triangles[i % 3 == 2 ? i - 2 : i + 1];
-        t->lefts[shape_find_edge(t->shape, p->triangles[i], next)] = (uint32_t)(i / 3);
+    for (uint32_t i = 0; p->rank == 3 && i < 3 * p->triangle_count; i++) {
+        t->edges[i] = shape_find_edge(t->shape, p->triangles[i], p->triangles[get_next_corner(i)]);
+        t->lefts[t->edges[i]] = i;
+    }
+    for (uint32_t i = 0; i < t->shape->counts.neighbors; i++) {
+        if (t->tails[i] > p->neighbors[i]) continue;
+        t->reverse[i] = shape_find_edge(t->shape, p->neighbors[i], t->tails[i]);
+        t->reverse[t->reverse[i]] = i;
     }
 }
 
 // The next edge of the triangle, or side, to the left of a directed edge.
 static uint32_t get_next(const tables *t, uint32_t edge) {
-    uint32_t from = t->tails[edge], to = t->p->neighbors[edge];
-    if (t->p->rank == 2) return t->p->neighbor_starts[to] + (t->lefts[edge] == 0);
-    const uint32_t *corner = t->p->triangles + 3 * (size_t)t->lefts[edge];
-    uint32_t beyond = corner[0] != from && corner[0] != to   ? corner[0]
-                      : corner[1] != from && corner[1] != to ? corner[1]
-                                                             : corner[2];
-    return shape_find_edge(t->shape, to, beyond);
+    if (t->p->rank == 2) return t->p->neighbor_starts[t->p->neighbors[edge]] + (t->lefts[edge] == 0);
+    return t->edges[get_next_corner(t->lefts[edge])];
 }
 
 // The edge of the facet's boundary that begins where this one ends.
 static uint32_t find_next(const tables *t, uint32_t edge) {
     uint32_t next = get_next(t, edge);
-    while (!is_boundary(t, next)) next = get_next(t, get_reverse(t, next));
+    while (!is_boundary(t, next)) next = get_next(t, t->reverse[next]);
     return next;
 }
 
@@ -63,9 +61,8 @@ static uint32_t find_next(const tables *t, uint32_t edge) {
 static uint32_t append_loop(tables *t, uint32_t first, uint32_t count) {
     uint32_t most = t->shape->counts.neighbors, edge = first;
     do {
-        uint32_t reverse = get_reverse(t, edge);
         t->loop_vertices[count] = t->tails[edge];
-        t->loop_edges[count++] = t->tails[edge] < t->p->neighbors[edge] ? edge : reverse;
+        t->loop_edges[count++] = t->tails[edge] < t->p->neighbors[edge] ? edge : t->reverse[edge];
         edge = find_next(t, edge);
     } while (edge != first && count < most);
     return count;
@@ -94,7 +91,7 @@ static int is_convex(const tables *t, const uint32_t *loop, uint32_t count, vec3
 static uint32_t put_triangle(tables *t, uint32_t edge, uint32_t start) {
     for (uint32_t i = 0; i < 3; i++, edge = get_next(t, edge)) {
         t->loop_vertices[start + i] = t->tails[edge];
-        t->loop_edges[start + i] = t->tails[edge] < t->p->neighbors[edge] ? edge : get_reverse(t, edge);
+        t->loop_edges[start + i] = t->tails[edge] < t->p->neighbors[edge] ? edge : t->reverse[edge];
     }
     return start + 3;
 }
@@ -130,12 +127,16 @@ static void fill_thin(tables *t) {
     }
 }
 
-void loops_fill(ovoid_shape *s, const ovoid_polytope *p) {
+size_t loops_get_room(block_counts counts) { return 3 * (size_t)counts.triangles + counts.neighbors; }
+
+void loops_fill(ovoid_shape *s, const ovoid_polytope *p, uint32_t *room) {
     const block_offsets *at = &s->at;
     tables t = {s,
                 p,
                 get_table(s, at->edge_tails),
                 get_table(s, at->edge_facets),
+                room,
+                room + 3 * (size_t)p->triangle_count,
                 get_table(s, at->loop_starts),
                 get_table(s, at->loop_vertices),
                 get_table(s, at->loop_edges)};
