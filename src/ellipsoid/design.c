@@ -202,7 +202,7 @@ static void take_point(core *c, const design *d, uint32_t point) {
 // The first core set, with equal weights: all points if they are few, else the farthest of each cell.
 static void choose_core(core *c, const design *d) {
     double far[CELLS] = {0};
-    uint32_t which[CELLS];
+    uint32_t which[CELLS] = {0};
     for (uint32_t i = 0; i < d->point_count && d->point_count > CELLS; i++) {
         vec3 y = vec3_at(d->local, i);
         double size = vec3_norm_squared(y);
@@ -220,7 +220,7 @@ static void choose_core(core *c, const design *d) {
 // excess of the worst; *added: how many joined.
 static double scan(core *c, const design *d, double least, uint32_t *added) {
     double worst[CELLS], top = 0;
-    uint32_t which[CELLS], kept = 0;
+    uint32_t which[CELLS] = {0}, kept = 0;
     for (int cell = 0; cell < CELLS; cell++) worst[cell] = c->m * (1 + least);
     for (uint32_t i = 0; i < d->point_count; i++) {
         vec3 u = lower3_mul_vec3(c->inverse, vec3_sub(vec3_at(d->local, i), c->mean));

@@ -131,15 +131,14 @@ size_t loops_get_room(block_counts counts) { return 3 * (size_t)counts.triangles
 
 void loops_fill(ovoid_shape *s, const ovoid_polytope *p, uint32_t *room) {
     const block_offsets *at = &s->at;
-    tables t = {s,
-                p,
-                get_table(s, at->edge_tails),
-                get_table(s, at->edge_facets),
-                room,
-                room + 3 * (size_t)p->triangle_count,
-                get_table(s, at->loop_starts),
-                get_table(s, at->loop_vertices),
-                get_table(s, at->loop_edges)};
+    tables t = {.shape = s, .p = p};
+    t.edges = room;
+    t.tails = get_table(s, at->edge_tails);
+    t.lefts = get_table(s, at->edge_facets);
+    t.reverse = room + 3 * (size_t)p->triangle_count;
+    t.starts = get_table(s, at->loop_starts);
+    t.loop_vertices = get_table(s, at->loop_vertices);
+    t.loop_edges = get_table(s, at->loop_edges);
     set_lefts(&t);
     if (p->rank < 2)
         fill_thin(&t);
