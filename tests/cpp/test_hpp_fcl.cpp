@@ -300,9 +300,11 @@ static void test_left_to_fcl() {
     cloud.addSubModel(std::vector<Vector3d>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}});
     cloud.endModel();
     const Transform3d at = Transform3d::Identity();
-    Transform3d t = at, grown = at, nowhere = at;
+    Transform3d t = at, grown = at, mirrored = at, sheared = at, nowhere = at;
     t.translation()[0] = 0.5;
     grown.linear() *= 3;
+    mirrored.linear()(2, 2) = -1;
+    sheared.linear()(0, 1) = 0.1;
     nowhere.translation()[0] = NAN;
     const auto count = [&](const CollisionGeometryd *x, const CollisionGeometryd *y, const Transform3d &where,
                            CollisionRequestd request) {
@@ -316,7 +318,8 @@ static void test_left_to_fcl() {
     CHECK_EQ(count(&a, &a, t, CollisionRequestd()), 0);
     CHECK_EQ(count(&a, &a, t, CollisionRequestd(1, false, 5, true)), 1);
     CHECK_EQ(count(&a, &a, t, CollisionRequestd(0)), 1);
-    CHECK_EQ(count(&a, &a, grown, CollisionRequestd()), 1);
+    for (const auto *wrong_pose : {&grown, &mirrored, &sheared})
+        CHECK_EQ(count(&a, &a, *wrong_pose, CollisionRequestd()), 1);
     CHECK_EQ(count(&a, &wrong, t, CollisionRequestd()), 1);
     CHECK_EQ(count(&plane, &plane, t, CollisionRequestd()), 1);
     CHECK_EQ(count(&a, &plane, t, CollisionRequestd()), 0);

@@ -44,11 +44,12 @@ class store {
         return *all;
     }
 
-    /// The entry of this address if it has this print, with its owner noted; or NULL.
-    std::shared_ptr<entry> find(const void *address, const print &p, const std::shared_ptr<const void> &owner) {
+    /// The entry of this geometry if it has the geometry's print, with its owner noted; or NULL.
+    template <class S>
+    std::shared_ptr<entry> find(const geometry<S> *g, const std::shared_ptr<const geometry<S>> &owner) {
         const std::lock_guard<std::mutex> hold(lock_);
-        const auto found = entries_.find(address);
-        if (found == entries_.end() || !(found->second->of == p)) return nullptr;
+        const auto found = entries_.find(g);
+        if (found == entries_.end() || !has_print(g, found->second->of)) return nullptr;
         note(*found->second, owner);
         return found->second;
     }
@@ -146,22 +147,22 @@ class table {
     /// The body of a geometry, which stays until the second find after this one; NULL if it has none. owner: empty
     /// where it is not known.
     template <class S> const body *find(const geometry<S> *g, const std::shared_ptr<const geometry<S>> &owner) {
-        print p;
-        if (!make_print(g, p)) return nullptr;
         const auto address = reinterpret_cast<std::uintptr_t>(g);
         set &s = sets_[(address >> 4 ^ address >> 12) % set_count];
         for (std::uint32_t i = 0; i < 2; i++) {
             const place &at = s.places[i];
-            if (at.address != g || !(at.held->of == p)) continue;
+            if (at.address != g || !has_print(g, at.held->of)) continue;
             entry &e = *at.held;
             if (owner && !e.is_owned.load(std::memory_order_relaxed)) break;
             if (!e.is_used.load(std::memory_order_relaxed)) e.is_used.store(true, std::memory_order_relaxed);
             s.last = i;
             return e.made.get();
         }
-        place &to = s.places[s.pick(g)];
-        to = {g, make_entry(g, p, owner)};
-        s.last = static_cast<std::uint32_t>(&to - s.places);
+        std::shared_ptr<entry> held = make_entry(g, owner);
+        if (!held) return nullptr;
+        s.last = s.pick(g);
+        place &to = s.places[s.last];
+        to = {g, std::move(held)};
         return to.held->made.get();
     }
 
@@ -182,12 +183,13 @@ class table {
     };
     static constexpr std::size_t set_count = 256;
 
+    /// The entry of all threads, or a new one; NULL if the geometry has no translation.
     template <class S>
-    static std::shared_ptr<entry> make_entry(const geometry<S> *g, const print &p,
-                                             const std::shared_ptr<const geometry<S>> &owner) {
+    static std::shared_ptr<entry> make_entry(const geometry<S> *g, const std::shared_ptr<const geometry<S>> &owner) {
         store &all = store::get();
-        std::shared_ptr<entry> e = all.find(g, p, owner);
-        if (e) return e;
+        std::shared_ptr<entry> e = all.find(g, owner);
+        print p;
+        if (e || !make_print(g, p)) return e;
         e = std::make_shared<entry>();
         e->of = p;
         e->made = make_body(g);

@@ -23,48 +23,47 @@ template <class S>::fcl::Vector3<S> from_vec3(const ovoid_vec3 &v) {
     return {static_cast<S>(v.x), static_cast<S>(v.y), static_cast<S>(v.z)};
 }
 
-/// The most by which the entries of a matrix, summed, may differ from those of its quaternion; others take the longer
-/// way of ovoid_pose_make_matrix, which finds the nearest rotation and refuses what is none.
+/// The most by which the columns of a matrix, summed, may differ from orthonormal right-handed ones; others take the
+/// longer way of ovoid_pose_make_matrix, which finds the nearest rotation and refuses what is none.
 constexpr double rotation_tolerance = 1e-14;
 
-/// The quaternion whose largest part is at i, of a rotation matrix m: S. W. Shepperd, Quaternion from rotation matrix,
-/// 1978.
+/// A quaternion q of a rotation matrix m, of no particular length: a row of 4 q q', whose entries are sums of those of
+/// m (S. W. Shepperd, Quaternion from rotation matrix, 1978). That of q.w is exact enough where the turn is below 138
+/// degrees; otherwise the row is that with the largest entry on the diagonal.
 template <class M> ovoid_quat make_quat(const M &m) {
     const double x = m(0, 0), y = m(1, 1), z = m(2, 2), trace = x + y + z;
-    if (trace > 0) {
-        const double root = std::sqrt(trace + 1), part = 0.5 / root;
-        return {root / 2, (m(2, 1) - m(1, 2)) * part, (m(0, 2) - m(2, 0)) * part, (m(1, 0) - m(0, 1)) * part};
-    }
-    const int i = x >= y ? (x >= z ? 0 : 2) : (y >= z ? 1 : 2), j = (i + 1) % 3, k = (i + 2) % 3;
-    const double root = std::sqrt(1 + m(i, i) - m(j, j) - m(k, k)), part = 0.5 / root;
-    double v[3];
-    v[i] = root / 2, v[j] = (m(j, i) + m(i, j)) * part, v[k] = (m(k, i) + m(i, k)) * part;
-    return {(m(k, j) - m(j, k)) * part, v[0], v[1], v[2]};
+    const double wx = m(2, 1) - m(1, 2), wy = m(0, 2) - m(2, 0), wz = m(1, 0) - m(0, 1);
+    if (trace > -0.5) return {1 + trace, wx, wy, wz};
+    const double xy = m(1, 0) + m(0, 1), xz = m(0, 2) + m(2, 0), yz = m(2, 1) + m(1, 2);
+    if (x >= y && x >= z) return {wx, 1 + x - y - z, xy, xz};
+    if (y >= z) return {wy, xy, 1 - x + y - z, yz};
+    return {wz, xz, yz, 1 - x - y + z};
 }
 
-/// Is m the matrix of a quaternion, by the sum of the entries' differences? Of NaN it is not.
-template <class M> bool is_matrix_of(const ovoid_quat &q, const M &m) {
-    const double xx = 2 * q.x * q.x, yy = 2 * q.y * q.y, zz = 2 * q.z * q.z;
-    const double xy = 2 * q.x * q.y, xz = 2 * q.x * q.z, yz = 2 * q.y * q.z;
-    const double wx = 2 * q.w * q.x, wy = 2 * q.w * q.y, wz = 2 * q.w * q.z;
-    double off = std::fabs(1 - yy - zz - m(0, 0)) + std::fabs(1 - xx - zz - m(1, 1)) + std::fabs(1 - xx - yy - m(2, 2));
-    off += std::fabs(xy - wz - m(0, 1)) + std::fabs(xy + wz - m(1, 0)) + std::fabs(xz + wy - m(0, 2));
-    off += std::fabs(xz - wy - m(2, 0)) + std::fabs(yz - wx - m(1, 2)) + std::fabs(yz + wx - m(2, 1));
-    return off <= rotation_tolerance;
+/// Is m a rotation: two unit columns at right angles, and the third their cross product? Of NaN it is not.
+template <class M> bool is_rotation(const M &m) {
+    const auto dot = [&](int i, int k) { return m(0, i) * m(0, k) + m(1, i) * m(1, k) + m(2, i) * m(2, k); };
+    const auto cross = [&](int i, int k) { return m(i, 0) * m(k, 1) - m(k, 0) * m(i, 1); };
+    const double length = std::fabs(dot(0, 0) - 1) + std::fabs(dot(1, 1) - 1);
+    const double angle = std::fabs(dot(0, 1)) + std::fabs(cross(1, 2) - m(0, 2));
+    const double hand = std::fabs(cross(2, 0) - m(1, 2)) + std::fabs(cross(0, 1) - m(2, 2));
+    return length + angle + hand <= rotation_tolerance;
+}
+
+inline bool is_position(const ovoid_vec3 &p) {
+    return std::fabs(p.x) <= OVOID_LENGTH_MAX && std::fabs(p.y) <= OVOID_LENGTH_MAX &&
+           std::fabs(p.z) <= OVOID_LENGTH_MAX;
 }
 
 /// The pose of a transform; false if it is no rigid motion, or not finite.
 template <class S> bool to_pose(const ::fcl::Transform3<S> &t, ovoid_pose &pose) {
-    const auto m = t.linear().template cast<double>().eval();
-    const ovoid_vec3 position = {static_cast<double>(t.translation()[0]), static_cast<double>(t.translation()[1]),
-                                 static_cast<double>(t.translation()[2])};
-    pose = {position, make_quat(m)};
-    const double far = std::max(std::fabs(position.x), std::max(std::fabs(position.y), std::fabs(position.z)));
-    const double sum = position.x + position.y + position.z; // NaN and infinity go on in it
-    if (is_matrix_of(pose.rotation, m) && far <= OVOID_LENGTH_MAX && sum - sum == 0) return true;
+    // Entries as doubles, without a copy of the matrix.
+    const auto m = [&t](int i, int k) { return static_cast<double>(t.matrix().coeff(i, k)); };
+    pose = {{m(0, 3), m(1, 3), m(2, 3)}, make_quat(m)};
+    if (is_rotation(m) && is_position(pose.position)) return true;
     double rows[9];
     for (int i = 0; i < 9; i++) rows[i] = m(i / 3, i % 3);
-    return ovoid_pose_make_matrix(rows, position, &pose, nullptr) == OVOID_OK;
+    return ovoid_pose_make_matrix(rows, pose.position, &pose, nullptr) == OVOID_OK;
 }
 
 /// The transform of a pose.

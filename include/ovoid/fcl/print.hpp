@@ -21,24 +21,42 @@ namespace detail {
 
 template <class S> using geometry = ::fcl::CollisionGeometry<S>;
 
-/// What a translation was made from.
-struct print {
-    std::uint32_t type = 0, count = 0;
-    std::array<std::uint64_t, 10> words{};
-
-    void add(std::uint64_t word) { words[count++] = word; }
+/// The words of a print, one after another: doubles by their bits, arrays by their addresses.
+template <class Self> class print_words {
+  public:
     void add(double value) {
         std::uint64_t word;
         std::memcpy(&word, &value, sizeof word);
         add(word);
     }
     void add(const void *address) { add(static_cast<std::uint64_t>(reinterpret_cast<std::uintptr_t>(address))); }
-    bool operator==(const print &other) const {
-        if (type != other.type || count != other.count) return false;
-        for (std::uint32_t i = 0; i < count; i++)
-            if (words[i] != other.words[i]) return false;
-        return true;
+    void add(std::uint64_t word) { static_cast<Self *>(this)->take(word); }
+};
+
+/// What a translation was made from.
+struct print : print_words<print> {
+    std::uint32_t type = 0, count = 0;
+    std::array<std::uint64_t, 10> words{};
+
+    void set_type(std::uint32_t to) { type = to; }
+    void take(std::uint64_t word) { words[count++] = word; }
+};
+
+/// Compares a print with the words of a geometry as they come, so that none are written.
+class print_comparison : public print_words<print_comparison> {
+  public:
+    explicit print_comparison(const print &of) : of_(of) {}
+    void set_type(std::uint32_t type) { is_same_ = type == of_.type; }
+    void take(std::uint64_t word) {
+        is_same_ = is_same_ && at_ < of_.count && of_.words[at_] == word;
+        at_++;
     }
+    bool is_same() const { return is_same_ && at_ == of_.count; }
+
+  private:
+    const print &of_;
+    std::size_t at_ = 0;
+    bool is_same_ = false;
 };
 
 /// A word that depends on every bit of a sequence of numbers and on their order. The products do not wait for each
@@ -118,7 +136,7 @@ template <class S> std::uint64_t mix_vertices(const ::fcl::Vector3<S> *vertices,
 inline int step_of(int count) { return count > print_vertices ? count / print_vertices : 1; }
 
 /// The print of a mesh; false if it is none.
-template <class S> bool print_mesh(const geometry<S> *g, print &p) {
+template <class S, class Words> bool print_mesh(const geometry<S> *g, Words &p) {
     mesh_view<S> view;
     if (!view_mesh(g, view)) return false;
     const ::fcl::NODE_TYPE type = g->getNodeType();
@@ -132,10 +150,11 @@ template <class S> bool print_mesh(const geometry<S> *g, print &p) {
     return true;
 }
 
-/// The print of a geometry; false if it has no translation. The switch is over the types that FCL names.
-template <class S> bool make_print(const geometry<S> *g, print &p) {
+/// The print of a geometry into p, a print or a comparison; false if it has no translation. The switch is over the
+/// types that FCL names.
+template <class S, class Words> bool make_print(const geometry<S> *g, Words &p) {
     const ::fcl::NODE_TYPE type = g->getNodeType();
-    p.type = static_cast<std::uint32_t>(type) * 16 + sizeof(S);
+    p.set_type(static_cast<std::uint32_t>(type) * 16 + sizeof(S));
     const auto add = [&p](const ::fcl::Vector3<S> &v) {
         for (int i = 0; i < 3; i++) p.add(static_cast<double>(v[i]));
     };
@@ -176,6 +195,12 @@ template <class S> bool make_print(const geometry<S> *g, print &p) {
     }
     default: return print_mesh(g, p);
     }
+}
+
+/// Has the geometry this print?
+template <class S> bool has_print(const geometry<S> *g, const print &p) {
+    print_comparison to(p);
+    return make_print(g, to) && to.is_same();
 }
 
 } // namespace detail
