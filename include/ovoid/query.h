@@ -34,7 +34,8 @@ typedef enum ovoid_stage {
     OVOID_STAGE_PROOF,   /**< the earlier proof handed in */
     OVOID_STAGE_SPHERE,  /**< the earlier proof that the caller passed */
     OVOID_STAGE_OUTER,   /**< outer ellipsoids */
-    OVOID_STAGE_SUPPORT, /**< the polyhedra's supports along the ellipsoids' direction */
+    OVOID_STAGE_SUPPORT, /**< the polyhedra's supports along the ellipsoids' direction, or the closed form of points,
+                            segments and boxes */
     OVOID_STAGE_INNER,   /**< inner ellipsoids */
     OVOID_STAGE_GJK,     /**< exact: Gilbert, Johnson, Keerthi 1988 */
     OVOID_STAGE_EPA,   /**< exact: expanding polytope, van den Bergen 2001; for two boxes all faces of the difference at

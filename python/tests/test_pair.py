@@ -248,9 +248,9 @@ class Queries(unittest.TestCase):
         self.assertEqual(ovoid.distance(*rocks, None, at(2, 1, 1), iterations=1).limit, ovoid.Limit.ITERATIONS)
 
     def test_warm_start(self):
-        cold = ovoid.distance(BOX, BALL, None, at(4, 1, 1))
+        cold = ovoid.distance(BOX, BOX, None, at(4, 1, 1))
         for earlier in (cold, cold.proof):
-            warm = ovoid.distance(BOX, BALL, None, at(4, 1, 1), earlier=earlier)
+            warm = ovoid.distance(BOX, BOX, None, at(4, 1, 1), earlier=earlier)
             self.assertEqual(warm.stage, ovoid.Stage.PROOF)
             ovoid.verify(warm)
         # A proof of another pair is no trouble.

@@ -58,6 +58,7 @@ static void end_at_overlap(const placed_query *q, double upper, ovoid_stage stag
     end->lower = q->sphere_gap;
     end->upper = upper;
     end->normal = vec3_unit(q->frame->between);
+    end->has_witness = 0;
     end->stage = stage;
     end->iterations = 0;
 }
@@ -110,6 +111,7 @@ int small_finish(const pair_frame *f, const query_goal *goal, const small_gjk_re
     end->stage = r->iterations > 0 ? OVOID_STAGE_GJK : OVOID_STAGE_SUPPORT;
     clear_points(&end->points);
     end->inner = (vec3){0, 0, 0};
+    end->has_witness = 0;
     if (r->end == SMALL_GJK_APART) {
         end->points.p[0] = get_corner(r, 0);
         end->points.weight[0] = 1;

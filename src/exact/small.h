@@ -21,6 +21,8 @@ typedef struct small_end {
     /// of those that do not count are zero, so that sums run over all.
     simplex points;
     vec3 inner;            ///< INNER: the common point, A's body frame; else zero
+    int has_witness;       ///< witness points are known: those of `points`, or of INNER
+    vec3 point_a, point_b; ///< if so: world
     ovoid_proof_kind kind; ///< POINTS, HULL or INNER
     ovoid_stage stage;
     uint32_t iterations;

@@ -159,6 +159,7 @@ static inline vec3 get_share(const double *vertices, uint32_t i, double weight) 
 // Returned by value, into the place of what is written: nothing is copied. There are always three terms, which is
 // faster than a loop of as many as count: terms without weight add zeros.
 static inline __attribute__((always_inline)) small_points find_small_points(const small_end *end, const pair_frame *f) {
+    if (end->has_witness) return (small_points){end->point_a, end->point_b};
     if (end->kind == OVOID_PROOF_INNER) {
         vec3 p = frame_point_to_world(f, end->inner);
         return (small_points){p, p};

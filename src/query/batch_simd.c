@@ -12,6 +12,7 @@
 
 #include "base/compiler.h"
 #include "base/error.h"
+#include "exact/closed.h"
 #include "pair/reject.h"
 #include "query/batch_small.h"
 
@@ -446,17 +447,24 @@ static void end_small(void *self, size_t index, const placed_query *q, const sma
     if (to->answers) to->answers[index] = answer_make_small(end, q->frame, q->goal);
 }
 
-// Searches those of the lanes `open` that are small. The mask of these.
-static unsigned add_small(const batch_state *c, const lane_group *e, unsigned open) {
+// Answers those of the lanes `open` that have a closed form, and searches those that are small. The mask of both.
+static unsigned add_small(batch_state *c, const lane_group *e, unsigned open) {
     unsigned small = 0;
     for (unsigned rest = open; rest; rest &= rest - 1) {
         unsigned k = compiler_count_low_zeros(rest);
+        const ovoid_shape *a = get_a(e, k)->shape, *b = get_b(e, k)->shape;
         double sphere_gap = e->lanes->lower.lane[k];
-        if (!small_takes(&c->goal, get_a(e, k)->shape, get_b(e, k)->shape, sphere_gap)) continue;
+        int is_closed = closed_fits(a, b);
+        if (!is_closed && !small_takes(&c->goal, a, b, sphere_gap)) continue;
         small |= 1u << k;
         pair_frame frame = get_frame((group_lane){e, k});
         query_goal goal = get_goal(c, (group_lane){e, k});
-        small_pool_add(c->small, e->index[k], &(placed_query){&frame, &goal, NULL, sphere_gap});
+        const placed_query query = {&frame, &goal, NULL, sphere_gap};
+        small_end end;
+        if (is_closed)
+            end_small(c, e->index[k], &query, closed_run(&query, &end) ? &end : NULL);
+        else
+            small_pool_add(c->small, e->index[k], &query);
     }
     return small;
 }

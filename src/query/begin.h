@@ -1,8 +1,9 @@
-// How a query begins, of bodies that are placed in the world: what the spheres, an earlier proof and the kernel of
-// small bodies say, before B is put in the frame of A.
+// How a query begins, of bodies that are placed in the world: what the spheres, closed forms, an earlier proof and
+// the kernel of small bodies say, before B is put in the frame of A.
 #ifndef OVOID_QUERY_BEGIN_H
 #define OVOID_QUERY_BEGIN_H
 
+#include "exact/closed.h"
 #include "exact/kept.h"
 #include "query/goal.h"
 
@@ -17,11 +18,12 @@ static inline int reject_by_earlier(const placed_query *q, rejection *found) {
 /// How a query begins: refused, rejected, answered as a pair of small bodies, or passed on to the search.
 typedef enum beginning { BEGIN_REFUSED, BEGIN_REJECTED, BEGIN_SMALL, BEGIN_SEARCH } beginning;
 
-/// The kernel of small bodies, from the earlier proof where that says something; of larger ones what the proof's
-/// differences say.
+/// The closed forms; then the kernel of small bodies, from the earlier proof where that says something; of larger ones
+/// what the proof's differences say.
 static inline small_outcome run_small(const placed_query *q, rejection *found, small_end *end) {
     const ovoid_shape *a = q->frame->a, *b = q->frame->b;
     small_outcome outcome = SMALL_UNKNOWN;
+    if (closed_fits(a, b) && closed_run(q, end)) return SMALL_ANSWERED;
     if (q->earlier && small_fits(q->goal, a, b, q->sphere_gap))
         outcome = small_run_earlier(q, found, end);
     else if (q->earlier && kept_fits(q->goal, a, b, q->sphere_gap) && kept_run(q, end))

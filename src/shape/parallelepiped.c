@@ -63,6 +63,20 @@ static int has_opposite(const double *vertices, double extent) {
     return find_vertex(vertices, opposite, 16 * CORNER_FLATNESS * extent) < CORNERS;
 }
 
+// 1 if the axes are at right angles, to the rounding of corners in units of each axis: 2^-40 lets a point's coordinates
+// along the axes find its nearest point to nearly all digits. Lengths whose squares' squares are no numbers are left
+// out.
+static int is_right(const parallelepiped *p, double extent) {
+    if (!(extent > 0x1p-200 && extent < 0x1p200)) return 0;
+    for (int i = 0; i < 3; i++) {
+        vec3 a = p->axis[i], b = p->axis[(i + 1) % 3];
+        double square = vec3_norm_squared(a);
+        if (!(square > 0x1p-40 * (extent * extent))) return 0;
+        if (!(fabs(vec3_dot(a, b)) <= 0x1p-48 * sqrt(square * vec3_norm_squared(b)))) return 0;
+    }
+    return 1;
+}
+
 parallelepiped parallelepiped_find(const double *vertices, uint32_t count, double extent) {
     const parallelepiped none = {.is_present = 0};
     if (count != CORNERS || !has_opposite(vertices, extent)) return none;
@@ -74,7 +88,9 @@ parallelepiped parallelepiped_find(const double *vertices, uint32_t count, doubl
                 if (!find_corners(vertices, (uint32_t[]){i, j, k}, 8 * CORNER_FLATNESS * extent, &p)) continue;
                 p.center = compute_mean(vertices, &p, 3);
                 for (int axis = 0; axis < 3; axis++) p.axis[axis] = compute_mean(vertices, &p, axis);
-                return is_exact(vertices, &p, CORNER_FLATNESS * extent) ? p : none;
+                if (!is_exact(vertices, &p, CORNER_FLATNESS * extent)) return none;
+                p.is_right = is_right(&p, extent);
+                return p;
             }
     return none;
 }

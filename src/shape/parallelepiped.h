@@ -10,6 +10,7 @@ typedef struct parallelepiped {
     ovoid_vec3 axis[3];  ///< half edges, right-handed or left-handed
     uint8_t corner[8];   ///< the vertex whose coefficient of axis[k] is positive where bit k is set
     uint32_t is_present; ///< 0: the body is not a parallelepiped; then all other fields are zero
+    uint32_t is_right;   ///< 1: a box, whose axes are at right angles, to rounding
 } parallelepiped;
 
 /// The parallelepiped with these corners. extent: no vertex is farther from the frame's origin. Cost: none unless there

@@ -240,6 +240,46 @@ static trial simplices(uint64_t *r) {
     return t;
 }
 
+// Points, segments and boxes of any scale, most of them rounded: the pairs in closed form.
+static ovoid_shape *make_closed(uint64_t *r, double scale) {
+    double radius = random_next(r) % 3 ? scale * log_uniform(r, 1e-6, 10) : 0;
+    double x = scale * log_uniform(r, 1e-3, 1), y = scale * log_uniform(r, 1e-3, 1),
+           z = scale * log_uniform(r, 1e-9, 1);
+    ovoid_vec3 a = random_vec3(r, x), b = random_vec3(r, x);
+    switch (random_next(r) % 6) {
+    case 0: return ovoid_shape_create_sphere(radius, NULL, NULL);
+    case 1: return make_points((const double[]){a.x, a.y, a.z}, 1, radius);
+    case 2: return ovoid_shape_create_capsule(radius, z, NULL, NULL);
+    case 3: return make_points((const double[]){a.x, a.y, a.z, b.x, b.y, b.z}, 2, radius);
+    case 4: return make_box(scale, x, x, radius);
+    default: return make_box(x, y, scale, radius);
+    }
+}
+// In any poses, or in what is special to them: concentric, of the same or nearly the same axes, on a lattice of their
+// own sizes. Some are then brought to a gap or a depth of any order.
+static trial closed_pairs(uint64_t *r) {
+    const double orders[] = {1e-9, 1, 1, 1e9};
+    double scale = orders[random_next(r) % 4], other = random_next(r) % 4 ? scale : orders[random_next(r) % 4];
+    ovoid_shape *a = make_closed(r, scale), *b = make_closed(r, other);
+    trial t = place_anywhere(r, a, b);
+    uint64_t kind = random_next(r) % 8;
+    if (kind == 0) t.pose_b.position = t.pose_a.position;
+    if (kind == 1 || kind == 2) t.pose_b.rotation = t.pose_a.rotation;
+    if (kind == 2) t.pose_b.rotation.x += log_uniform(r, 1e-17, 1e-3);
+    if (kind == 3 || kind == 4) {
+        double step = kind == 3 ? scale : sphere_radius(a) + sphere_radius(b);
+        ovoid_vec3 d = {0, 0, 0};
+        (&d.x)[random_next(r) % 3] = step * (double)(random_next(r) % 3);
+        (&d.x)[random_next(r) % 3] += step * (double)(random_next(r) % 2);
+        t.pose_a = t.pose_b = (ovoid_pose){{0, 0, 0}, {1, 0, 0, 0}};
+        t.pose_b.position = d;
+        if (random_next(r) % 2) t.pose_b.rotation = (ovoid_quat){1, 1, 0, 0};
+        return t;
+    }
+    close_in_a_little(&t, r);
+    return t;
+}
+
 // --- the table
 
 family families[] = {
@@ -282,5 +322,6 @@ family families[] = {
     {.counts.name = "real hulls", .make = make_real_hulls, .each = 3},
     {.counts.name = "parts of real compounds", .make = make_compound_parts, .each = 2},
     {.counts.name = "parallelepipeds, brute force", .make = parallelepipeds, .each = 3, .judged = 1},
+    {.counts.name = "closed forms, brute force", .make = closed_pairs, .each = 6, .judged = 1},
 };
 const size_t family_count = sizeof families / sizeof *families;

@@ -1,0 +1,328 @@
+// A point, a segment and a box are the sets of all c + sum t_i g_i, |t_i| <= 1, of zero, one and three segments g_i at
+// right angles. The nearest points of two of them, one of which is no box:
+// - Two segments: V. J. Lumelsky, On fast computation of distance between line segments, 1985: the nearest points of
+// the
+//   lines where both parameters are within their ends; else one of them is at an end.
+// - A box and a point: each of the point's coordinates along the box's axes, cut off at the faces.
+// - A box and a segment: the square of the distance from the box is a convex function of the segment's parameter, made
+//   of parabolas between the at most six parameters at which the segment passes a face's plane. Its derivative grows,
+//   so its zero is between two of them, where the derivative is linear.
+//
+// The nearest points give the upper bound, and the features that they lie in the normal: the difference itself where
+// one of them is an end or a corner, but the cross product of two edges, and the face's own normal, since a difference
+// that is short has digits for a length but not for a direction. The gap along the normal, whatever it is, is the lower
+// bound; where rounding leaves it below the upper one by more than the tolerance, the search for all pairs answers.
+//
+// Of bodies whose cores overlap the radii alone prove the overlap. The normal is then that of the face which the core
+// is the least behind; of a point in a box that is the depth, for which another proof is needed (exact/boxes.h).
+#include "exact/closed.h"
+
+// Nearest points: their parameters, in the world's axes where they are from A's body frame and their difference, B's
+// minus A's, and the normal from A to B.
+typedef struct nearest_pair {
+    double a[3], b[3];
+    double gap;
+    vec3 point_a, difference, normal;
+} nearest_pair;
+
+static double clamp(double t) { return max2(-1, min2(1, t)); }
+
+// A segment from -axis to axis about its middle.
+static vec3 get_middle(const ovoid_shape *s) {
+    return s->vertex_count == 1 ? s->first : vec3_scale(vec3_add(s->first, vec3_at(shape_vertices(s), 1)), 0.5);
+}
+static vec3 get_half(const ovoid_shape *s) {
+    if (s->vertex_count == 1) return (vec3){0, 0, 0};
+    return vec3_scale(vec3_sub(vec3_at(shape_vertices(s), 1), s->first), 0.5);
+}
+
+// ---- two segments, or points
+
+// The parameters of the nearest points of two segments d apart, in the world: s on A, t on B.
+static void find_parameters(vec3 d, vec3 u, vec3 v, double *s, double *t) {
+    double uu = vec3_norm_squared(u), vv = vec3_norm_squared(v), uv = vec3_dot(u, v), ud = vec3_dot(u, d),
+           vd = vec3_dot(v, d);
+    if (!(uu > 0)) {
+        *s = 0;
+        *t = vv > 0 ? clamp(-vd / vv) : 0;
+        return;
+    }
+    if (!(vv > 0)) {
+        *t = 0;
+        *s = clamp(ud / uu);
+        return;
+    }
+    double det = uu * vv - uv * uv;
+    // Of parallel segments any parameter of one will do, as long as the other is the nearest to it.
+    *s = det > 1e-14 * (uu * vv) ? clamp((ud * vv - vd * uv) / det) : clamp(ud / uu);
+    *t = (*s * uv - vd) / vv;
+    if (fabs(*t) <= 1) return;
+    *t = clamp(*t);
+    *s = clamp((ud + *t * uv) / uu);
+}
+
+// w without its part along e.
+static vec3 take_off(vec3 w, vec3 e) { return vec3_add_scaled(w, e, -vec3_dot(w, e) / vec3_norm_squared(e)); }
+
+// The unit normal for the difference w of points at s of u and t of v.
+static vec3 find_segments_normal(vec3 w, vec3 u, vec3 v, int is_inside_u, int is_inside_v) {
+    vec3 n = w;
+    if (is_inside_u & is_inside_v) {
+        n = vec3_cross(u, v);
+        double square = vec3_norm_squared(n);
+        if (!(square > 1e-20 * (vec3_norm_squared(u) * vec3_norm_squared(v)))) n = take_off(w, u);
+        if (vec3_dot(n, w) < 0) n = vec3_neg(n);
+    } else if (is_inside_u) {
+        n = take_off(w, u);
+    } else if (is_inside_v) {
+        n = take_off(w, v);
+    }
+    n = vec3_unit(n);
+    if (vec3_norm_squared(n) > 0.5) return n;
+    return vec3_orthogonal(vec3_unit(is_inside_u ? u : is_inside_v ? v : (vec3){0, 0, 1}));
+}
+
+static void find_segments(const pair_frame *f, nearest_pair *out) {
+    vec3 middle = mat3_mul_vec3(f->world, get_middle(f->a));
+    vec3 d = vec3_add(f->offset, vec3_sub(mat3_mul_vec3(f->world_b, get_middle(f->b)), middle));
+    vec3 u = mat3_mul_vec3(f->world, get_half(f->a)), v = mat3_mul_vec3(f->world_b, get_half(f->b));
+    double s, t;
+    find_parameters(d, u, v, &s, &t);
+    vec3 w = vec3_add_scaled(vec3_add_scaled(d, v, t), u, -s);
+    int is_inside_u = f->a->vertex_count == 2 && fabs(s) < 1, is_inside_v = f->b->vertex_count == 2 && fabs(t) < 1;
+    vec3 n = find_segments_normal(w, u, v, is_inside_u, is_inside_v);
+    out->a[0] = s;
+    out->b[0] = t;
+    out->point_a = vec3_add_scaled(middle, u, s);
+    out->difference = w;
+    out->gap = vec3_dot(n, d) - fabs(vec3_dot(n, u)) - fabs(vec3_dot(n, v));
+    out->normal = n;
+}
+
+// Two points: any normal is as good as another where they are one.
+static void find_points(const pair_frame *f, nearest_pair *out) {
+    out->point_a = mat3_mul_vec3(f->world, f->a->first);
+    vec3 d = vec3_add(f->offset, vec3_sub(mat3_mul_vec3(f->world_b, f->b->first), out->point_a));
+    vec3 n = vec3_unit(d);
+    if (!(vec3_norm_squared(n) > 0.5)) n = (vec3){1, 0, 0};
+    out->difference = d;
+    out->normal = n;
+    out->gap = vec3_dot(n, d);
+}
+
+// ---- a box and a segment, or a point, in the box's body frame about its centre
+
+// A segment y + s e in units of the box's half axes: t_i = from[i] + s way[i].
+typedef struct in_box {
+    vec3 y, e;
+    double from[3], way[3], square[3]; ///< square: of the half axis' length
+} in_box;
+
+static double find_excess(double t) { return t - clamp(t); }
+
+// Half the derivative by s of the squared distance.
+static double find_slope(const in_box *q, double s) {
+    double sum = 0;
+    for (int i = 0; i < 3; i++) sum += q->square[i] * q->way[i] * find_excess(q->from[i] + s * q->way[i]);
+    return sum;
+}
+
+// The parameter of the segment's point nearest to the box; of several the first.
+static double find_nearest(const in_box *q) {
+    double low = -1, high = 1, at_low = find_slope(q, low), at_high = find_slope(q, high);
+    if (at_low >= 0) return low;
+    if (at_high <= 0) return high;
+    for (int k = 0; k < 6; k++) {
+        int i = k >> 1;
+        double s = ((k & 1 ? 1 : -1) - q->from[i]) / q->way[i];
+        // Not so where the segment is along the faces.
+        if (!(s > low && s < high)) continue;
+        double slope = find_slope(q, s);
+        if (slope < 0)
+            low = s, at_low = slope;
+        else
+            high = s, at_high = slope;
+    }
+    double s = low + (high - low) * (-at_low / (at_high - at_low));
+    return min2(high, max2(low, s));
+}
+
+static void set_in_box(const pair_frame *f, int is_box_a, in_box *q) {
+    const ovoid_shape *box = is_box_a ? f->a : f->b, *thin = is_box_a ? f->b : f->a;
+    const mat3 *turn = is_box_a ? &f->world : &f->world_b, *turn_thin = is_box_a ? &f->world_b : &f->world;
+    vec3 middle = get_middle(thin);
+    vec3 d = is_box_a ? frame_world_difference(f, box->box.center, middle)
+                      : vec3_neg(frame_world_difference(f, middle, box->box.center));
+    q->y = mat3_mul_transposed_vec3(*turn, d);
+    q->e = thin->vertex_count == 1 ? (vec3){0, 0, 0}
+                                   : mat3_mul_transposed_vec3(*turn, mat3_mul_vec3(*turn_thin, get_half(thin)));
+    for (int i = 0; i < 3; i++) {
+        vec3 axis = box->box.axis[i];
+        q->square[i] = vec3_norm_squared(axis);
+        q->from[i] = vec3_dot(axis, q->y) / q->square[i];
+        q->way[i] = vec3_dot(axis, q->e) / q->square[i];
+    }
+}
+
+// The gap of the segment from the box along m.
+static double find_box_gap(const in_box *q, const parallelepiped *box, vec3 m) {
+    double gap = vec3_dot(m, q->y) - fabs(vec3_dot(m, q->e));
+    for (int i = 0; i < 3; i++) gap -= fabs(vec3_dot(m, box->axis[i]));
+    return gap;
+}
+
+// Of a segment that enters the box: the normal of the face behind which it is the least.
+static vec3 find_face(const in_box *q, const parallelepiped *box) {
+    double best = -INFINITY;
+    vec3 n = {1, 0, 0};
+    for (int i = 0; i < 3; i++) {
+        double gap = (fabs(q->from[i]) - fabs(q->way[i]) - 1) * sqrt(q->square[i]);
+        if (!(gap > best)) continue;
+        best = gap;
+        n = q->from[i] < 0 ? vec3_neg(box->axis[i]) : box->axis[i];
+    }
+    return vec3_unit(n);
+}
+
+// The unit normal toward the segment's point, which is off the box by w, beyond the faces of the axes in `beyond`.
+static vec3 find_box_normal(const in_box *q, const parallelepiped *box, vec3 w, unsigned beyond, int is_inside) {
+    vec3 n = w;
+    if (beyond == 0) return find_face(q, box);
+    if (is_inside && (beyond == 3 || beyond == 5 || beyond == 6)) {
+        vec3 edge = box->axis[beyond == 3 ? 2 : beyond == 5 ? 1 : 0], across = vec3_cross(q->e, edge);
+        if (vec3_norm_squared(across) > 1e-20 * (vec3_norm_squared(q->e) * vec3_norm_squared(edge)))
+            n = vec3_dot(across, w) < 0 ? vec3_neg(across) : across;
+    }
+    return vec3_unit(n);
+}
+
+static void find_in_box(const pair_frame *f, int is_box_a, nearest_pair *out) {
+    const parallelepiped *box = is_box_a ? &f->a->box : &f->b->box;
+    const ovoid_shape *thin = is_box_a ? f->b : f->a;
+    double *of_box = is_box_a ? out->a : out->b, *of_thin = is_box_a ? out->b : out->a;
+    in_box q;
+    set_in_box(f, is_box_a, &q);
+    double s = thin->vertex_count == 1 ? 0 : find_nearest(&q);
+    unsigned beyond = 0;
+    vec3 w = {0, 0, 0};
+    for (int i = 0; i < 3; i++) {
+        double t = q.from[i] + s * q.way[i], excess = find_excess(t);
+        of_box[i] = t - excess;
+        w = vec3_add_scaled(w, box->axis[i], excess);
+        beyond |= (unsigned)(fabs(excess) > 0) << i;
+    }
+    of_thin[0] = s;
+    vec3 m = find_box_normal(&q, box, w, beyond, thin->vertex_count == 2 && fabs(s) < 1);
+    const mat3 *turn = is_box_a ? &f->world : &f->world_b;
+    vec3 n = mat3_mul_vec3(*turn, m), from_box = mat3_mul_vec3(*turn, w);
+    out->gap = find_box_gap(&q, box, m);
+    out->normal = is_box_a ? n : vec3_neg(n);
+    out->difference = is_box_a ? from_box : vec3_neg(from_box);
+    vec3 on_thin = vec3_add_scaled(get_middle(thin), get_half(thin), s);
+    out->point_a = is_box_a ? vec3_sub(vec3_add(f->offset, mat3_mul_vec3(f->world_b, on_thin)), from_box)
+                            : mat3_mul_vec3(f->world, on_thin);
+}
+
+// ---- the points as pairs of vertices
+
+// A parameter between its ends, as the weight of the end at 1, and the vertex bits that it sets.
+typedef struct cut {
+    double weight;
+    unsigned bit;
+} cut;
+
+// Bits of A are 0 to 2, those of B 3 to 5.
+static void add_cuts(const double *t, uint32_t count, unsigned first, cut *cuts, uint32_t *cut_count, unsigned *set) {
+    for (uint32_t i = 0; i < count; i++) {
+        double weight = 0.5 * (1 + t[i]);
+        unsigned bit = 1u << (first + i);
+        if (!(weight > 0)) continue;
+        if (!(weight < 1)) {
+            *set |= bit;
+            continue;
+        }
+        uint32_t at = (*cut_count)++;
+        for (; at > 0 && cuts[at - 1].weight < weight; at--) cuts[at] = cuts[at - 1];
+        cuts[at] = (cut){weight, bit};
+    }
+}
+
+static uint32_t count_axes(const ovoid_shape *s) { return s->vertex_count == 8 ? 3 : s->vertex_count - 1; }
+
+static uint32_t get_vertex(const ovoid_shape *s, unsigned bits) {
+    return s->vertex_count == 8 ? s->box.corner[bits & 7] : s->vertex_count == 2 ? bits & 1 : 0;
+}
+
+// The two points as one convex combination of pairs of vertices: from the pair with the ends at -1 one parameter after
+// another goes to its end at 1, the one of the largest weight first. 0: there are more pairs than an answer holds.
+static int write_points(const pair_frame *f, const nearest_pair *found, simplex *points) {
+    if (f->a->vertex_count + f->b->vertex_count == 2) {
+        *points = (simplex){.weight = {1}, .count = 1};
+        return 1;
+    }
+    cut cuts[6];
+    uint32_t count = 0;
+    unsigned bits = 0;
+    add_cuts(found->a, count_axes(f->a), 0, cuts, &count, &bits);
+    add_cuts(found->b, count_axes(f->b), 3, cuts, &count, &bits);
+    if (count > 3) return 0;
+    points->count = (int)count + 1;
+    double left = 1;
+    for (uint32_t i = 0; i < 4; i++) {
+        double next = i < count ? cuts[i].weight : 0;
+        int is_used = i <= count;
+        points->p[i].a = is_used ? get_vertex(f->a, bits) : 0;
+        points->p[i].b = is_used ? get_vertex(f->b, bits >> 3) : 0;
+        points->weight[i] = is_used ? left - next : 0;
+        if (i < count) bits |= cuts[i].bit;
+        left = next;
+    }
+    return 1;
+}
+
+// ---- the answer
+
+// The squares of squares of lengths are in the range of doubles.
+static int is_moderate(const pair_frame *f) { return f->size > 0x1p-200 && f->size < 0x1p200; }
+
+// 1 if the bounds answer the query; a depth whose sign is known is as good as a distance.
+static int is_answered(const query_goal *goal, double lower, double upper) {
+    if (!goal->wants_depth) return query_goal_is_met(goal, lower, upper);
+    if (lower > goal->far) return 1;
+    return (lower > 0 || upper < 0) && upper - lower <= goal->tolerance;
+}
+
+// Radii go along the difference, or where they overlap along the normal (pair/proof.c).
+static void set_witness(const pair_frame *f, const nearest_pair *found, double distance, small_end *end) {
+    double radii = f->a->radius + f->b->radius;
+    vec3 n = distance > radii ? vec3_scale(found->difference, 1 / distance) : found->normal;
+    vec3 a = vec3_add(f->world_origin, found->point_a);
+    end->has_witness = 1;
+    end->point_a = vec3_add_scaled(a, n, f->a->radius);
+    end->point_b = vec3_add_scaled(vec3_add(a, found->difference), n, -f->b->radius);
+}
+
+int closed_run(const placed_query *query, small_end *end) {
+    const pair_frame *f = query->frame;
+    nearest_pair found;
+    if (!is_moderate(f)) return 0;
+    if (f->a->vertex_count == 8 || f->b->vertex_count == 8)
+        find_in_box(f, f->a->vertex_count == 8, &found);
+    else if (f->a->vertex_count + f->b->vertex_count == 2)
+        find_points(f, &found);
+    else
+        find_segments(f, &found);
+    double claim = CLOSED_CLAIM * f->size + 3 * f->hidden;
+    double distance = vec3_norm(found.difference);
+    end->lower = found.gap - f->lower_radii - claim;
+    end->upper = distance - f->upper_radii + claim;
+    if (!is_answered(query->goal, end->lower, end->upper) || !write_points(f, &found, &end->points)) return 0;
+    // No zero of a direction is negative.
+    end->normal = (vec3){found.normal.x + 0.0, found.normal.y + 0.0, found.normal.z + 0.0};
+    end->inner = (vec3){0, 0, 0};
+    end->kind = OVOID_PROOF_POINTS;
+    end->stage = OVOID_STAGE_SUPPORT;
+    end->iterations = 0;
+    set_witness(f, &found, distance, end);
+    return 1;
+}

@@ -1,0 +1,173 @@
+// Points, segments and boxes with radii, in closed form (exact/closed.c). Truth: distances known by construction; of
+// random pairs the least distance of a segment's points from the other core, a convex function of one parameter, by
+// sections in long double, with the rotations in long double too. Tolerance 1e-12 of sizes of about 5, some thousand
+// roundings. Each answer is put before ovoid_answer_verify, and must be one without a search.
+#include "ovoid/ovoid.h"
+
+#include "check.h"
+
+#include <string.h>
+
+typedef long double real;
+
+static const ovoid_quat upright = {1, 0, 0, 0};
+
+static ovoid_quat random_turn(uint64_t *r) {
+    double w = random_normal(r), x = random_normal(r), y = random_normal(r), z = random_normal(r);
+    return (ovoid_quat){w, x, y, z};
+}
+static ovoid_vec3 random_place(uint64_t *r) {
+    double x = random_normal(r), y = random_normal(r), z = random_normal(r);
+    return (ovoid_vec3){x, y, z};
+}
+
+/// The answer, verified; is_quick: it must be one in closed form, whatever earlier proof comes with it.
+static ovoid_answer ask(const ovoid_pair *pair, int is_depth, int is_quick) {
+    static ovoid_cover cover;
+    ovoid_error error = {0};
+    ovoid_answer answer = is_depth ? ovoid_depth(pair, NULL, NULL, &cover) : ovoid_distance(pair, NULL, NULL);
+    const ovoid_answer_basis basis = {NULL, is_depth ? &cover : NULL};
+    if (!CHECK(ovoid_answer_verify(pair, &answer, &basis, &error) == OVOID_OK)) printf("%s\n", error.message);
+    if (is_quick) CHECK(answer.stage == OVOID_STAGE_SUPPORT && answer.iterations == 0);
+    // No earlier proof makes another answer.
+    ovoid_proof earlier = answer.proof;
+    earlier.normal.x = -earlier.normal.x;
+    ovoid_answer again = is_depth ? ovoid_depth(pair, NULL, &earlier, NULL) : ovoid_distance(pair, NULL, &earlier);
+    if (is_quick) CHECK(memcmp(&again, &answer, sizeof answer) == 0);
+    return answer;
+}
+
+static void check_known(const ovoid_shape *a, const ovoid_shape *b, ovoid_pose b_in_a, double d) {
+    uint64_t r = 5;
+    for (int i = 0; i < 12; i++) {
+        ovoid_pose move = {random_place(&r), random_turn(&r)};
+        ovoid_pair pair = {a, b, {{0, 0, 0}, upright}, b_in_a};
+        if (i > 0) pair.pose_a = move, pair.pose_b = ovoid_pose_compute_product(&move, &b_in_a);
+        if (i % 2) pair = (ovoid_pair){pair.shape_b, pair.shape_a, pair.pose_b, pair.pose_a};
+        ovoid_answer answer = ask(&pair, 1, 1);
+        CHECK_NEAR(answer.lower, d, 1e-12);
+        CHECK_NEAR(answer.upper, d, 1e-12);
+        ovoid_vec3 n = answer.normal, p = answer.point_a, q = answer.point_b;
+        CHECK_NEAR((q.x - p.x) * n.x + (q.y - p.y) * n.y + (q.z - p.z) * n.z, d, 1e-12);
+        CHECK_EQ((int)ovoid_collide(&pair, NULL, NULL).status, (int)(d > 0 ? OVOID_SEPARATED : OVOID_OVERLAPPING));
+        ovoid_answer within = ovoid_within(&pair, 0.75, NULL, NULL);
+        CHECK_EQ(ovoid_answer_is_within(&within, 0.75), d <= 0.75);
+    }
+}
+
+static void test_known(void) {
+    ovoid_shape *ball = ovoid_shape_create_sphere(0.5, NULL, NULL),
+                *pill = ovoid_shape_create_capsule(0.5, 2, NULL, NULL),
+                *box = ovoid_shape_create_box((ovoid_vec3){1, 2, 3}, NULL, NULL),
+                *dot = ovoid_shape_create_capsule(0.5, 0, NULL, NULL);
+    const ovoid_quat lying = {1, 1, 0, 0}, slanted = {cos(0.3926990816987241), 0, -sin(0.3926990816987241), 0};
+    check_known(ball, ball, (ovoid_pose){{3, 0, 0}, lying}, 2);
+    check_known(ball, ball, (ovoid_pose){{0, 0.25, 0}, lying}, -0.75);
+    check_known(ball, dot, (ovoid_pose){{0, 0, 0}, upright}, -1);
+    check_known(dot, pill, (ovoid_pose){{0, 3, 5}, upright}, sqrt(18) - 1);
+    check_known(ball, pill, (ovoid_pose){{3, 0, 1}, upright}, 2);
+    check_known(ball, pill, (ovoid_pose){{0, 0, 1}, upright}, -1);
+    check_known(pill, pill, (ovoid_pose){{0, 3.25, 0}, lying}, 0.25);
+    check_known(pill, pill, (ovoid_pose){{3, 0, 0}, lying}, 2);
+    check_known(pill, pill, (ovoid_pose){{0.25, 0, 0}, lying}, -0.75);
+    check_known(pill, pill, (ovoid_pose){{0, 3, 1}, upright}, 2);
+    check_known(pill, pill, (ovoid_pose){{0, 0, 7}, upright}, 2);
+    check_known(pill, pill, (ovoid_pose){{0, 0.25, 1}, upright}, -0.75);
+    check_known(box, ball, (ovoid_pose){{3, 1, -2}, lying}, 1.5);
+    check_known(box, ball, (ovoid_pose){{-2, 3, -2}, lying}, sqrt(2) - 0.5);
+    check_known(box, ball, (ovoid_pose){{2, -3, 4}, lying}, sqrt(3) - 0.5);
+    check_known(box, ball, (ovoid_pose){{1.25, 0, 0}, upright}, -0.25);
+    check_known(box, pill, (ovoid_pose){{3, 0, 0}, upright}, 1.5);
+    check_known(box, pill, (ovoid_pose){{3, 3, 2}, upright}, sqrt(5) - 0.5);
+    check_known(box, pill, (ovoid_pose){{0, 5, 0}, lying}, 0.5);
+    check_known(box, pill, (ovoid_pose){{1.5, 0, 3.5}, slanted}, sqrt(0.5) - 0.5);
+    check_known(box, pill, (ovoid_pose){{2, 3, 6}, upright}, sqrt(3) - 0.5);
+    ovoid_shape_destroy(ball);
+    ovoid_shape_destroy(pill);
+    ovoid_shape_destroy(box);
+    ovoid_shape_destroy(dot);
+}
+
+// ---- random pairs
+
+/// v turned by q, of any length.
+static void turn(ovoid_quat q, const real v[3], real out[3]) {
+    const real w = q.w, p[3] = {q.x, q.y, q.z}, norm = w * w + p[0] * p[0] + p[1] * p[1] + p[2] * p[2];
+    real c[3], e[3];
+    for (int i = 0; i < 3; i++) c[i] = p[(i + 1) % 3] * v[(i + 2) % 3] - p[(i + 2) % 3] * v[(i + 1) % 3];
+    for (int i = 0; i < 3; i++) e[i] = p[(i + 1) % 3] * c[(i + 2) % 3] - p[(i + 2) % 3] * c[(i + 1) % 3];
+    for (int i = 0; i < 3; i++) out[i] = v[i] + 2 * (w * c[i] + e[i]) / norm;
+}
+
+/// The point at s of a core that is a segment along z, in the frame of the other body.
+static void place(const ovoid_pair *pair, real s, real out[3]) {
+    const ovoid_vec3 a = pair->pose_a.position, b = pair->pose_b.position;
+    const ovoid_quat q = pair->pose_a.rotation, back = {q.w, -q.x, -q.y, -q.z};
+    real x[3], local[3] = {0, 0, s};
+    turn(pair->pose_b.rotation, local, x);
+    const real d[3] = {x[0] + b.x - a.x, x[1] + b.y - a.y, x[2] + b.z - a.z};
+    turn(back, d, out);
+}
+
+/// The distance of that point from A's core, a box of these half sizes; a segment has none in x and y.
+static real measure(const ovoid_pair *pair, const double half[3], real s) {
+    real x[3], square = 0;
+    place(pair, s, x);
+    for (int i = 0; i < 3; i++) {
+        real beyond = fabsl(x[i]) - half[i];
+        if (beyond > 0) square += beyond * beyond;
+    }
+    return sqrtl(square);
+}
+
+static real find_distance(const ovoid_pair *pair, const double half[3], double length) {
+    real low = -length, high = length;
+    for (int i = 0; i < 300; i++) {
+        real a = low + (high - low) / 3, b = high - (high - low) / 3;
+        if (measure(pair, half, a) <= measure(pair, half, b))
+            high = b;
+        else
+            low = a;
+    }
+    return measure(pair, half, (low + high) / 2);
+}
+
+static void test_random(void) {
+    uint64_t r = 11;
+    long quick = 0, count = 0;
+    for (int i = 0; i < 4000; i++) {
+        check_seed = (uint64_t)i;
+        double half[3] = {random_uniform(&r, 0.05, 1), random_uniform(&r, 0.05, 1), random_uniform(&r, 0.05, 1)};
+        double length = i % 3 ? random_uniform(&r, 0.01, 2) : 0, radius = random_uniform(&r, 0, 0.3);
+        int is_box = i % 4 != 0;
+        if (!is_box) half[0] = half[1] = 0;
+        if (i % 8 == 0) half[2] = 0;
+        ovoid_shape *a = is_box ? ovoid_shape_create_box((ovoid_vec3){half[0], half[1], half[2]}, NULL, NULL)
+                                : ovoid_shape_create_capsule(0.25, half[2], NULL, NULL);
+        ovoid_shape *b = ovoid_shape_create_capsule(radius, length, NULL, NULL);
+        ovoid_pair pair = {a, b, {random_place(&r), random_turn(&r)}, {random_place(&r), random_turn(&r)}};
+        // One time in four of the same axes.
+        if (i % 16 < 4) pair.pose_b.rotation = pair.pose_a.rotation;
+        real d = find_distance(&pair, half, length);
+        ovoid_answer answer = ask(&pair, i % 2, 0);
+        if (d > 1e-9) {
+            double truth = (double)(d - radius - (is_box ? 0 : 0.25));
+            CHECK_NEAR(answer.lower, truth, 1e-12);
+            if (i % 2 || truth > 0) CHECK_NEAR(answer.upper, truth, 1e-12);
+            quick += answer.iterations == 0;
+            count++;
+        } else {
+            CHECK_EQ((int)answer.status, (int)OVOID_OVERLAPPING);
+        }
+        ovoid_shape_destroy(a);
+        ovoid_shape_destroy(b);
+    }
+    CHECK_LE(3000, count);
+    CHECK_EQ(quick, count);
+}
+
+int main(void) {
+    test_known();
+    test_random();
+    return check_end();
+}
