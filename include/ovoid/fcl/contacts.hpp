@@ -145,15 +145,14 @@ template <class S> void add_deepest(contact_list<S> &to, int i, int j, const ovo
     to.add(i, j, {depth.point_a, depth.point_b, middle(depth), 0}, depth.normal);
 }
 
-/// Does a polyhedron stand for a round body? Its facets are no faces of the body.
-inline bool is_round(const ovoid_shape *shape) { return ovoid_shape_get_allowance(shape).outside > 0; }
+/// Does a polyhedron stand for a round body, whose faces its facets are not; or is it a sphere? Both have one contact.
+inline bool is_round(const ovoid_shape *shape) {
+    return ovoid_shape_get_allowance(shape).outside > 0 || ovoid_shape_get_polytope(shape).vertex_count == 1;
+}
 
-/// The contacts of two shapes that touch: one, as FCL has of round bodies, or of others with room for more the points
-/// of their manifold, deepest first. The first one has the depth of the shapes. Where no corner of the manifold is that
-/// deep, the deepest point comes before its corners.
+/// The contacts of two polyhedra that touch: the points of their manifold, deepest first. The first one has the depth
+/// of the shapes. Where no corner of the manifold is that deep, the deepest point comes before its corners.
 template <class S> void add_contacts(contact_list<S> &to, int i, int j, const ovoid_pair &pair) {
-    if (to.room() == 1 || is_round(pair.shape_a) || is_round(pair.shape_b))
-        return add_deepest(to, i, j, ovoid_depth(&pair, nullptr, nullptr, nullptr));
     const ovoid_manifold manifold = ovoid_manifold_find(&pair, nullptr, nullptr);
     ovoid_manifold_points points = ovoid_manifold_compute_points(&pair, &manifold);
     std::uint32_t count = 0;
@@ -173,14 +172,25 @@ template <class S> void add_contacts(contact_list<S> &to, int i, int j, const ov
     }
 }
 
-/// The contacts of two shapes.
+/// A shape whose depth in another one costs what yes or no does: a point or a segment with a radius.
+inline bool is_thin(const ovoid_shape *shape) { return ovoid_shape_get_polytope(shape).vertex_count <= 2; }
+
+/// The contacts of two shapes: one, as FCL has of round bodies, or of others with room for more those of the polyhedra.
 template <class S> void collide_shapes(contact_list<S> &to, const body_couple &of) {
     const ovoid_pair pair = of.shapes();
+    const bool is_single = to.room() == 1 || is_round(pair.shape_a) || is_round(pair.shape_b);
+    if (to.is_detailed() && is_single && (is_thin(pair.shape_a) || is_thin(pair.shape_b))) {
+        const ovoid_answer depth = ovoid_depth(&pair, nullptr, nullptr, nullptr);
+        if (is_hit(depth)) add_deepest(to, -1, -1, depth);
+        return;
+    }
     if (!is_hit(ovoid_collide(&pair, nullptr, nullptr))) return;
-    if (to.is_detailed())
-        add_contacts(to, -1, -1, pair);
-    else
+    if (!to.is_detailed())
         to.add(-1, -1);
+    else if (is_single)
+        add_deepest(to, -1, -1, ovoid_depth(&pair, nullptr, nullptr, nullptr));
+    else
+        add_contacts(to, -1, -1, pair);
 }
 
 /// Adds the contact of two parts if they touch.

@@ -15,6 +15,14 @@
 #include <cstdint>
 #include <cstring>
 
+/** @cond */
+#if defined(__GNUC__)
+#define OVOID_FCL_INLINE __attribute__((always_inline)) inline
+#else
+#define OVOID_FCL_INLINE inline
+#endif
+/** @endcond */
+
 namespace ovoid {
 namespace fcl {
 namespace detail {
@@ -150,9 +158,18 @@ template <class S, class Words> bool print_mesh(const geometry<S> *g, Words &p) 
     return true;
 }
 
+template <class S, class Words> void print_convex(const ::fcl::Convex<S> *g, Words &p) {
+    const auto &vertices = g->getVertices();
+    const int count = static_cast<int>(vertices.size());
+    p.add(static_cast<const void *>(vertices.data()));
+    p.add(static_cast<std::uint64_t>(vertices.size()));
+    p.add(mix_vertices<S>(vertices.data(), count, step_of(count)));
+    for (int i = 0; i < 3; i++) p.add(static_cast<double>(g->getInteriorPoint()[i])); // the mean of all vertices
+}
+
 /// The print of a geometry into p, a print or a comparison; false if it has no translation. The switch is over the
-/// types that FCL names.
-template <class S, class Words> bool make_print(const geometry<S> *g, Words &p) {
+/// types that FCL names. Inline, so that the few words of a box or a sphere are compared in registers.
+template <class S, class Words> OVOID_FCL_INLINE bool make_print(const geometry<S> *g, Words &p) {
     const ::fcl::NODE_TYPE type = g->getNodeType();
     p.set_type(static_cast<std::uint32_t>(type) * 16 + sizeof(S));
     const auto add = [&p](const ::fcl::Vector3<S> &v) {
@@ -183,22 +200,13 @@ template <class S, class Words> bool make_print(const geometry<S> *g, Words &p) 
         add(s->a), add(s->b), add(s->c);
         return true;
     }
-    case ::fcl::GEOM_CONVEX: {
-        const auto *s = static_cast<const ::fcl::Convex<S> *>(g);
-        const auto &vertices = s->getVertices();
-        p.add(static_cast<const void *>(vertices.data()));
-        p.add(static_cast<std::uint64_t>(vertices.size()));
-        const int count = static_cast<int>(vertices.size());
-        p.add(mix_vertices<S>(vertices.data(), count, step_of(count)));
-        add(s->getInteriorPoint()); // the mean of all vertices
-        return true;
-    }
+    case ::fcl::GEOM_CONVEX: print_convex(static_cast<const ::fcl::Convex<S> *>(g), p); return true;
     default: return print_mesh(g, p);
     }
 }
 
 /// Has the geometry this print?
-template <class S> bool has_print(const geometry<S> *g, const print &p) {
+template <class S> OVOID_FCL_INLINE bool has_print(const geometry<S> *g, const print &p) {
     print_comparison to(p);
     return make_print(g, to) && to.is_same();
 }
