@@ -10,7 +10,7 @@
 #include <string.h>
 
 typedef struct layout {
-    size_t boxes, turned, points, triangles, order, places, nodes, frames, components, size;
+    size_t boxes, turned, points, triangles, order, places, nodes, frames, components, facets, bends, size;
 } layout;
 
 static size_t advance(size_t *at, size_t count, size_t size) {
@@ -31,6 +31,8 @@ static layout make_layout(uint32_t points, uint32_t triangles, uint32_t nodes, u
     l.nodes = advance(&at, nodes, sizeof(solid_node));
     l.frames = advance(&at, nodes, sizeof(node_frame));
     l.components = advance(&at, components, sizeof(uint32_t));
+    l.facets = advance(&at, triangles, sizeof(uint32_t));
+    l.bends = advance(&at, triangles, sizeof(uint8_t));
     l.size = at;
     return l;
 }
@@ -46,6 +48,8 @@ static void place_arrays(ovoid_solid *s, const layout *l) {
     s->nodes = (solid_node *)(base + l->nodes);
     s->frames = (node_frame *)(base + l->frames);
     s->components = (uint32_t *)(base + l->components);
+    s->facets = (uint32_t *)(base + l->facets);
+    s->bends = (uint8_t *)(base + l->bends);
     s->size = l->size;
 }
 
@@ -88,6 +92,10 @@ static ovoid_solid *assemble(ovoid_solid *made, const solid_merger *m, const uin
                 s->places[s->order[i]] = i;
             }
             solid_make_frames(s);
+            if (!solid_find_facets(s)) {
+                allocator_release(a, s);
+                s = NULL;
+            }
         }
     }
     allocator_release(a, made->boxes);

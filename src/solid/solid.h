@@ -54,7 +54,29 @@ struct ovoid_solid {
     solid_node *nodes;
     node_frame *frames;
     uint32_t *components; ///< one point of each component
+    // Facets (facets.c), of the triangle at each place.
+    double flatness;  ///< no corner of a facet is farther than this from its plane
+    uint32_t *facets; ///< the facet, named by the place of the triangle that gives its plane
+    uint8_t *bends;   ///< of each edge a solid_bend, two bits each; and the two bits below
 };
+
+/// How a surface bends at an edge of a triangle, seen from outside.
+typedef enum solid_bend {
+    SOLID_FLAT = 0, ///< inside of a facet
+    SOLID_CONVEX,
+    SOLID_CONCAVE,
+    SOLID_OPEN ///< no other triangle has the edge
+} solid_bend;
+enum {
+    SOLID_ALONE = 64,   ///< the facet is this triangle
+    SOLID_NO_AREA = 128 ///< the triangle is in no facet
+};
+static inline solid_bend solid_get_bend(const ovoid_solid *s, uint32_t place, int edge) {
+    return (solid_bend)(s->bends[place] >> (2 * edge) & 3);
+}
+/// The outward unit normal of a facet; of a surface that is not closed, the side from which its triangles are
+/// counter-clockwise.
+vec3 solid_compute_facet_normal(const ovoid_solid *solid, uint32_t facet);
 
 static inline vec3 solid_get_corner(const ovoid_solid *s, uint32_t place, int corner) {
     return vec3_at(s->points, s->triangles[place].point[corner]);
@@ -100,6 +122,9 @@ uint32_t tree_get_most_nodes(uint32_t triangles);
 int solid_build_tree(ovoid_solid *solid, const solid_triangle *triangles);
 /// Fills frames and turned, beside a tree and triangles in its order.
 void solid_make_frames(ovoid_solid *solid);
+
+/// Fills flatness, facets and bends, beside everything else. 0 if memory runs out.
+int solid_find_facets(ovoid_solid *solid);
 
 /// The signed crossing of the ray from p toward +x with a triangle, with p moved by an infinitesimal amount: 1, 0 or
 /// -1; 2 if p is on the triangle, by exact signs. Coordinates in units of the body. index: of the corners, so that both

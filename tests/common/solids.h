@@ -333,4 +333,63 @@ static inline solid_truth find_solid_truth(const mesh *a, const ovoid_pose *pose
     return find_truth_of(a, pose_a, 0, b, pose_b, 0);
 }
 
+// ---- grounds for contacts: slabs of triangles whose top has any heights, closed
+
+/// A slab of n by n quadrangles over the square of that half width; its bottom is level.
+typedef struct ground {
+    uint32_t n;
+    double half, bottom;
+    double (*height)(double x, double y);
+    double jitter; ///< points inside are moved by this share of a cell, diagonals turned at random
+} ground;
+
+static inline void ground_add_face(mesh *m, const ground *g, int is_top, uint64_t *seed) {
+    uint32_t first = (uint32_t)m->points, n = g->n;
+    double cell = 2 * g->half / n;
+    for (uint32_t i = 0; i <= n; i++)
+        for (uint32_t j = 0; j <= n; j++) {
+            int is_inside = i && j && i < n && j < n;
+            double move = is_inside && is_top ? g->jitter * cell : 0;
+            double x = cell * i - g->half + random_uniform(seed, -move, move + 1e-300),
+                   y = cell * j - g->half + random_uniform(seed, -move, move + 1e-300);
+            mesh_add_point(m, x, y, is_top ? g->height(x, y) : g->bottom);
+        }
+    for (uint32_t i = 0; i < n; i++)
+        for (uint32_t j = 0; j < n; j++) {
+            uint32_t p = first + i * (n + 1) + j, q = p + n + 1, r = q + 1, s = p + 1;
+            if (g->jitter > 0 && random_next(seed) % 2) {
+                uint32_t t = p;
+                p = q, q = r, r = s, s = t;
+            }
+            mesh_add_triangle(m, p, is_top ? q : r, is_top ? r : q);
+            mesh_add_triangle(m, p, is_top ? r : s, is_top ? s : r);
+        }
+}
+
+static inline void ground_add(mesh *m, const ground *g, uint64_t *seed) {
+    uint32_t n = g->n, size = (n + 1) * (n + 1), top = (uint32_t)m->points, low = top + size;
+    ground_add_face(m, g, 1, seed);
+    ground_add_face(m, g, 0, seed);
+    for (uint32_t k = 0; k < n; k++) {
+        const uint32_t side[4][2] = {{k * (n + 1), (k + 1) * (n + 1)},
+                                     {(k + 1) * (n + 1) + n, k * (n + 1) + n},
+                                     {k + 1, k},
+                                     {n * (n + 1) + k, n * (n + 1) + k + 1}};
+        for (int i = 0; i < 4; i++) {
+            uint32_t a = side[i][0], b = side[i][1];
+            mesh_add_triangle(m, low + a, low + b, top + b);
+            mesh_add_triangle(m, low + a, top + b, top + a);
+        }
+    }
+}
+
+static inline ovoid_solid *ground_make(const ground *g, uint64_t *seed) {
+    mesh m = {0};
+    ground_add(&m, g, seed);
+    ovoid_solid *s = mesh_make_solid(&m);
+    mesh_clear(&m);
+    if (s) CHECK(ovoid_solid_get_report(s).is_closed && ovoid_solid_get_report(s).volume > 0);
+    return s;
+}
+
 #endif
