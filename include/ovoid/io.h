@@ -380,7 +380,8 @@ typedef struct ovoid_record {
                                          the volumes, NaN where there is no mesh, or it has none */
     const ovoid_body_answer *solid; /**< the answer of solids, beside `answer`; NULL: there is none */
     double contact_margin, contact_angle; /**< with OVOID_RECORD_CONTACTS: the options of the contacts */
-    ovoid_limit contact_limit; /**< NONE, or why the bodies have no contacts, however near they are: SHAPE_A, SHAPE_B */
+    ovoid_limit
+        contact_limit; /**< NONE, or why the bodies have no contacts, however near they are: SHAPE_B, both are solids */
     const ovoid_record_contact *contacts; /**< up to the margin, sorted by part_a, then part_b; NULL: none */
     size_t contact_count;
 } ovoid_record;

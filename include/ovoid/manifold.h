@@ -26,9 +26,11 @@ typedef enum ovoid_manifold_proof {
     OVOID_MANIFOLD_PROOF_NONE = 0, /**< upper is infinity */
     OVOID_MANIFOLD_PROOF_POINTS,   /**< the contact's points: no point of A is closer to B than they are */
     OVOID_MANIFOLD_PROOF_FACETS, /**< the facets met: the difference of the bodies holds a frustum around the origin */
-    OVOID_MANIFOLD_PROOF_SEARCH /**< the surface around the origin (ovoid_cover) that a search found, now or earlier; an
-                                  earlier one less the motion since then. Where the options have no cover, also what the
-                                  facets of an earlier contact showed that needed no search, less the motion */
+    OVOID_MANIFOLD_PROOF_SEARCH, /**< the surface around the origin (ovoid_cover) that a search found, now or earlier;
+                                  an earlier one less the motion since then. Where the options have no cover, also
+                                  what the facets of an earlier contact showed that needed no search, less the motion */
+    OVOID_MANIFOLD_PROOF_NORMAL  /**< of a solid (<ovoid/body_manifolds.h>): the points, along the normal alone. It says
+                                   nothing of other directions */
 } ovoid_manifold_proof;
 
 /**
@@ -198,7 +200,7 @@ OVOID_API ovoid_code ovoid_manifold_find_batch(const ovoid_manifold_batch *batch
 
 /** The name of an axis in results: "none", "face a", "face b", "edges", "free"; never NULL. */
 OVOID_API const char *ovoid_manifold_axis_get_name(ovoid_manifold_axis axis);
-/** The name of a proof: "none", "points", "facets", "search". */
+/** The name of a proof: "none", "points", "facets", "search", "normal". */
 OVOID_API const char *ovoid_manifold_proof_get_name(ovoid_manifold_proof proof);
 
 #ifdef __cplusplus

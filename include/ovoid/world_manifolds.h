@@ -55,12 +55,14 @@ typedef enum ovoid_manifold_event {
 typedef struct ovoid_world_manifold {
     ovoid_id a, b;           /**< a < b */
     uint64_t user_a, user_b; /**< stored with the bodies (ovoid_world_body) */
-    ovoid_verdict verdict;   /**< limit SHAPE_A or SHAPE_B: that body is a solid, and there is no manifold */
+    ovoid_verdict verdict;   /**< limit SHAPE_B: both are solids, and there is no manifold */
     double margin;           /**< of this pair */
     double friction;         /**< the square root of the product of both bodies' */
     double restitution;      /**< the larger one of both bodies' */
     size_t first;            /**< its manifolds: `count` of ovoid_world_manifolds.parts from here on */
-    uint32_t count;          /**< one for shapes; for compounds one for each pair of parts within the margin */
+    uint32_t count; /**< one for shapes; for compounds one for each pair of parts within the margin; for a solid
+                       one for each facet that a part touches, none where they are too deep in one another
+                       (ovoid_body_manifolds_find) */
     ovoid_manifold_event event;
 } ovoid_world_manifold;
 

@@ -94,19 +94,19 @@ typedef struct side {
     uint32_t edge;  ///< a feature, or UINT32_MAX
 } side;
 
-// The edge at the extreme vertex whose other end is lowest under it, if that is rounding.
-static uint32_t find_edge(const side *s, double within) {
-    edge_range r = get_edges(s->shape, s->low);
-    const double *x = shape_vertices(s->shape);
-    double top = vec3_dot(vec3_at(x, s->low), s->n), least = within;
+// Of several edges the one whose other end is lowest under the vertex.
+uint32_t shape_find_low_edge(const ovoid_shape *s, vec3 n, uint32_t low, double within) {
+    edge_range r = get_edges(s, low);
+    const double *x = shape_vertices(s);
+    double top = vec3_dot(vec3_at(x, low), n), least = within;
     uint32_t found = UINT32_MAX;
     for (uint32_t i = r.first; i < r.end; i++) {
-        uint32_t to = shape_neighbors(s->shape)[i], reverse = shape_find_edge(s->shape, to, s->low);
-        double under = top - vec3_dot(vec3_at(x, to), s->n);
-        int is_inner = s->shape->rank >= 2 && shape_edge_facets(s->shape)[i] == shape_edge_facets(s->shape)[reverse];
+        uint32_t to = shape_neighbors(s)[i], reverse = shape_find_edge(s, to, low);
+        double under = top - vec3_dot(vec3_at(x, to), n);
+        int is_inner = s->rank >= 2 && shape_edge_facets(s)[i] == shape_edge_facets(s)[reverse];
         if (is_inner || !(under <= least)) continue;
         least = under;
-        found = OVOID_MANIFOLD_EDGE | get_name(s->shape, i);
+        found = OVOID_MANIFOLD_EDGE | get_name(s, i);
     }
     return found;
 }
@@ -138,8 +138,8 @@ manifold_axis axis_choose(const pair_frame *f, double tolerance, vec3 *n) {
     if (a.cosine >= NEARLY_FLAT && take(f, &axis, least, n)) return axis;
     axis = (manifold_axis){OVOID_MANIFOLD_FACE_B, a.low, b.facet};
     if (b.cosine >= NEARLY_FLAT && take(f, &axis, least, n)) return axis;
-    a.edge = find_edge(&a, within);
-    b.edge = find_edge(&b, within);
+    a.edge = shape_find_low_edge(a.shape, a.n, a.low, within);
+    b.edge = shape_find_low_edge(b.shape, b.n, b.low, within);
     axis = (manifold_axis){OVOID_MANIFOLD_EDGES, a.edge, b.edge};
     if (a.edge != UINT32_MAX && b.edge != UINT32_MAX && take(f, &axis, least, n)) return axis;
     axis = (manifold_axis){OVOID_MANIFOLD_FREE, a.edge, b.low};

@@ -334,7 +334,7 @@ static void merge(clipper *c) {
 
 // ---- the polygon ----
 
-static double compute_area(const manifold_polygon *p) {
+double polygon_compute_area(const manifold_polygon *p) {
     double sum = 0;
     const manifold_corner *c = p->corners;
     for (uint32_t i = 1; i + 1 < p->count; i++)
@@ -364,5 +364,5 @@ void patches_clip(manifold_state *s, const clip_rules *rules) {
     }
     close_polygon(&c);
     s->polygon.least = c.least;
-    s->polygon.area = s->polygon.count > 4 ? compute_area(&s->polygon) : 0;
+    s->polygon.area = s->polygon.count > 4 ? polygon_compute_area(&s->polygon) : 0;
 }

@@ -147,11 +147,20 @@ typedef struct facet_choice {
 } facet_choice;
 uint32_t facet_choose(const ovoid_shape *shape, const facet_choice *choice);
 
+/// The edge at the vertex low, extreme along n, whose other end is not lower by more than `within`, as a feature;
+/// UINT32_MAX if there is none.
+uint32_t shape_find_low_edge(const ovoid_shape *shape, vec3 n, uint32_t low, double within);
+
 // ---- patch.c, clip.c, reduce.c: the polygon ----
 
 /// The patch of a feature of A, or of B.
 void patch_make_a(const manifold_frame *m, uint32_t feature, manifold_patch *p);
 void patch_make_b(const manifold_frame *m, uint32_t feature, manifold_patch *p);
+
+/// Places a patch whose corners are listed, with its sides: of a facet the slopes are set afterwards.
+void patch_place(const simd_placing *placing, manifold_patch *p);
+/// The slopes of a facet whose unit normal has these coordinates in the frame of the manifold.
+void patch_set_slope(manifold_patch *p, vec3 normal);
 
 /// The distance of a point from a patch; 0 inside.
 double patch_measure_distance(const manifold_patch *patch, double x, double y);
@@ -164,6 +173,9 @@ typedef struct clip_rules {
     const uint32_t *kept;
     uint32_t kept_count; ///< 0 where no corner is kept
 } clip_rules;
+
+/// The area of a polygon whose corners go around.
+double polygon_compute_area(const manifold_polygon *polygon);
 
 /// The polygon in which the patches of a state overlap, counter-clockwise; and its tables.
 void patches_clip(manifold_state *state, const clip_rules *rules);
@@ -185,6 +197,10 @@ typedef struct corner_choice {
 /// The deepest corner, to the snap, and those that span the most area with it. earlier: its corners are kept while
 /// their share is within 2 % of what it was, and the deepest of them is the deepest of all to the slack.
 corner_choice corners_choose(const manifold_state *state, const ovoid_manifold *earlier, double slack);
+/// The place of the corner with an id, or -1.
+int polygon_find_corner(const manifold_polygon *polygon, uint32_t id);
+/// The share of the polygon's area that chosen corners span.
+double polygon_compute_share(const manifold_polygon *polygon, const corner_choice *choice);
 
 // ---- bounds.c: the upper bound ----
 

@@ -7,6 +7,6 @@ const char *ovoid_manifold_axis_get_name(ovoid_manifold_axis axis) {
 }
 
 const char *ovoid_manifold_proof_get_name(ovoid_manifold_proof proof) {
-    static const char *const names[] = {"none", "points", "facets", "search"};
+    static const char *const names[] = {"none", "points", "facets", "search", "normal"};
     return (unsigned)proof < sizeof names / sizeof *names ? names[proof] : "unknown";
 }

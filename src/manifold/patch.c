@@ -67,8 +67,7 @@ static void set_line_slope(manifold_patch *p) {
     p->steepness = sqrt(1 + dz * dz / square);
 }
 
-// The plane of a facet, from its normal in the frame: out is along it, u and v across.
-static void set_plane_slope(manifold_patch *p, vec3 plane) {
+void patch_set_slope(manifold_patch *p, vec3 plane) {
     p->slope_x = -plane.x / plane.z;
     p->slope_y = -plane.y / plane.z;
     p->steepness = max2(1, 1 / fabs(plane.z));
@@ -90,6 +89,17 @@ static void set_thin_sides(simd_patch *p) {
         for (uint32_t i = 0; i < 4; i++) set_side(p, i, i < 2 ? 1 - 2.0 * i : 0, i < 2 ? 0 : 5 - 2.0 * i, 0);
 }
 
+void patch_place(const simd_placing *placing, manifold_patch *p) {
+    // The first one again behind the last, to a whole number of lanes.
+    for (uint32_t i = p->at.count; i < simd_patch_pad(p->at.count); i++) p->at.vertices[i] = p->at.vertices[0];
+    patch_get_kernels()->place(placing, &p->at);
+    p->at.side_count = p->at.count;
+    p->slope_x = p->slope_y = 0;
+    p->steepness = 1;
+    if (p->at.count < 3) set_thin_sides(&p->at);
+    if (p->at.count == 2) set_line_slope(p);
+}
+
 // What the patches of A and of B differ in: the body, and how its vertices are placed.
 typedef struct patch_body {
     const ovoid_shape *shape;
@@ -105,22 +115,13 @@ static void make_patch(const patch_body *body, uint32_t feature, manifold_patch 
     else
         take_thin(body->shape, feature, p);
     if (body->is_b) reverse(p);
-    // The first one again behind the last, to a whole number of lanes.
-    for (uint32_t i = p->at.count; i < simd_patch_pad(p->at.count); i++) p->at.vertices[i] = p->at.vertices[0];
     vec3 u = body->u, v = body->v, n = body->n, t = body->shift;
     const simd_placing placing = {
         shape_get_points(body->shape), {u.x, u.y, u.z, v.x, v.y, v.z, n.x, n.y, n.z}, {t.x, t.y, t.z}};
-    patch_get_kernels()->place(&placing, &p->at);
-    p->at.side_count = p->at.count;
-    p->slope_x = p->slope_y = 0;
-    p->steepness = 1;
-    if (p->at.count < 3) {
-        set_thin_sides(&p->at);
-        if (p->at.count == 2) set_line_slope(p);
-        return;
-    }
+    patch_place(&placing, p);
+    if (p->at.count < 3) return;
     vec3 normal = shape_get_facet_normal(body->shape, feature_get_index(feature));
-    set_plane_slope(p, (vec3){vec3_dot(u, normal), vec3_dot(v, normal), vec3_dot(n, normal)});
+    patch_set_slope(p, (vec3){vec3_dot(u, normal), vec3_dot(v, normal), vec3_dot(n, normal)});
 }
 
 void patch_make_a(const manifold_frame *m, uint32_t feature, manifold_patch *p) {

@@ -17,6 +17,16 @@ static double get_area_of_four(const manifold_corner *c, const uint32_t at[4]) {
     return get_area(c, at[0], at[1], at[2]) + get_area(c, at[0], at[2], at[3]);
 }
 
+int polygon_find_corner(const manifold_polygon *p, uint32_t id) {
+    for (uint32_t i = 0; i < p->count; i++)
+        if (p->corners[i].id == id) return (int)i;
+    return -1;
+}
+
+double polygon_compute_share(const manifold_polygon *p, const corner_choice *choice) {
+    return choice->count == 4 && p->area > 0 ? get_area_of_four(p->corners, choice->index) / (2 * p->area) : 1;
+}
+
 // A polygon of which four corners are wanted.
 typedef struct reduction {
     const manifold_polygon *polygon;

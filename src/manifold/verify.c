@@ -81,12 +81,6 @@ static ovoid_code verify_point(const checker *c, uint32_t i) {
     return OVOID_OK;
 }
 
-static int find_place(const manifold_polygon *p, uint32_t id) {
-    for (uint32_t i = 0; i < p->count; i++)
-        if (p->corners[i].id == id) return (int)i;
-    return -1;
-}
-
 static double get_separation(const checker *c, const manifold_corner *corner) {
     return max2(corner->separation, c->state.frame.gap);
 }
@@ -117,18 +111,16 @@ static ovoid_code verify_polygon(const checker *c) {
     if (!(is_few ? m->share == 1 : m->share >= 0 && m->share <= 1)) return refuse(c, "share %.9g", (double)m->share);
     if (c->terms.keep > 0) return OVOID_OK;
     if (p->count != m->corners) return refuse(c, "%u corners; the polygon has %u", m->corners, p->count);
-    int at[4] = {0};
+    corner_choice own = {m->count, {0}, 1};
     for (uint32_t i = 0; i < m->count; i++) {
-        at[i] = find_place(p, m->id[i]);
-        if (at[i] < 0) return refuse(c, "point %u is no corner of the polygon", i);
-        if (i && at[i] < at[i - 1]) return refuse(c, "point %u is not in the polygon's order", i);
+        int at = polygon_find_corner(p, m->id[i]);
+        if (at < 0) return refuse(c, "point %u is no corner of the polygon", i);
+        if (i && (uint32_t)at < own.index[i - 1]) return refuse(c, "point %u is not in the polygon's order", i);
+        own.index[i] = (uint32_t)at;
     }
-    if (is_few || !(p->area > 0)) return OVOID_OK;
-    const manifold_corner *k = p->corners;
-    double x = k[at[2]].x - k[at[0]].x, y = k[at[2]].y - k[at[0]].y;
-    double area = (x * (k[at[3]].y - k[at[1]].y) - y * (k[at[3]].x - k[at[1]].x)) / 2;
-    if (fabs(area / p->area - (double)m->share) <= 1e-6) return OVOID_OK;
-    return refuse(c, "share %.9g; the points have %.9g", (double)m->share, area / p->area);
+    double share = polygon_compute_share(p, &own);
+    if (is_few || !(p->area > 0) || fabs(share - (double)m->share) <= 1e-6) return OVOID_OK;
+    return refuse(c, "share %.9g; the points have %.9g", (double)m->share, share);
 }
 
 // ---- the whole ----

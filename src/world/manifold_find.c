@@ -98,6 +98,7 @@ static ovoid_verdict make_verdict(const manifolds_found *found, const ovoid_body
     ovoid_verdict verdict = {.status = find_status(found, parts, count), .lower = found->lower, .upper = found->upper};
     // Why a bracket is wide: the first reason of a part.
     for (uint32_t i = 0; i < count && verdict.limit == OVOID_LIMIT_NONE; i++) verdict.limit = parts[i].manifold.limit;
+    if (!count && verdict.status == OVOID_UNDECIDED) verdict.limit = OVOID_LIMIT_PRECISION;
     return verdict;
 }
 
@@ -154,10 +155,10 @@ static void find_pair(finding *f, world_pair *p, int is_answered) {
     ovoid_limit refused = find_parts(f, p, earlier, &found);
     if (f->room->failed) return;
     if (refused != OVOID_LIMIT_NONE) {
-        // A solid: what the query of the pair says.
+        // Two solids: what the query of the pair says.
         if (!is_queried && !is_answered) pair_update(w, p);
         item.verdict = get_verdict(&w->pair_cache[p->slot]);
-        item.verdict.limit = w->bodies[p->a].body.solid ? OVOID_LIMIT_SHAPE_A : OVOID_LIMIT_SHAPE_B;
+        item.verdict.limit = refused;
         if (p->flags & PAIR_CONTACT) add_item(f, p, earlier, &item);
         return;
     }
@@ -169,9 +170,13 @@ static void find_pair(finding *f, world_pair *p, int is_answered) {
     }
     item.count = (uint32_t)(list->part_count - item.first);
     ovoid_body_manifold *parts = list->parts + item.first;
-    if (item.count > 1) body_manifolds_sort(parts, list->points + item.first, item.count);
+    if (item.count > 1) {
+        item.count = (uint32_t)body_manifolds_sort(parts, list->points + item.first, item.count);
+        list->part_count = item.first + item.count;
+    }
     item.verdict = make_verdict(&found, parts, item.count);
-    cache_bounds(w, p, &item.verdict, item.count == 1 ? parts->manifold.normal : (vec3){0, 0, 0});
+    int has_solid = w->bodies[p->a].body.solid || w->bodies[p->b].body.solid;
+    cache_bounds(w, p, &item.verdict, item.count == 1 && !has_solid ? parts->manifold.normal : (vec3){0, 0, 0});
     p->flags |= PAIR_CONTACT;
     add_item(f, p, earlier, &item);
 }

@@ -113,4 +113,57 @@ static inline void check_manifold(const asked_manifold *q) {
         printf("  %s\n", error.message);
 }
 
+// ---- solids, by brute force over all triangles
+
+static inline void solid_read_triangle(const ovoid_solid *s, size_t i, vec3 corner[3]) {
+    uint32_t points[3];
+    ovoid_solid_get_triangle(s, i, points);
+    for (int k = 0; k < 3; k++) corner[k] = vec3_at(ovoid_solid_get_points(s), points[k]);
+}
+
+/// The nearest point of a triangle, by projection on its plane and its edges.
+static inline vec3 triangle_find_nearest(const vec3 c[3], vec3 x) {
+    vec3 n = vec3_unit(vec3_cross(vec3_sub(c[1], c[0]), vec3_sub(c[2], c[0])));
+    vec3 best = vec3_add_scaled(x, n, -vec3_dot(n, vec3_sub(x, c[0])));
+    int is_inside = 1;
+    for (int i = 0; i < 3; i++)
+        is_inside &= vec3_dot(vec3_cross(vec3_sub(c[(i + 1) % 3], c[i]), vec3_sub(best, c[i])), n) >= 0;
+    if (is_inside) return best;
+    double least = INFINITY;
+    for (int i = 0; i < 3; i++) {
+        vec3 d = vec3_sub(c[(i + 1) % 3], c[i]);
+        double t = vec3_dot(d, vec3_sub(x, c[i])) / vec3_norm_squared(d);
+        vec3 p = vec3_add_scaled(c[i], d, t < 0 ? 0 : t > 1 ? 1 : t);
+        double distance = vec3_norm(vec3_sub(p, x));
+        if (distance < least) least = distance, best = p;
+    }
+    return best;
+}
+
+static inline double solid_measure_distance(const ovoid_solid *s, vec3 x) {
+    double least = INFINITY;
+    vec3 c[3];
+    for (size_t i = 0; i < ovoid_solid_get_report(s).triangles; i++) {
+        solid_read_triangle(s, i, c);
+        least = fmin(least, vec3_norm(vec3_sub(triangle_find_nearest(c, x), x)));
+    }
+    return least;
+}
+
+/// By how much the steepest way from a point along the triangles that hold it rises along a direction: the sine of its
+/// angle; at most 0 where the point is a top.
+static inline double solid_measure_rise(const ovoid_solid *s, vec3 x, vec3 up, double near) {
+    double most = -1;
+    vec3 c[3];
+    for (size_t i = 0; i < ovoid_solid_get_report(s).triangles; i++) {
+        solid_read_triangle(s, i, c);
+        if (vec3_norm(vec3_sub(triangle_find_nearest(c, x), x)) > near) continue;
+        for (int k = 0; k < 3; k++) {
+            vec3 d = vec3_sub(c[k], x);
+            if (vec3_norm(d) > 10 * near) most = fmax(most, vec3_dot(vec3_unit(d), up));
+        }
+    }
+    return most;
+}
+
 #endif

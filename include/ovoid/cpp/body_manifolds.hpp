@@ -8,6 +8,7 @@
 #include "ovoid/body_manifolds.h"
 #include "ovoid/cpp/body.hpp"
 
+#include <cstdint>
 #include <vector>
 
 namespace ovoid {
@@ -39,6 +40,7 @@ class body_manifolds {
             items_.swap(next_);
             lower_ = room.lower;
             upper_ = room.upper;
+            through_ = room.through;
             return refused;
         }
     }
@@ -46,6 +48,8 @@ class body_manifolds {
     double lower() const noexcept { return lower_; }
     /** Its upper end. */
     double upper() const noexcept { return upper_; }
+    /** Number of facets of a solid that a part has gone through: they have no manifold. */
+    std::uint32_t through() const noexcept { return through_; }
     /** The points of a manifold of this list. */
     const ovoid_manifold_points &points_of(const body_manifold &m) const noexcept { return points_[index(m)]; }
     /** The first manifold. */
@@ -64,6 +68,7 @@ class body_manifolds {
     std::vector<body_manifold> items_, next_;
     std::vector<ovoid_manifold_points> points_;
     double lower_ = 0, upper_ = 0;
+    std::uint32_t through_ = 0;
 };
 
 /** The points of one manifold of these bodies at their present poses; none where a part does not exist. */

@@ -6,15 +6,37 @@
 
 #include "base/environment.h"
 #include "base/error.h"
+#include "body/body_find.h"
+#include "body/manifolds/solid_pair.h"
 #include "body/search.h"
 #include "manifold/manifold.h"
 #include "tools/heap.h"
 
 // ---- order
 
-static int compare(const ovoid_body_manifold *a, const ovoid_body_manifold *b) {
+static int compare_parts(const ovoid_body_manifold *a, const ovoid_body_manifold *b) {
     if (a->part_a != b->part_a) return a->part_a < b->part_a ? -1 : 1;
     return a->part_b < b->part_b ? -1 : a->part_b > b->part_b;
+}
+
+static int compare_numbers(double a, double b) { return a < b ? -1 : a > b; }
+
+// Along the facet of a solid: neither a direction nor the facet of the part beside it.
+static int is_along_facet(const ovoid_body_manifold *x) {
+    const ovoid_manifold *m = &x->manifold;
+    return (m->axis == OVOID_MANIFOLD_FACE_A && m->feature_b < OVOID_MANIFOLD_EDGE) ||
+           (m->axis == OVOID_MANIFOLD_FACE_B && m->feature_a < OVOID_MANIFOLD_EDGE);
+}
+
+// Of the same parts the one along the facet comes first, then the one that is apart most.
+static int compare(const ovoid_body_manifold *a, const ovoid_body_manifold *b) {
+    int order = compare_parts(a, b);
+    if (!order) order = is_along_facet(b) - is_along_facet(a);
+    if (!order) order = compare_numbers(b->manifold.lower, a->manifold.lower);
+    const ovoid_vec3 *n = &a->manifold.normal, *m = &b->manifold.normal;
+    if (!order) order = compare_numbers(fabs(n->x), fabs(m->x));
+    if (!order) order = compare_numbers(fabs(n->y), fabs(m->y));
+    return order ? order : compare_numbers(fabs(n->z), fabs(m->z));
 }
 
 // Manifolds and the points beside them; NULL: none.
@@ -39,17 +61,24 @@ static void exchange(void *items, size_t i, size_t k) {
     c->points[k] = of_item;
 }
 
-void body_manifolds_sort(ovoid_body_manifold *items, ovoid_manifold_points *points, size_t count) {
+size_t body_manifolds_sort(ovoid_body_manifold *items, ovoid_manifold_points *points, size_t count) {
+    size_t kept = count > 0;
     manifold_columns columns = {items, points};
     heap_sort(&(heap_places){&columns, is_after, exchange}, count);
+    for (size_t i = 1; i < count; i++) {
+        if (compare_parts(&items[kept - 1], &items[i]) == 0) continue;
+        if (i > kept) exchange(&columns, kept, i);
+        kept++;
+    }
+    return kept;
 }
 
-// The earlier manifold of the same two parts, or NULL, by bisection.
-static const ovoid_manifold *find_earlier(const manifolds_request *r, const ovoid_body_manifold *of) {
+// By bisection.
+const ovoid_manifold *manifolds_request_find_earlier(const manifolds_request *r, const ovoid_body_manifold *of) {
     size_t low = 0, high = r->earlier_count;
     while (low < high) {
         size_t middle = low + (high - low) / 2;
-        int order = compare(&r->earlier[middle], of);
+        int order = compare_parts(&r->earlier[middle], of);
         if (order == 0) return &r->earlier[middle].manifold;
         if (order < 0)
             low = middle + 1;
@@ -72,7 +101,7 @@ typedef struct manifolds_search {
 
 static void find_pair(manifolds_search *s, const ovoid_pair *parts, ovoid_body_manifold *c) {
     s->points.count = 0;
-    manifold_find_internal(parts, &s->options, find_earlier(s->request, c), &c->manifold);
+    manifold_find_internal(parts, &s->options, manifolds_request_find_earlier(s->request, c), &c->manifold);
     s->found->tested++;
 }
 
@@ -119,7 +148,7 @@ static ovoid_limit find_shapes(manifolds_search *s, const ovoid_body_pair *pair)
     find_pair(s, &shapes, &c);
     ovoid_limit limit = c.manifold.limit;
     if (limit == OVOID_LIMIT_POSE_A || limit == OVOID_LIMIT_POSE_B) {
-        *s->found = (manifolds_found){-INFINITY, INFINITY, 0, 0};
+        *s->found = (manifolds_found){-INFINITY, INFINITY, 0, 0, 0};
         return limit;
     }
     take_pair(s, &c);
@@ -127,8 +156,8 @@ static ovoid_limit find_shapes(manifolds_search *s, const ovoid_body_pair *pair)
 }
 
 static ovoid_limit refuse(const ovoid_body_pair *pair, const ovoid_manifold_options *o) {
-    if (pair->a.solid || !body_is_one(&pair->a)) return OVOID_LIMIT_SHAPE_A;
-    if (pair->b.solid || !body_is_one(&pair->b)) return OVOID_LIMIT_SHAPE_B;
+    if (!body_is_one(&pair->a)) return OVOID_LIMIT_SHAPE_A;
+    if (!body_is_one(&pair->b) || (pair->a.solid && pair->b.solid)) return OVOID_LIMIT_SHAPE_B;
     return !o || manifold_options_are_valid(o) ? OVOID_LIMIT_NONE : OVOID_LIMIT_OPTIONS;
 }
 
@@ -136,8 +165,9 @@ ovoid_limit body_manifolds_find_internal(const ovoid_body_pair *pair, const mani
                                          manifolds_found *found) {
     manifolds_search s;
     const ovoid_body *a = &pair->a, *b = &pair->b;
-    *found = (manifolds_found){-INFINITY, INFINITY, 0, 0};
+    *found = (manifolds_found){-INFINITY, INFINITY, 0, 0, 0};
     ovoid_limit refused = refuse(pair, request->options);
+    if (refused == OVOID_LIMIT_NONE && body_pair_has_solid(pair)) return solid_manifolds_find(pair, request, found);
     if (refused == OVOID_LIMIT_NONE && !(a->shape && b->shape)) refused = body_trees_make(pair, &s.state.a, &s.state.b);
     if (refused != OVOID_LIMIT_NONE) return refused;
     s.request = request;
@@ -171,11 +201,14 @@ static ovoid_limit find(const ovoid_body_pair *pair, const ovoid_manifold_option
     const manifolds_request request = {options,   room->earlier, room->earlier_count, room->points != NULL,
                                        take_item, room};
     ovoid_limit refused = body_manifolds_find_internal(pair, &request, &found);
-    body_manifolds_sort(room->items, room->points, room->count < room->capacity ? room->count : room->capacity);
+    size_t written = room->count < room->capacity ? room->count : room->capacity;
+    size_t kept = body_manifolds_sort(room->items, room->points, written);
+    if (room->count <= room->capacity) room->count = kept;
     room->lower = found.lower;
     room->upper = found.upper;
     room->visited = found.visited;
     room->tested = found.tested;
+    room->through = found.through;
     return refused;
 }
 
@@ -187,8 +220,8 @@ ovoid_limit ovoid_body_manifolds_find(const ovoid_body_pair *pair, const ovoid_m
 // The two parts of a manifold as a pair of shapes; 0, or where it refuses a part 1 for a and 2 for b.
 static int pose_parts(const ovoid_body_pair *pair, const ovoid_body_manifold *manifold, ovoid_pair *parts) {
     body_tree a, b;
-    if (pair->a.solid || !body_tree_make(&pair->a, &a) || manifold->part_a >= a.count) return 1;
-    if (pair->b.solid || !body_tree_make(&pair->b, &b) || manifold->part_b >= b.count) return 2;
+    if (!body_tree_make(&pair->a, &a) || manifold->part_a >= a.count) return 1;
+    if (!body_tree_make(&pair->b, &b) || manifold->part_b >= b.count) return 2;
     ovoid_posed_shape part_a = body_tree_get_leaf(&a, body_tree_get_place(&a, manifold->part_a), NULL);
     ovoid_posed_shape part_b = body_tree_get_leaf(&b, body_tree_get_place(&b, manifold->part_b), NULL);
     *parts = (ovoid_pair){part_a.shape, part_b.shape, part_a.pose, part_b.pose};
@@ -198,6 +231,11 @@ static int pose_parts(const ovoid_body_pair *pair, const ovoid_body_manifold *ma
 static ovoid_manifold_points compute_points(const ovoid_body_pair *pair, const ovoid_body_manifold *manifold) {
     OVOID_ASSERT(pair && manifold);
     ovoid_pair parts;
+    if (body_pair_has_solid(pair)) {
+        ovoid_manifold_points points;
+        solid_manifold_compute_points(pair, manifold, &points);
+        return points;
+    }
     if (pose_parts(pair, manifold, &parts)) return (ovoid_manifold_points){.count = 0};
     return ovoid_manifold_compute_points(&parts, &manifold->manifold);
 }
@@ -211,10 +249,11 @@ static ovoid_code verify(const ovoid_body_pair *pair, const ovoid_body_manifold 
                          const ovoid_manifold_options *options, ovoid_error *error) {
     OVOID_ASSERT(pair && manifold);
     ovoid_pair parts;
+    if (body_pair_has_solid(pair)) return solid_manifold_verify(pair, manifold, options, error);
     int refused = pose_parts(pair, manifold, &parts);
     if (refused)
         return error_set(error, OVOID_ERROR_PROOF, refused - 1,
-                         "part %u of body %c: it has none of that number, is a solid, or its pose is refused",
+                         "part %u of body %c: it has none of that number, or its pose is refused",
                          refused == 1 ? manifold->part_a : manifold->part_b, "ab"[refused - 1]);
     return ovoid_manifold_verify(&parts, &manifold->manifold, options, error);
 }

@@ -21,14 +21,19 @@ typedef struct manifolds_request {
 /// What is found beside the manifolds.
 typedef struct manifolds_found {
     double lower, upper; ///< of the smallest signed distance over all pairs of parts
-    uint32_t visited, tested;
+    uint32_t visited, tested, through;
 } manifolds_found;
+
+/// The earlier manifold of the same two parts, or NULL.
+const ovoid_manifold *manifolds_request_find_earlier(const manifolds_request *request, const ovoid_body_manifold *of);
 
 /// The pipeline of ovoid_body_manifolds_find; the reason of a refusal.
 ovoid_limit body_manifolds_find_internal(const ovoid_body_pair *pair, const manifolds_request *request,
                                          manifolds_found *found);
 
-/// Sorts manifolds by part_a, then part_b, with the points beside them (NULL: none).
-void body_manifolds_sort(ovoid_body_manifold *items, ovoid_manifold_points *points, size_t count);
+/// Sorts manifolds by part_a, then part_b, with the points beside them (NULL: none). Of a solid a facet and a part may
+/// be found from several triangles: one manifold of them stays, along the facet's normal if there is one. Returns how
+/// many there are.
+size_t body_manifolds_sort(ovoid_body_manifold *items, ovoid_manifold_points *points, size_t count);
 
 #endif

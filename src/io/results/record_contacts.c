@@ -27,7 +27,7 @@ static void write_proof(FILE *file, const char *quote, const void *item) {
 
 static const char *read_proof(const json_t *value, void *item) {
     const char *text = json_string_value(value);
-    for (int i = OVOID_MANIFOLD_PROOF_NONE; text && i <= OVOID_MANIFOLD_PROOF_SEARCH; i++)
+    for (int i = OVOID_MANIFOLD_PROOF_NONE; text && i <= OVOID_MANIFOLD_PROOF_NORMAL; i++)
         if (strcmp(ovoid_manifold_proof_get_name((ovoid_manifold_proof)i), text) == 0)
             return MANIFOLD(item).proof = (uint8_t)i, NULL;
     return "is not a proof of a contact";

@@ -32,7 +32,7 @@ static void write_id(FILE *file, uint32_t id) {
 }
 
 static void write_area(FILE *file, const ovoid_record_contact *c) {
-    if (!(c->manifold.corners > 2)) return;
+    if (!(c->manifold.corners > 2 && c->outer > 0)) return;
     fputs(", area ", file);
     write_number(file, c->inner, 6);
     // An area that is known to six digits is one number.
@@ -65,7 +65,7 @@ static void write_contact(FILE *file, const ovoid_record *record, const ovoid_re
 ovoid_code ovoid_record_write_contacts(FILE *file, const ovoid_record *record) {
     for (size_t i = 0; i < record->contact_count; i++) write_contact(file, record, &record->contacts[i]);
     if (record->fields & OVOID_RECORD_CONTACTS && record->contact_limit != OVOID_LIMIT_NONE)
-        fprintf(file, "  no contacts (%s): solids and surfaces have none\n",
+        fprintf(file, "  no contacts (%s): two solids or surfaces have none\n",
                 ovoid_limit_get_name(record->contact_limit));
     return ferror(file) ? OVOID_ERROR_FILE : OVOID_OK;
 }

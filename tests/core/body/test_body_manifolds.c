@@ -167,10 +167,11 @@ static void test_refused(void) {
         ovoid_body_pair pair;
         double margin;
         ovoid_limit limit;
-    } trials[] = {{{hollow, good}, 0, OVOID_LIMIT_SHAPE_A}, {{good, hollow}, 0, OVOID_LIMIT_SHAPE_B},
-                  {{none, good}, 0, OVOID_LIMIT_SHAPE_A},   {{good, none}, 0, OVOID_LIMIT_SHAPE_B},
-                  {{lost, good}, 0, OVOID_LIMIT_POSE_A},    {{good, lost}, 0, OVOID_LIMIT_POSE_B},
-                  {{good, good}, -1, OVOID_LIMIT_OPTIONS},  {{good, good}, NAN, OVOID_LIMIT_OPTIONS},
+    } trials[] = {{{hollow, hollow}, 0, OVOID_LIMIT_SHAPE_B}, {{hollow, lost}, 0, OVOID_LIMIT_POSE_B},
+                  {{lost, hollow}, 0, OVOID_LIMIT_POSE_A},    {{hollow, good}, -1, OVOID_LIMIT_OPTIONS},
+                  {{none, good}, 0, OVOID_LIMIT_SHAPE_A},     {{good, none}, 0, OVOID_LIMIT_SHAPE_B},
+                  {{lost, good}, 0, OVOID_LIMIT_POSE_A},      {{good, lost}, 0, OVOID_LIMIT_POSE_B},
+                  {{good, good}, -1, OVOID_LIMIT_OPTIONS},    {{good, good}, NAN, OVOID_LIMIT_OPTIONS},
                   {{good, good}, 0, OVOID_LIMIT_NONE}};
     for (size_t i = 0; i < sizeof trials / sizeof *trials; i++) {
         ovoid_body_manifolds all = {.items = items, .capacity = 16, .count = 7};
