@@ -109,23 +109,47 @@ static ovoid_body_manifold *find_manifolds(const ovoid_body_pair *pair, const ov
     }
 }
 
+static int has_solid(const ovoid_body_pair *bodies) { return bodies->a.solid || bodies->b.solid; }
+
+static ovoid_manifold_points compute_points(const ovoid_body_pair *bodies, const ovoid_record_contact *contact) {
+    const ovoid_body_manifold item = {contact->part_a, contact->part_b, contact->manifold};
+    return ovoid_body_manifold_compute_points(bodies, &item);
+}
+
+typedef struct areas {
+    double inner, outer;
+} areas;
+
+/// The areas of a contact's polygon. Those of a facet of a solid, which need not be convex, are not known: pair is
+/// NULL, and both are 0.
+static int compute_areas(const ovoid_pair *pair, const ovoid_record_contact *contact,
+                         const ovoid_manifold_options *options, areas *found) {
+    ovoid_manifold_polygon polygon;
+    *found = (areas){0, 0};
+    if (!pair) return 1;
+    if (ovoid_manifold_compute_polygon(pair, &contact->manifold, options, &polygon) != OVOID_OK) return 0;
+    *found = (areas){polygon.inner, polygon.outer};
+    return 1;
+}
+
 /// Completes a contact: its points, areas, and where it needs one its cover. 0 where the pair has no such contact.
 static int complete(const ovoid_body_pair *bodies, const ovoid_manifold_options *options, ovoid_cover *cover,
                     ovoid_record_contact *contact) {
     ovoid_pair pair;
-    ovoid_manifold_polygon polygon;
-    if (!get_contact_parts(bodies, contact, &pair)) return 0;
+    areas found_areas;
+    int is_solid = has_solid(bodies);
+    if (!is_solid && !get_contact_parts(bodies, contact, &pair)) return 0;
     ovoid_manifold_options asked = *options;
     asked.cover = cover;
     if (cover) contact->manifold = ovoid_manifold_find(&pair, &asked, NULL);
     contact->cover = cover && cover->point_count ? cover : NULL;
-    const ovoid_manifold_points found = ovoid_manifold_compute_points(&pair, &contact->manifold);
+    const ovoid_manifold_points found = compute_points(bodies, contact);
     memcpy((void *)contact->points, found.points, found.count * sizeof *found.points);
     contact->point_count = found.count;
     contact->grown = found.grown;
-    if (ovoid_manifold_compute_polygon(&pair, &contact->manifold, options, &polygon) != OVOID_OK) return 0;
-    contact->inner = polygon.inner;
-    contact->outer = polygon.outer;
+    if (!compute_areas(is_solid ? NULL : &pair, contact, options, &found_areas)) return 0;
+    contact->inner = found_areas.inner;
+    contact->outer = found_areas.outer;
     return found.count > 0;
 }
 
@@ -174,16 +198,19 @@ static int is_same_point(const ovoid_manifold_point *a, const ovoid_manifold_poi
 }
 
 /// Points and areas follow from the features: the same numbers, but for the sign of a zero.
-static ovoid_code verify_numbers(const ovoid_pair *pair, const ovoid_record_contact *c,
+static ovoid_code verify_numbers(const ovoid_body_pair *bodies, const ovoid_record_contact *c,
                                  const ovoid_manifold_options *options, ovoid_error *error) {
-    const ovoid_manifold_points found = ovoid_manifold_compute_points(pair, &c->manifold);
-    ovoid_manifold_polygon polygon;
+    const ovoid_manifold_points found = compute_points(bodies, c);
+    ovoid_pair pair;
+    areas of_polygon;
     if (found.count != c->point_count || found.grown != c->grown)
         return fail(error, "its points are not those of its features");
     for (size_t i = 0; i < c->point_count; i++)
         if (!is_same_point(&found.points[i], &c->points[i])) return fail(error, "a point is not that of the features");
-    ovoid_code code = ovoid_manifold_compute_polygon(pair, &c->manifold, options, &polygon);
-    if (code == OVOID_OK && polygon.inner == c->inner && polygon.outer == c->outer) return OVOID_OK;
+    int is_solid = has_solid(bodies), has_parts = is_solid || get_contact_parts(bodies, c, &pair);
+    if (has_parts && compute_areas(is_solid ? NULL : &pair, c, options, &of_polygon) && of_polygon.inner == c->inner &&
+        of_polygon.outer == c->outer)
+        return OVOID_OK;
     return fail(error, "its areas are not those of its polygon");
 }
 
@@ -191,16 +218,18 @@ static ovoid_code verify_one(const ovoid_body_pair *bodies, const ovoid_record *
                              const ovoid_manifold_options *options, ovoid_error *error) {
     const ovoid_record_contact *c = &record->contacts[i], *before = i ? c - 1 : NULL;
     ovoid_pair pair;
+    const ovoid_body_manifold item = {c->part_a, c->part_b, c->manifold};
     ovoid_manifold_options asked = *options;
     asked.cover = (ovoid_cover *)c->cover;
-    if (!get_contact_parts(bodies, c, &pair)) return refuse(error, i, "the bodies have no such parts");
+    if (!has_solid(bodies) && !get_contact_parts(bodies, c, &pair))
+        return refuse(error, i, "the bodies have no such parts");
     if (before && (before->part_a > c->part_a || (before->part_a == c->part_a && before->part_b >= c->part_b)))
         return refuse(error, i, "it is not in the order of its parts");
     if (!c->cover != (c->manifold.proof != OVOID_MANIFOLD_PROOF_SEARCH))
         return refuse(error, i, "a cover goes with the proof of a search");
     ovoid_error why = {.message = ""};
-    ovoid_code code = ovoid_manifold_verify(&pair, &c->manifold, &asked, &why);
-    if (code == OVOID_OK) code = verify_numbers(&pair, c, &asked, &why);
+    ovoid_code code = ovoid_body_manifold_verify(bodies, &item, &asked, &why);
+    if (code == OVOID_OK) code = verify_numbers(bodies, c, &asked, &why);
     return code == OVOID_OK ? OVOID_OK : refuse(error, i, why.message);
 }
 
