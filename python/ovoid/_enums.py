@@ -169,6 +169,7 @@ class ManifoldProof(Named):
     POINTS = 1  #: its points
     FACETS = 2  #: the facets that meet
     SEARCH = 3  #: the surface that a search found, now or earlier
+    NORMAL = 4  #: of a Solid: its points, along the normal alone
 
 
 class Error(ValueError):

@@ -102,6 +102,20 @@ class Pairs(unittest.TestCase):
                 ovoid.verify(one)
             self.assertEqual((there.lower, there.upper, text(there.points)), (back.lower, back.upper, text(back.points)))
 
+    def test_solid(self):
+        """A box on a square of two triangles: one contact of four points, as on one face; along the other way around too."""
+        sheet = ovoid.Solid.from_triangles([(-3, -3, 0), (3, -3, 0), (3, 3, 0), (-3, 3, 0)], [(0, 1, 2), (0, 2, 3)])
+        box, pose = ovoid.Shape.box((0.5, 0.6, 0.3)), ovoid.Pose((0.1, 0.2, 0.299))
+        (m,) = ovoid.find_manifolds(box, sheet, pose, None)
+        self.assertEqual((m.normal, len(m.points), m.proof), ((0, 0, -1), 4, "normal"))
+        self.assertAlmostEqual(m.lower, -0.001, 12)
+        ovoid.verify(m)
+        (other,) = ovoid.find_manifolds(sheet, box, None, pose, earlier=[])
+        ovoid.verify(other)
+        self.assertEqual((other.lower, other.upper, text(other.points)), (m.lower, m.upper, text(m.swapped().points)))
+        with self.assertRaisesRegex(ovoid.Error, "need not be convex"):
+            m.polygon()
+
     def test_refused(self):
         for words, options in ((">= 0", {"margin": -1}), (">= 0", {"keep": math.nan}), ("1.45", {"angle": 2})):
             with self.assertRaisesRegex(ovoid.Error, words):
@@ -113,8 +127,10 @@ class Pairs(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, "did you mean"):
             ovoid.find_manifold(BOX, BOX, margins=1)
         solid = ovoid.Solid.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)])
-        with self.assertRaisesRegex(TypeError, "of a Solid"):
-            ovoid.find_manifolds(solid, BOX)
+        with self.assertRaisesRegex(TypeError, "at most one Solid"):
+            ovoid.find_manifolds(solid, solid)
+        with self.assertRaisesRegex(TypeError, "find_manifolds"):
+            ovoid.find_manifold(solid, BOX)
         with self.assertRaises(TypeError):
             bool(ovoid.find_manifold(BOX, BOX))
 

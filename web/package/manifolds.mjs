@@ -93,7 +93,7 @@ export function bindManifolds(core, kindOf, readCover, writeCover) {
     const count = calls.manifolds_find(kinds, a.address, b.address), limit = names.limit[memory.get(1)[0]];
     if (count < 0) throw new RangeError('out of memory');
     refuse({ limit });
-    if (limit === 'shape_a' || limit === 'shape_b') throw new TypeError(`${limit}: a solid has no contacts`);
+    if (limit === 'shape_a' || limit === 'shape_b') throw new TypeError(`${limit}: two solids have no contacts`);
     return Array.from({ length: count }, (_, i) => {
       memory.set(numbers);
       calls.manifold_get(kinds, a.address, b.address, i);

@@ -129,7 +129,7 @@ export interface ManifoldFields {
   grown: number;
   /** Up to four. */
   points: ContactPoint[];
-  proof: 'none' | 'points' | 'facets' | 'search'; cover?: { pairs: number[][]; triangles: number[][] };
+  proof: 'none' | 'points' | 'facets' | 'search' | 'normal'; cover?: { pairs: number[][]; triangles: number[][] };
 }
 export interface Manifold extends ManifoldFields { toJSON(): ManifoldFields }
 export interface ManifoldOptions {

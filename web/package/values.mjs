@@ -43,7 +43,7 @@ export class Names {
     this.limit = list(get_limit_name, 12);
     this.kind = list(get_proof_kind_name, 6);
     this.axis = list(get_axis_name, 5);
-    this.contactProof = list(get_manifold_proof_name, 4);
+    this.contactProof = list(get_manifold_proof_name, 5);
   }
 
   /** The number of a name, or what is none: 255. */

@@ -48,15 +48,19 @@ static const double *read_manifold_options(const double *from, ovoid_manifold_op
     return from + 4;
 }
 
-/// The manifold, what its points are grown by, their inner and outer area, and the points themselves.
+/// The manifold, what its points are grown by, the two areas, and the points themselves.
+static void write_points(const ovoid_manifold *m, const ovoid_manifold_points *points, const double areas[2]) {
+    double *to = write_manifold(exchange, m);
+    *to++ = points->grown, *to++ = areas[0], *to++ = areas[1];
+    for (uint32_t i = 0; i < points->count; i++) to = write_point(to, &points->points[i]);
+}
+
 static void write_all(const ovoid_pair *pair, const ovoid_manifold *m, const ovoid_manifold_options *options) {
     static ovoid_manifold_polygon polygon;
     polygon = (ovoid_manifold_polygon){.count = 0};
     const ovoid_manifold_points points = ovoid_manifold_compute_points(pair, m);
     if (m->count) (void)ovoid_manifold_compute_polygon(pair, m, options, &polygon);
-    double *to = write_manifold(exchange, m);
-    *to++ = points.grown, *to++ = polygon.inner, *to++ = polygon.outer;
-    for (uint32_t i = 0; i < points.count; i++) to = write_point(to, &points.points[i]);
+    write_points(m, &points, (const double[]){polygon.inner, polygon.outer});
 }
 
 /// The manifold of two shapes. Reads both poses, the four options and, where is_warm, an earlier manifold, whose cover
@@ -112,9 +116,15 @@ void EXPORT(manifold_get)(unsigned kinds, const void *a, const void *b, size_t i
     ovoid_manifold_options options;
     read_manifold_options(read_input(kinds, a, b, &bodies), &options);
     ovoid_body_manifold *m = &found_items[i];
+    cover.point_count = cover.triangle_count = 0;
+    if (bodies.a.solid || bodies.b.solid) {
+        const ovoid_manifold_points points = ovoid_body_manifold_compute_points(&bodies, m);
+        write_points(&m->manifold, &points, (const double[]){0, 0});
+        exchange[HEAD_PARTS] = m->part_a, exchange[HEAD_PARTS + 1] = m->part_b;
+        return;
+    }
     const ovoid_posed_shape part_a = get_part(&bodies.a, m->part_a), part_b = get_part(&bodies.b, m->part_b);
     const ovoid_pair pair = {part_a.shape, part_b.shape, part_a.pose, part_b.pose};
-    cover.point_count = cover.triangle_count = 0;
     options.cover = &cover;
     if (m->manifold.proof == OVOID_MANIFOLD_PROOF_SEARCH) m->manifold = ovoid_manifold_find(&pair, &options, NULL);
     write_all(&pair, &m->manifold, &options);
@@ -144,6 +154,9 @@ int EXPORT(manifold_polygon)(unsigned kinds, const void *a, const void *b) {
     const double *from = read_manifold_options(read_input(kinds, a, b, &bodies), &options);
     const size_t part_a = read_index(from[0]), part_b = read_index(from[1]);
     read_manifold(from + 2, &m);
+    if (bodies.a.solid || bodies.b.solid)
+        return exchange_error = (ovoid_error){OVOID_ERROR_ARGUMENT, -1, "a facet of a solid has no polygon"},
+               OVOID_ERROR_ARGUMENT;
     if ((bodies.a.compound ? part_a >= ovoid_compound_get_part_count(bodies.a.compound) : part_a > 0) ||
         (bodies.b.compound ? part_b >= ovoid_compound_get_part_count(bodies.b.compound) : part_b > 0))
         return exchange_error = (ovoid_error){OVOID_ERROR_INDEX, -1, "the bodies have no such parts"},

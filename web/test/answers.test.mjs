@@ -372,10 +372,19 @@ test('a contact goes on from the earlier one, also from that of a file', () => {
   assert.equal(ovoid.verifyManifold(box, box, null, at(3), apart), null);
 });
 
+test('a box on a square of two triangles has one contact of four points', () => {
+  const sheet = Solid.fromTriangles([[-3, -3, 0], [3, -3, 0], [3, 3, 0], [-3, 3, 0]], [[0, 1, 2], [0, 2, 3]]);
+  const box = Shape.box([0.5, 0.6, 0.3]), pair = [box, sheet, { xyz: [0.1, 0.2, 0.299] }, null], found = ovoid.findManifolds(...pair), [m] = found;
+  assert.deepEqual([found.length, m.axis, m.proof, m.points.length, m.normal[2]], [1, 'face b', 'normal', 4, -1]);
+  assert.equal(ovoid.verifyManifold(...pair, m), null);
+  assert.ok(ovoid.verifyManifold(...pair, { ...m, lower: m.lower + 1e-6 }));
+  assert.throws(() => ovoid.computePolygon(...pair, m), /no polygon/);
+});
+
 test('what a contact cannot be asked of is refused', () => {
   const box = Shape.box([1, 1, 1]), solid = Solid.fromTriangles([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]);
   assert.throws(() => ovoid.findManifold(box, new Compound([{ shape: box }])), /findManifolds/);
-  assert.throws(() => ovoid.findManifolds(box, solid), /shape_b: a solid has no contacts/);
+  assert.throws(() => ovoid.findManifolds(solid, solid), /shape_b: two solids have no contacts/);
   assert.throws(() => ovoid.findManifold(box, box, null, null, { margins: 1 }), /did you mean margin/);
   assert.throws(() => ovoid.findManifold(box, box, null, null, { margin: -1 }), /margin, tolerance and keep/);
   assert.throws(() => ovoid.findManifold(box, box, null, null, { angle: 2 }), /1.45/);

@@ -112,7 +112,7 @@ static PyObject *find_manifold(PyObject *module, PyObject *arguments, PyObject *
         return NULL;
     if (!in.pair.a.shape || !in.pair.b.shape) {
         PyErr_SetString(PyExc_TypeError, "find_manifold() takes two Shapes; find_manifolds() has the contacts of "
-                                         "Compounds, part by part; Solids have none");
+                                         "Compounds and Solids, part by part");
         return NULL;
     }
     manifold_object *made = manifold_make(state, in.a, in.b, &in.pair);
@@ -223,9 +223,9 @@ static PyObject *find_manifolds(PyObject *module, PyObject *arguments, PyObject 
                         &poses[0], &poses[1], MANIFOLD_TARGETS(in.options), &given) ||
         read_input(state, poses, &in))
         return NULL;
-    if (in.pair.a.solid || in.pair.b.solid) {
+    if (in.pair.a.solid && in.pair.b.solid) {
         PyErr_SetString(PyExc_TypeError,
-                        "find_manifolds() takes Shapes and Compounds: of a Solid decompose_by_tolerance() "
+                        "find_manifolds() takes at most one Solid: of the other, decompose_by_tolerance() "
                         "makes a Compound");
         return NULL;
     }
@@ -404,6 +404,9 @@ static PyObject *polygon(PyObject *object, PyObject *ignored) {
     manifold_object *self = (manifold_object *)object;
     module_state *state = state_of(object);
     ovoid_body_pair bodies = get_bodies(self);
+    if (bodies.a.solid || bodies.b.solid)
+        return raise_code(state, OVOID_ERROR_ARGUMENT, -1,
+                          "a facet of a Solid need not be convex: its contact has points but no polygon");
     ovoid_pair pair = get_pair(&bodies, &self->of);
     ovoid_manifold_polygon found = {.count = 0};
     if (self->of.manifold.count &&
@@ -476,8 +479,8 @@ static PyGetSetDef fields[] = {
           "Each point of a lies in a grown by this, each of b in b: rounding, snapping, kept corners."),
     FIELD(manifold_object, UINT, "part_a", of.part_a, "The part of a Compound a; of a Shape 0."),
     FIELD(manifold_object, UINT, "part_b", of.part_b, "The part of b."),
-    FIELD_PYTHON(manifold_object, "Shape | Compound", "a", a, "The first body."),
-    FIELD_PYTHON(manifold_object, "Shape | Compound", "b", b, "The second body."),
+    FIELD_PYTHON(manifold_object, "Body", "a", a, "The first body."),
+    FIELD_PYTHON(manifold_object, "Body", "b", b, "The second body."),
     FIELD(manifold_object, POSE, "pose_a", pose_a, "The pose of a."),
     FIELD(manifold_object, POSE, "pose_b", pose_b, "The pose of b."),
     {NULL, NULL, NULL, NULL, NULL}};
@@ -516,9 +519,10 @@ PyMethodDef manifold_methods[] = {
      ", earlier: Manifold | None = None) -> Manifold\n--\n\nThe contact of two Shapes. " OPTIONS_DOC
      " earlier: the last\nManifold of these two, which is moved on and measured again where it still holds: ids stay."},
     {"find_manifolds", METHOD_KEYWORDS(find_manifolds), METH_VARARGS | METH_KEYWORDS,
-     "find_manifolds(a: Shape | Compound, b: Shape | Compound, pose_a: PoseLike = None, pose_b: PoseLike = None, "
+     "find_manifolds(a: Body, b: Body, pose_a: PoseLike = None, pose_b: PoseLike = None, "
      "*, " MANIFOLD_SIGNATURE ", earlier: Sequence[Manifold] | None = None) -> list[Manifold]\n--\n\nThe contacts of "
-     "all pairs of parts that are not proven farther apart than the margin, sorted by their parts. " OPTIONS_DOC
+     "all pairs of parts that are not proven farther apart than the margin, sorted by their parts; of one Solid the parts "
+     "are its flat facets. " OPTIONS_DOC
      " earlier: the last list of these two."},
     {"find_manifold_batch", METHOD_KEYWORDS(find_manifold_batch), METH_VARARGS | METH_KEYWORDS,
      "find_manifold_batch(bodies: Bodies, couples: Numbers, *, " MANIFOLD_SIGNATURE
