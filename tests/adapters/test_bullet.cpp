@@ -5,8 +5,10 @@
 
 #include <ovoid/bullet.hpp>
 
+#include <BulletCollision/CollisionShapes/btHeightfieldTerrainShape.h>
 #include <btBulletDynamicsCommon.h>
 
+#include <array>
 #include <functional>
 
 namespace {
@@ -281,6 +283,104 @@ void test_parts() {
     CHECK_EQ(w.dispatcher.getNumManifolds(), 0);
 }
 
+/// The triangles of a terrain carry a box; where they are left they have no contact, though the terrain's box is met.
+void test_terrain() {
+    const std::array<float, 25> heights = {};
+    btHeightfieldTerrainShape terrain(5, 5, heights.data(), btScalar(-5), btScalar(5), 2, false);
+    terrain.setMargin(0);
+    btBoxShape box({btScalar(0.5), btScalar(0.5), btScalar(0.5)});
+    bullet_world w;
+    w.add(terrain, 0, 0, 0, 0);
+    w.add(box, 0.2, 0.1, 0.499);
+    const std::vector<btManifoldPoint> found = w.detect();
+    CHECK_LE(4, found.size());
+    for (const btManifoldPoint &p : found) {
+        CHECK_NEAR(p.getDistance(), -0.001, 1e-5);
+        CHECK_NEAR(std::abs(p.m_normalWorldOnB.z()), 1, 1e-5);
+    }
+    w.bodies[1]->setCenterOfMassTransform(btTransform(btQuaternion::getIdentity(), {0, 0, 3}));
+    CHECK_EQ(w.detect().size(), 0u);
+}
+
+/// A level floor of many triangles.
+struct triangle_floor {
+    btTriangleMesh mesh;
+    std::unique_ptr<btBvhTriangleMeshShape> shape;
+    explicit triangle_floor(double margin) {
+        const auto at = [](int i, int k) { return btVector3(btScalar(0.4 * i - 4), btScalar(0.4 * k - 4), 0); };
+        for (int i = 0; i < 20; i++)
+            for (int k = 0; k < 20; k++) {
+                mesh.addTriangle(at(i, k), at(i + 1, k), at(i + 1, k + 1));
+                mesh.addTriangle(at(i, k), at(i + 1, k + 1), at(i, k + 1));
+            }
+        shape = std::make_unique<btBvhTriangleMeshShape>(&mesh, true);
+        shape->setMargin(btScalar(margin));
+    }
+};
+
+/// A box that slides over a floor of triangles without friction keeps its velocity, and nothing throws it: no edge
+/// inside of the floor has a contact. A ball that rolls does not leave its line either.
+void test_slide() {
+    for (const double margin : {0.0, 0.04}) {
+        const triangle_floor floor(margin);
+        bullet_world w;
+        btBoxShape box({btScalar(0.3), btScalar(0.4), btScalar(0.2)});
+        w.add(*floor.shape, 0, 0, 0, 0).setFriction(0);
+        btRigidBody &slider = w.add(box, -2.5, 0.1, 0.2 + margin - 1e-4);
+        slider.setFriction(0);
+        slider.setLinearVelocity({2, btScalar(0.3), 0});
+        double lift = 0, turn = 0;
+        for (int i = 0; i < 480; i++) {
+            w.world.stepSimulation(btScalar(1.0 / 240), 0);
+            lift = std::max(lift, std::abs(double(slider.getLinearVelocity().z())));
+            turn = std::max(turn, double(slider.getAngularVelocity().length()));
+            CHECK_EQ(w.dispatcher.getNumManifolds(), 1);
+            for (const btManifoldPoint &p : w.points()) CHECK_NEAR(p.m_normalWorldOnB.z(), -1, 2 * eps);
+        }
+        CHECK_NEAR(slider.getLinearVelocity().x(), 2, 1e4 * eps * eps + 1e-4);
+        CHECK_NEAR(slider.getLinearVelocity().y(), 0.3, 1e-4);
+        CHECK_NEAR(slider.getCenterOfMassPosition().z(), 0.2 + margin, 1e-3);
+        CHECK_LE(lift, 0.01);
+        CHECK_LE(turn, 0.01);
+    }
+    const triangle_floor floor(0);
+    bullet_world w;
+    btSphereShape ball(btScalar(0.3));
+    w.add(*floor.shape, 0, 0, 0, 0);
+    btRigidBody &roller = w.add(ball, -2.5, 0.13, 0.3);
+    roller.setLinearVelocity({2, 0, 0});
+    roller.setAngularVelocity({0, btScalar(2 / 0.3), 0});
+    double lift = 0;
+    for (int i = 0; i < 480; i++) {
+        w.world.stepSimulation(btScalar(1.0 / 240), 0);
+        lift = std::max(lift, std::abs(double(roller.getLinearVelocity().z())));
+    }
+    CHECK_NEAR(roller.getLinearVelocity().x(), 2, 0.02);
+    CHECK_NEAR(roller.getCenterOfMassPosition().y(), 0.13, 1e-4);
+    CHECK_LE(lift, 0.01);
+}
+
+/// A mesh that is changed in place is taken anew where a shape meets what changed.
+void test_changed_mesh() {
+    triangle_floor floor(0);
+    bullet_world w;
+    btBoxShape box({btScalar(0.3), btScalar(0.4), btScalar(0.2)});
+    w.add(*floor.shape, 0, 0, 0, 0);
+    w.add(box, 0, 0.1, 0.199);
+    CHECK_EQ(w.detect().size(), 4u);
+    unsigned char *base = nullptr, *indices = nullptr;
+    int points = 0, stride = 0, index_stride = 0, faces = 0;
+    PHY_ScalarType type, index_type;
+    floor.mesh.getLockedVertexIndexBase(&base, points, type, stride, &indices, index_stride, faces, index_type, 0);
+    for (int i = 0; i < points; i++) reinterpret_cast<btScalar *>(base + i * stride)[2] = btScalar(-0.01);
+    floor.mesh.unLockVertexBase(0);
+    floor.shape->refitTree({-9, -9, -9}, {9, 9, 9});
+    w.bodies[1]->setWorldTransform(btTransform(btQuaternion::getIdentity(), {0, btScalar(0.1), btScalar(0.188)}));
+    const std::vector<btManifoldPoint> found = w.detect();
+    CHECK_EQ(found.size(), 4u);
+    for (const btManifoldPoint &p : found) CHECK_NEAR(p.getDistance(), -0.002, 1e-6);
+}
+
 /// A query of Bullet's users: the distance of two bodies by contactPairTest, in closed form.
 void test_queries() {
     struct taker : btCollisionWorld::ContactResultCallback {
@@ -388,6 +488,9 @@ int main() {
     test_depths();
     test_rest();
     test_parts();
+    test_terrain();
+    test_slide();
+    test_changed_mesh();
     test_queries();
     test_others();
     test_refused();

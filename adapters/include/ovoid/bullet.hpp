@@ -16,6 +16,12 @@
  * radii, 2D shapes, Minkowski sums, planes, soft bodies, GImpact) stays with Bullet's own algorithms. If a shape is
  * refused, for example a hull of NaN, ovoid::error is thrown from the step in which it first meets another.
  *
+ * A triangle mesh becomes a solid when a convex shape first meets it, about 200 bytes a triangle, which all pairs
+ * share; where its triangles have changed below a shape it is made anew. Triangles in one plane are one facet, with a
+ * manifold of its own, so edges inside of a flat region have no contact. A closed mesh has an inside, and its outside
+ * is up to the orientation of its triangles; of one that is not closed both sides are outside. A terrain is answered
+ * triangle by triangle.
+ *
  * Threads: as Bullet's dispatchers; btCollisionDispatcherMt may run pairs at the same time.
  */
 #ifndef OVOID_BULLET_HPP
@@ -50,6 +56,7 @@ namespace detail {
 /// What the adapter's algorithms share.
 struct workshop {
     adapters::shape_table table;
+    solid_table solids;
     settings chosen;
     std::atomic<std::size_t> refused{0};
 };
@@ -79,33 +86,12 @@ class aside {
     std::array<btVector3, MANIFOLD_CACHE_SIZE> kept_;
 };
 
-/// The contact of two convex shapes: kept from step to step, with the ids of the manifold's points.
-class kept_contact {
+/// The points of one of Bullet's manifolds, with the ids of ovoid's: kept from step to step.
+class kept_points {
   public:
-    kept_contact(workshop &from, translation a, translation b) : a_(std::move(a)), b_(std::move(b)), workshop_(&from) {}
-
-    /// Finds the contact at these transforms and gives its points to Bullet. own: the manifold holds this contact
-    /// alone.
-    void process(const btTransform &a, const btTransform &b, btManifoldResult &to, bool own) {
-        btPersistentManifold &manifold = *to.getPersistentManifold();
-        const double kept = workshop_->chosen.margin * double(manifold.getContactBreakingThreshold());
-        const double margin = std::max(kept, double(to.m_closestPointDistanceThreshold));
-        const adapters::contact_query query = {a_.made.get(), b_.made.get(), a_.place(a), b_.place(b), margin};
-        const ovoid_manifold_points points = adapters::find_contact(query, workshop_->chosen, contact_);
-        if (adapters::is_refused(contact_)) workshop_->refused++;
-        if (own)
-            replace(points, manifold, to);
-        else
-            for (std::uint32_t i = 0; i < points.count; i++) add(points.points[i], to);
-    }
-
-  private:
-    void add(const ovoid_manifold_point &p, btManifoldResult &to) const {
-        // Bullet's normal is that of B, towards A.
-        to.addContactPoint(-to_bullet(contact_.normal), to_bullet(p.point_b), btScalar(p.separation));
-    }
     /// The manifold's points become these: those with the id of an old one keep its impulses.
-    void replace(const ovoid_manifold_points &points, btPersistentManifold &manifold, btManifoldResult &to) {
+    void replace(const ovoid_manifold_points &points, const ovoid_vec3 &normal, btManifoldResult &to) {
+        btPersistentManifold &manifold = *to.getPersistentManifold();
         if (manifold.getNumContacts() != count_) count_ = 0; // someone else changed it: no point keeps anything
         for (int i = manifold.getNumContacts() - 1; i >= 0; i--)
             if (i >= count_ || !has(points, ids_[std::size_t(i)])) remove(manifold, i);
@@ -118,10 +104,16 @@ class kept_contact {
                 same.m_localPointA = find_local(p, manifold, to);
                 same.m_lifeTime++;
             }
-            add(p, to);
+            add(p, normal, to);
             if (old < 0 && manifold.getNumContacts() > count_) ids_[std::size_t(count_++)] = p.id;
         }
     }
+    static void add(const ovoid_manifold_point &p, const ovoid_vec3 &normal, btManifoldResult &to) {
+        // Bullet's normal is that of B, towards A.
+        to.addContactPoint(-to_bullet(normal), to_bullet(p.point_b), btScalar(p.separation));
+    }
+
+  private:
     static bool has(const ovoid_manifold_points &points, std::uint32_t id) {
         for (std::uint32_t i = 0; i < points.count; i++)
             if (points.points[i].id == id) return true;
@@ -143,10 +135,34 @@ class kept_contact {
         return manifold.getBody0()->getWorldTransform().invXform(to_bullet(swapped ? p.point_b : p.point_a));
     }
 
-    translation a_, b_;
-    ovoid_manifold contact_ = {};
     std::array<std::uint32_t, MANIFOLD_CACHE_SIZE> ids_ = {};
     int count_ = 0;
+};
+
+/// The contact of two convex shapes: kept from step to step.
+class kept_contact {
+  public:
+    kept_contact(workshop &from, translation a, translation b) : a_(std::move(a)), b_(std::move(b)), workshop_(&from) {}
+
+    /// Finds the contact at these transforms and gives its points to Bullet. own: the manifold holds this contact
+    /// alone.
+    void process(const btTransform &a, const btTransform &b, btManifoldResult &to, bool own) {
+        btPersistentManifold &manifold = *to.getPersistentManifold();
+        const double kept = workshop_->chosen.margin * double(manifold.getContactBreakingThreshold());
+        const double margin = std::max(kept, double(to.m_closestPointDistanceThreshold));
+        const adapters::contact_query query = {a_.made.get(), b_.made.get(), a_.place(a), b_.place(b), margin};
+        const ovoid_manifold_points points = adapters::find_contact(query, workshop_->chosen, contact_);
+        if (adapters::is_refused(contact_)) workshop_->refused++;
+        if (own)
+            kept_.replace(points, contact_.normal, to);
+        else
+            for (std::uint32_t i = 0; i < points.count; i++) kept_points::add(points.points[i], contact_.normal, to);
+    }
+
+  private:
+    translation a_, b_;
+    ovoid_manifold contact_ = {};
+    kept_points kept_;
     workshop *workshop_;
 };
 
@@ -193,7 +209,7 @@ struct kept_triangle {
     std::uint64_t seen;
 };
 
-/// A convex shape and a mesh, triangle by triangle, each with a manifold of its own.
+/// A convex shape and a terrain, triangle by triangle, each with a manifold of its own.
 class mesh_state {
   public:
     mesh_state(workshop &from, btDispatcher &dispatcher, bool mesh_first)
@@ -303,10 +319,156 @@ inline kept_triangle *mesh_state::find(const step &of, const btTriangleShape &tr
     return &triangles_.emplace(key, std::move(made)).first->second;
 }
 
-/// A convex shape and a mesh.
-class mesh_algorithm final : public algorithm {
+/// A convex shape and a mesh, facet by facet, each with a manifold of its own: triangles in one plane are one facet, so
+/// a body that slides over them meets no edge.
+class solid_state {
   public:
-    mesh_algorithm(const btCollisionAlgorithmConstructionInfo &info, std::unique_ptr<mesh_state> state)
+    solid_state(workshop &from, btDispatcher &dispatcher, bool mesh_first)
+        : workshop_(&from), dispatcher_(&dispatcher), mesh_first_(mesh_first) {}
+    ~solid_state() { clear(); }
+    solid_state(const solid_state &) = delete;
+    solid_state &operator=(const solid_state &) = delete;
+
+    void process(const btCollisionObjectWrapper *a, const btCollisionObjectWrapper *b, btManifoldResult &to);
+    void add_manifolds(btManifoldArray &to) const {
+        for (const auto &[name, facet] : facets_) to.push_back(facet.manifold);
+    }
+
+  private:
+    struct kept_facet {
+        kept_points points;
+        btPersistentManifold *manifold;
+        std::uint64_t seen;
+    };
+    struct step {
+        const btCollisionObjectWrapper *convex, *mesh;
+        btManifoldResult *to;
+        double margin, rounding; ///< the mesh's own margin, which Bullet adds outside
+    };
+    void clear() {
+        for (auto &[name, facet] : facets_) dispatcher_->releaseManifold(facet.manifold);
+        facets_.clear();
+        found_.clear();
+    }
+    void find(const step &of);
+    void give(const step &of, const ovoid_body_manifold &one, ovoid_manifold_points points);
+
+    workshop *workshop_;
+    btDispatcher *dispatcher_;
+    bool mesh_first_;
+    translation convex_;
+    std::shared_ptr<const mesh_solid> solid_;
+    std::vector<ovoid_body_manifold> found_; ///< of the last step
+    std::map<std::uint32_t, kept_facet> facets_;
+    std::uint64_t steps_ = 0;
+};
+
+inline void solid_state::process(const btCollisionObjectWrapper *a, const btCollisionObjectWrapper *b,
+                                 btManifoldResult &to) {
+    step now = {mesh_first_ ? b : a, mesh_first_ ? a : b, &to, 0, 0};
+    const auto &mesh = static_cast<const btConcaveShape &>(*now.mesh->getCollisionShape());
+    const auto &convex = static_cast<const btConvexShape &>(*now.convex->getCollisionShape());
+    const btScalar breaking = btMin(mesh.getContactBreakingThreshold(gContactBreakingThreshold),
+                                    convex.getContactBreakingThreshold(gContactBreakingThreshold));
+    now.rounding = double(mesh.getMargin());
+    now.margin = std::max(workshop_->chosen.margin * double(breaking), double(to.m_closestPointDistanceThreshold));
+    if (!convex_.made) convex_ = translate(workshop_->table, convex);
+    // Bullet's tree has the triangles near the shape. If one of them is not as it was, the solid is made anew.
+    btVector3 low, high;
+    convex.getAabb(now.mesh->getWorldTransform().inverse() * now.convex->getWorldTransform(), low, high);
+    const btScalar more = btScalar(now.margin + now.rounding);
+    low -= btVector3(more, more, more);
+    high += btVector3(more, more, more);
+    triangle_check check(solid_.get());
+    mesh.processAllTriangles(&check, low, high);
+    // The table may have an old one too, even that of another mesh at the same address.
+    for (int tries = 0; tries < 2 && check.count > 0 && check.has_changed; tries++) {
+        clear();
+        solid_ = workshop_->solids.find(mesh, solid_);
+        check = triangle_check(solid_.get());
+        mesh.processAllTriangles(&check, low, high);
+    }
+    steps_++;
+    if (check.count > 0) find(now);
+    for (auto i = facets_.begin(); i != facets_.end();) {
+        if (i->second.seen == steps_) {
+            ++i;
+            continue;
+        }
+        dispatcher_->releaseManifold(i->second.manifold);
+        i = facets_.erase(i);
+    }
+}
+
+inline void solid_state::find(const step &of) {
+    const ovoid_body_pair pair = {
+        {convex_.made->made.get(), nullptr, convex_.place(of.convex->getWorldTransform()), nullptr},
+        {nullptr, nullptr, from_bullet(of.mesh->getWorldTransform()), solid_->made.get()}};
+    const double size = convex_.made->radius;
+    ovoid_manifold_options options = {};
+    options.margin = of.margin + of.rounding;
+    options.tolerance = workshop_->chosen.tolerance * size;
+    options.keep = workshop_->chosen.keep * size;
+    std::vector<ovoid_body_manifold> items(found_.size() + 4);
+    std::vector<ovoid_manifold_points> points;
+    ovoid_body_manifolds room = {};
+    room.earlier = found_.data();
+    room.earlier_count = found_.size();
+    do {
+        items.resize(std::max(room.count, items.size()));
+        points.resize(items.size());
+        room.items = items.data();
+        room.points = points.data();
+        room.capacity = items.size();
+        if (ovoid_body_manifolds_find(&pair, &options, &room) != OVOID_LIMIT_NONE) workshop_->refused++;
+    } while (room.count > room.capacity);
+    for (std::size_t i = 0; i < room.count; i++) give(of, items[i], points[i]);
+    items.resize(room.count);
+    found_.swap(items);
+}
+
+inline void solid_state::give(const step &of, const ovoid_body_manifold &one, ovoid_manifold_points points) {
+    const ovoid_vec3 n = one.manifold.normal;
+    std::uint32_t count = 0;
+    for (std::uint32_t i = 0; i < points.count; i++) {
+        ovoid_manifold_point p = points.points[i];
+        const double r = of.rounding;
+        p.separation -= r;
+        p.point_b = {p.point_b.x - r * n.x, p.point_b.y - r * n.y, p.point_b.z - r * n.z};
+        if (p.separation <= of.margin) points.points[count++] = p;
+    }
+    points.count = count;
+    if (!count) return;
+    const btCollisionObject *a = (mesh_first_ ? of.mesh : of.convex)->getCollisionObject();
+    const btCollisionObject *b = (mesh_first_ ? of.convex : of.mesh)->getCollisionObject();
+    auto found = facets_.find(one.part_b);
+    if (found == facets_.end())
+        found = facets_.emplace(one.part_b, kept_facet{{}, dispatcher_->getNewManifold(a, b), 0}).first;
+    found->second.seen = steps_;
+    // Callbacks of users see a triangle of the facet, as in Bullet's own algorithm.
+    const mesh_triangle &shown_triangle = solid_->triangles[one.part_b];
+    btTriangleShape triangle(shown_triangle.corners[0], shown_triangle.corners[1], shown_triangle.corners[2]);
+    const btCollisionObjectWrapper shown(of.mesh, &triangle, of.mesh->getCollisionObject(),
+                                         of.mesh->getWorldTransform(), shown_triangle.part, shown_triangle.index);
+    of.to->setPersistentManifold(found->second.manifold);
+    if (mesh_first_) {
+        of.to->setBody0Wrap(&shown);
+        of.to->setShapeIdentifiersA(shown_triangle.part, shown_triangle.index);
+        for (std::uint32_t i = 0; i < count; i++) std::swap(points.points[i].point_a, points.points[i].point_b);
+        found->second.points.replace(points, {-n.x, -n.y, -n.z}, *of.to);
+        of.to->setBody0Wrap(of.mesh);
+    } else {
+        of.to->setBody1Wrap(&shown);
+        of.to->setShapeIdentifiersB(shown_triangle.part, shown_triangle.index);
+        found->second.points.replace(points, n, *of.to);
+        of.to->setBody1Wrap(of.mesh);
+    }
+}
+
+/// A convex shape and a mesh (State: solid_state), or a terrain (mesh_state).
+template <class State> class mesh_algorithm final : public algorithm {
+  public:
+    mesh_algorithm(const btCollisionAlgorithmConstructionInfo &info, std::unique_ptr<State> state)
         : algorithm(info), state_(std::move(state)) {}
     void processCollision(const btCollisionObjectWrapper *a, const btCollisionObjectWrapper *b,
                           const btDispatcherInfo &, btManifoldResult *to) override {
@@ -315,7 +477,7 @@ class mesh_algorithm final : public algorithm {
     void getAllContactManifolds(btManifoldArray &to) override { state_->add_manifolds(to); }
 
   private:
-    std::unique_ptr<mesh_state> state_;
+    std::unique_ptr<State> state_;
 };
 
 /// Which of Bullet's two tables of algorithms.
@@ -332,8 +494,9 @@ class creator final : public btCollisionAlgorithmCreateFunc {
         if (x.isConcave() || y.isConcave()) {
             const auto &convex = static_cast<const btConvexShape &>(x.isConcave() ? y : x);
             if (!translate(workshop_->table, convex).made) return create_own(info, a, b);
-            auto state = std::make_unique<mesh_state>(*workshop_, *info.m_dispatcher1, x.isConcave());
-            return new (allocate(info, sizeof(mesh_algorithm))) mesh_algorithm(info, std::move(state));
+            const bool is_terrain = (x.isConcave() ? x : y).getShapeType() == TERRAIN_SHAPE_PROXYTYPE;
+            return is_terrain ? create_mesh<mesh_state>(info, x.isConcave())
+                              : create_mesh<solid_state>(info, x.isConcave());
         }
         translation first = translate(workshop_->table, static_cast<const btConvexShape &>(x));
         translation second = translate(workshop_->table, static_cast<const btConvexShape &>(y));
@@ -345,6 +508,11 @@ class creator final : public btCollisionAlgorithmCreateFunc {
   private:
     static void *allocate(const btCollisionAlgorithmConstructionInfo &info, std::size_t size) {
         return info.m_dispatcher1->allocateCollisionAlgorithm(int(size));
+    }
+    template <class State>
+    btCollisionAlgorithm *create_mesh(const btCollisionAlgorithmConstructionInfo &info, bool mesh_first) {
+        auto state = std::make_unique<State>(*workshop_, *info.m_dispatcher1, mesh_first);
+        return new (allocate(info, sizeof(mesh_algorithm<State>))) mesh_algorithm<State>(info, std::move(state));
     }
     btCollisionAlgorithm *create_own(btCollisionAlgorithmConstructionInfo &info, const btCollisionObjectWrapper *a,
                                      const btCollisionObjectWrapper *b) {
@@ -390,7 +558,10 @@ class adapter {
     /** Number of shapes that are kept. */
     std::size_t shape_count() const { return workshop_.table.size(); }
     /** Destroys the shapes that no pair uses now. */
-    void drop_unused() { workshop_.table.drop_unused(); }
+    void drop_unused() {
+        workshop_.table.drop_unused();
+        workshop_.solids.drop_unused();
+    }
     /** Number of queries that were refused, because a body's transform was not finite. They have no contact. */
     std::size_t refused_count() const noexcept { return workshop_.refused; }
 

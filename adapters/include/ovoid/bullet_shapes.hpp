@@ -7,9 +7,13 @@
 
 #include "ovoid/adapter.hpp"
 
+#include <BulletCollision/CollisionShapes/btConcaveShape.h>
 #include <BulletCollision/CollisionShapes/btConvexPointCloudShape.h>
 #include <BulletCollision/CollisionShapes/btTriangleShape.h>
 #include <btBulletCollisionCommon.h>
+
+#include <array>
+#include <cstdint>
 
 namespace ovoid {
 namespace bullet {
@@ -169,6 +173,95 @@ inline translation translate(adapters::shape_table &table, const btConvexShape &
     });
     return made;
 }
+
+/// A triangle of a mesh, by Bullet's numbers.
+struct mesh_triangle {
+    std::array<btVector3, 3> corners;
+    int part, index;
+};
+
+inline bool operator==(const mesh_triangle &t, const btVector3 *corners) {
+    return t.corners[0] == corners[0] && t.corners[1] == corners[1] && t.corners[2] == corners[2];
+}
+
+/// A mesh as a solid: its triangles in the order in which Bullet's tree gave them.
+struct mesh_solid {
+    std::vector<mesh_triangle> triangles;
+    std::unordered_map<std::uint64_t, std::uint32_t> places;
+    solid made;
+
+    static std::uint64_t key(int part, int index) {
+        return std::uint64_t(std::uint32_t(part)) << 32 | std::uint32_t(index);
+    }
+};
+
+/// Takes all triangles of a mesh.
+class triangle_collector : public btTriangleCallback {
+  public:
+    explicit triangle_collector(std::vector<mesh_triangle> &to) : to_(&to) {}
+    void processTriangle(btVector3 *corners, int part, int index) override {
+        to_->push_back({{corners[0], corners[1], corners[2]}, part, index});
+    }
+
+  private:
+    std::vector<mesh_triangle> *to_;
+};
+
+/// Compares the triangles near a shape with those of a solid.
+class triangle_check : public btTriangleCallback {
+  public:
+    explicit triangle_check(const mesh_solid *of) : has_changed(!of), of_(of) {}
+    void processTriangle(btVector3 *corners, int part, int index) override {
+        count++;
+        if (has_changed) return;
+        const auto found = of_->places.find(mesh_solid::key(part, index));
+        has_changed = found == of_->places.end() || !(of_->triangles[found->second] == corners);
+    }
+    std::size_t count = 0;
+    bool has_changed;
+
+  private:
+    const mesh_solid *of_;
+};
+
+/// Meshes as solids, by their addresses. Safe for any number of threads.
+class solid_table {
+  public:
+    /// The solid of a mesh; made, if there is none, or only one that is known to be old.
+    std::shared_ptr<const mesh_solid> find(const btConcaveShape &of, const std::shared_ptr<const mesh_solid> &old) {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        std::shared_ptr<const mesh_solid> &found = solids_[&of];
+        if (!found || found == old) found = make(of);
+        return found;
+    }
+    /// Forgets the solids that no pair uses now.
+    void drop_unused() {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        for (auto i = solids_.begin(); i != solids_.end();) i = i->second.use_count() == 1 ? solids_.erase(i) : ++i;
+    }
+
+  private:
+    static std::shared_ptr<const mesh_solid> make(const btConcaveShape &of) {
+        auto made = std::make_shared<mesh_solid>();
+        triangle_collector collect(made->triangles);
+        constexpr btScalar far = btScalar(BT_LARGE_FLOAT);
+        of.processAllTriangles(&collect, {-far, -far, -far}, {far, far, far});
+        std::vector<double> xyz;
+        std::vector<std::uint32_t> indices;
+        for (const mesh_triangle &t : made->triangles) {
+            made->places[mesh_solid::key(t.part, t.index)] = std::uint32_t(&t - made->triangles.data());
+            for (const btVector3 &corner : t.corners) {
+                indices.push_back(std::uint32_t(xyz.size() / 3));
+                xyz.insert(xyz.end(), {double(corner.x()), double(corner.y()), double(corner.z())});
+            }
+        }
+        made->made = solid::from_triangles(xyz.data(), xyz.size() / 3, indices.data(), made->triangles.size());
+        return made;
+    }
+
+    std::mutex mutex_;
+    std::unordered_map<const btConcaveShape *, std::shared_ptr<const mesh_solid>> solids_;
+};
 
 } // namespace detail
 } // namespace bullet
