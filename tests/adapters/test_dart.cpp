@@ -214,7 +214,24 @@ void test_meshes() {
     CHECK(group->collide(CollisionOption(true, 100), &result));
     // The slope is one in four; the ball's middle is 0.8 - 0.325 above it.
     const double depth = 0.5 - 0.475 * 4 / std::sqrt(17.0);
+    CHECK_EQ(result.getNumContacts(), 1u);
     for (const Contact &c : result.getContacts()) CHECK_NEAR(c.penetrationDepth, depth, 5e-4);
+    // A box on a level floor of eight triangles has its four corners alone, whichever comes first.
+    const auto floor =
+        make_frame(make_mesh("OFF\n9 8 0\n-2 -2 0\n0 -2 0\n2 -2 0\n-2 0 0\n0 0 0\n2 0 0\n-2 2 0\n0 2 0\n2 2 0\n"
+                             "3 0 1 4\n3 0 4 3\n3 1 2 5\n3 1 5 4\n3 3 4 7\n3 3 7 6\n3 4 5 8\n3 4 8 7\n"));
+    const auto crate = make_frame(make_box(1, 1, 1), {0.1, 0.2, 0.499});
+    for (const bool is_first : {true, false}) {
+        const auto both = is_first ? detector()->createCollisionGroup(floor.get(), crate.get())
+                                   : detector()->createCollisionGroup(crate.get(), floor.get());
+        CollisionResult four;
+        CHECK(both->collide(CollisionOption(true, 100), &four));
+        CHECK_EQ(four.getNumContacts(), 4u);
+        for (const Contact &c : four.getContacts()) {
+            CHECK_NEAR(c.penetrationDepth, 0.001, 1e-9);
+            CHECK_NEAR(c.normal.z(), is_first ? -1 : 1, 1e-12);
+        }
+    }
     std::string why;
     try {
         const auto line = make_frame(std::make_shared<LineSegmentShape>(Vector3d(0, 0, 0), Vector3d(1, 0, 0)));

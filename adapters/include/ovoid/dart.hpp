@@ -8,8 +8,9 @@
  * Boxes, spheres, capsules, cylinders, cones, pyramids and convex hulls of spheres with equal radii are what they say,
  * cylinders and cones to an allowance of a two-hundredth of their radius. An ellipsoid is a polyhedron in it, with an
  * allowance of 0.2 % of its largest radius. A plane is the half space below it. A mesh that is convex is a solid; any
- * other is its triangles, which have no inside. Shapes of other kinds (soft meshes, height maps, point clouds, voxel
- * grids, line segments, arrows) are refused: ovoid::error is thrown when they are added to a group.
+ * other is answered by its flat facets, and triangle by triangle where bodies are deep in one another, for distances
+ * and for two meshes. Shapes of other kinds (soft meshes, height maps, point clouds, voxel grids, line segments,
+ * arrows) are refused: ovoid::error is thrown when they are added to a group.
  *
  * Threads: as DART's own detectors, one for each thread.
  */
@@ -268,6 +269,8 @@ class detector final : public ::dart::collision::CollisionDetector {
                          collision_result *result);
     /// The contacts of two objects; false: none. Stops when `most` are in the result.
     bool collide_parts(const detail::couple &of, const collision_option &option, collision_result *result);
+    /// Those of a mesh and convex parts.
+    bool collide_mesh(const detail::couple &of, const collision_option &option, collision_result *result);
     bool add(const detail::couple &of, const detail::manifold &contact, const collision_option &option,
              collision_result *result) const;
     detail::manifold find_manifold(const detail::couple &of, std::size_t a, std::size_t b);
@@ -309,6 +312,7 @@ inline bool detector::collide_parts(const detail::couple &of, const collision_op
         }
         return any;
     }
+    if (!a.mesh != !b.mesh && collide_mesh(of, option, result)) return true;
     // Each part's box in the world, and those of the other that it meets.
     for (std::size_t i = 0; i < a.parts.size(); i++) {
         const ovoid_box box = a.parts.size() == 1 ? of.first->box() : detail::compute_box(a.parts[i], of.first->pose());
@@ -317,6 +321,29 @@ inline bool detector::collide_parts(const detail::couple &of, const collision_op
             if (b.parts.size() > 1 && !detail::do_boxes_meet(box, detail::compute_box(b.parts[k], of.second->pose())))
                 continue;
             any = add(of, find_manifold(of, i, k), option, result) || any;
+            if (result ? result->getNumContacts() >= option.maxNumContacts : any) return any;
+        }
+    }
+    return any;
+}
+
+/// The contacts of the flat facets of a mesh and the parts of a body; false: there is none. Bodies that are too deep in
+/// one another for a facet to lead out have none here, and are asked triangle by triangle.
+inline bool detector::collide_mesh(const detail::couple &of, const collision_option &option, collision_result *result) {
+    const bool is_first = of.first->shape().mesh != nullptr;
+    const detail::object &mesh = is_first ? *of.first : *of.second, &convex = is_first ? *of.second : *of.first;
+    bool any = false;
+    for (const detail::part &one : convex.shape().parts) {
+        if (!detail::do_boxes_meet(detail::compute_box(one, convex.pose()), mesh.box())) continue;
+        const ovoid_body_pair pair = {{one.made->made.get(), nullptr, convex.pose(), nullptr},
+                                      {nullptr, nullptr, mesh.pose(), mesh.shape().mesh->get()}};
+        ovoid_manifold_options options = {};
+        options.tolerance = chosen_.tolerance * one.made->radius;
+        body_manifolds all;
+        if (all.find(pair, options) != OVOID_LIMIT_NONE) refused_++;
+        for (const ovoid_body_manifold &facet : all) {
+            const detail::manifold contact = {facet.manifold.normal, all.points_of(facet)};
+            any = add(of, is_first ? contact.flipped() : contact, option, result) || any;
             if (result ? result->getNumContacts() >= option.maxNumContacts : any) return any;
         }
     }

@@ -49,9 +49,11 @@ struct half_space {
     double offset;
 };
 
-/// A shape of DART: convex parts, or a half space.
+/// A shape of DART: convex parts, or a half space. A mesh that is not convex has its triangles as parts, for distances
+/// and rays, and is a solid for contacts.
 struct geometry {
     std::vector<part> parts;
+    std::shared_ptr<const solid> mesh;
     std::optional<half_space> plane;
 };
 
@@ -198,6 +200,10 @@ inline geometry translate_mesh(adapters::shape_table &table, const shapes::MeshS
         made.parts.push_back(make_part(std::make_shared<const adapters::sized_shape>(std::move(*convex))));
         return made;
     }
+    std::vector<std::uint32_t> indices(corners.size() / 3);
+    for (std::size_t i = 0; i < indices.size(); i++) indices[i] = std::uint32_t(i);
+    made.mesh = std::make_shared<const solid>(
+        solid::from_triangles(corners.data(), indices.size(), indices.data(), indices.size() / 3));
     for (std::size_t i = 0; i + 9 <= corners.size(); i += 9) {
         adapters::description of_triangle = {-1};
         of_triangle.insert(of_triangle.end(), corners.begin() + std::ptrdiff_t(i),
