@@ -1,8 +1,8 @@
 // Two bodies, a solid of up to 24 triangles over up to 12 points, and another, a shape or a compound of it. Truth: the
 // exact judge (not of compounds), and the check without search, of each answer; brackets of one distance have a point
-// in common; a winding number is the same again, and none is given of what is not closed; where a surface meets itself
-// does not depend on how much is asked for. Of two that move: the check of their impact, and the bodies at sampled
-// times.
+// in common; manifolds hold before the check without search; a winding number is the same again, and none is given of
+// what is not closed; where a surface meets itself does not depend on how much is asked for. Of two that move: the
+// check of their impact, and the bodies at sampled times.
 #include "ask.h"
 #include "bodies.h"
 #include "meshes.h"
@@ -88,6 +88,34 @@ static void ask(findings *f, double margin, const ovoid_body_proof *earlier, siz
     check(f, &x, &all);
 }
 
+// ---- manifolds
+
+// Each manifold of a part and a facet holds before the check without search, has its points, and is that of the bodies
+// exchanged with its sides exchanged.
+static void ask_manifolds(const ovoid_body_pair *pair, double margin) {
+    static ovoid_body_manifold items[2][64];
+    static ovoid_manifold_points points[64];
+    const ovoid_manifold_options options = {.margin = fmin(margin, OVOID_LENGTH_MAX)};
+    const ovoid_body_pair exchanged = {pair->b, pair->a};
+    ovoid_body_manifolds found = {.items = items[0], .points = points, .capacity = 64},
+                         other = {.items = items[1], .capacity = 64};
+    ovoid_limit limit = ovoid_body_manifolds_find(pair, &options, &found);
+    fuzz_require(limit == OVOID_LIMIT_NONE || limit == OVOID_LIMIT_SHAPE_B || limit == OVOID_LIMIT_POSE_A ||
+                 limit == OVOID_LIMIT_POSE_B);
+    (void)ovoid_body_manifolds_find(&exchanged, &options, &other);
+    fuzz_require(found.count == other.count);
+    for (size_t i = 0; i < found.count && found.count <= 64; i++) {
+        ovoid_error error = {OVOID_OK, -1, ""};
+        const ovoid_manifold *m = &items[0][i].manifold;
+        fuzz_require(m->count >= 1 && m->count <= 4 && points[i].count == m->count);
+        fuzz_require(m->lower <= m->upper && m->lower <= options.margin);
+        fuzz_require_code(ovoid_body_manifold_verify(pair, &items[0][i], &options, &error), &error);
+        fuzz_require(ovoid_body_manifold_compute_points(pair, &items[0][i]).count == m->count);
+    }
+    for (size_t i = 0; i < other.count && other.count <= 64; i++)
+        fuzz_require(ovoid_body_manifold_verify(&exchanged, &items[1][i], &options, NULL) == OVOID_OK);
+}
+
 // ---- motions
 
 static ovoid_moving_body take_moving(fuzz_bytes *from, const ovoid_body *body, int is_wild) {
@@ -161,6 +189,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         findings f = {&pair, -INFINITY, INFINITY};
         ask(&f, margin, NULL, ITEMS);
         ask(&f, margin, &earlier, (size_t)(take_byte(&from) & 3));
+        ask_manifolds(&pair, margin);
         ask_impact(&from, &pair, margin, is_wild);
     }
     ovoid_solid_destroy(a);

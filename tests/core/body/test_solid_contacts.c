@@ -133,9 +133,10 @@ static void test_corner(void) {
     static const uint32_t caps[4][3] = {{0, 1, 3}, {1, 2, 3}, {0, 3, 5}, {3, 4, 5}};
     scene x;
     begin(&x, make_prism(xz, 6, caps), make_box(0.5, 0.7, 0.3));
-    // Two thousandths in the wall, one in the floor: each has its four points.
+    // Two thousandths in the wall, one in the floor: each has its four points. Tilted down toward the wall, the box is
+    // deepest below the floor where the floor has ended.
     for (int tilted = 0; tilted < 2; tilted++) {
-        x.pair.a.pose = (ovoid_pose){{0.498, 0.2, 0.299}, {1, 0, tilted ? 1e-4 : 0, 0}};
+        x.pair.a.pose = (ovoid_pose){{tilted ? 0.493 : 0.498, 0.2, 0.299}, {1, 0, tilted ? -0.005 : 0, 0}};
         find(&x);
         CHECK_EQ(x.found.count, 2);
         int has_wall = 0, has_floor = 0;

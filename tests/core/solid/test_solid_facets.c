@@ -24,12 +24,18 @@ static uint32_t count_bends(const ovoid_solid *s, solid_bend bend) {
     return count;
 }
 
+static double compute_area(const ovoid_solid *s, uint32_t t) {
+    vec3 a = solid_get_corner(s, t, 0);
+    return vec3_norm(vec3_cross(vec3_sub(solid_get_corner(s, t, 1), a), vec3_sub(solid_get_corner(s, t, 2), a)));
+}
+
 // The first triangle of a facet is its largest, of equal ones the first in the tree; the facet's corners are in its
 // plane.
 static void check_planes(const ovoid_solid *s) {
     for (uint32_t t = 0; t < s->triangle_count; t++) {
         vec3 n = solid_compute_facet_normal(s, s->facets[t]), at = solid_get_corner(s, s->facets[t], 0);
         CHECK_NEAR(vec3_norm(n), 1, 1e-15);
+        CHECK_LE(compute_area(s, t), compute_area(s, s->facets[t]) * (1 + 1e-12));
         for (int i = 0; i < 3; i++)
             CHECK_LE(fabs(vec3_dot(n, vec3_sub(solid_get_corner(s, t, i), at))), s->flatness * (1 + 1e-9));
     }
