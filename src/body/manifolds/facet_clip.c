@@ -90,7 +90,7 @@ static int is_needless(const manifold_corner *p, const manifold_corner *q, const
 
 static void push(manifold_corner *hull, uint32_t *count, uint32_t least, const manifold_corner *c, double snap) {
     while (*count > least && is_needless(&hull[*count - 2], &hull[*count - 1], c, snap)) --*count;
-    hull[(*count)++] = *c;
+    if (*count <= OTHERS) hull[(*count)++] = *c; // more than there are corners only where rounding has no order
 }
 
 // Replaces corners by those of their hull, counter-clockwise. Returns how many there are.

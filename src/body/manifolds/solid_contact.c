@@ -60,7 +60,7 @@ clip_rules facet_contact_make_rules(const solid_pair *p, const manifold_terms *t
 
 int solid_pair_is_top(const solid_pair *p, vec3 x, vec3 up, facet_plane *best) {
     const ovoid_solid *s = p->solid;
-    double near = 4 * p->snap + s->flatness, most = -2;
+    double room = 4 * p->snap + s->flatness, near = room / p->slack, most = -2;
     const tree_ends ends = solid_make_ends(s, x, near);
     place_walk walk;
     place_walk_begin(&walk, s, &ends);
@@ -69,17 +69,28 @@ int solid_pair_is_top(const solid_pair *p, vec3 x, vec3 up, facet_plane *best) {
         if (!(vec3_norm(vec3_sub(solid_find_nearest(s, place, x), x)) <= near)) continue;
         for (int i = 0; i < 3; i++) {
             vec3 d = vec3_sub(solid_get_corner(s, place, i), x);
-            if (vec3_dot(up, d) > 2 * near + 1e-6 * vec3_norm(d)) return 0;
+            if (vec3_dot(up, d) > p->slack * (2 * room + 1e-6 * vec3_norm(d))) return 0;
         }
         facet_plane plane = solid_pair_get_plane(p, s->facets[place]);
         double cosine = vec3_dot(plane.normal, up);
-        if (s->report.is_closed && cosine < -1e-6) return 0;
+        if (s->report.is_closed && cosine < -1e-6 * p->slack) return 0;
         int is_better = cosine > most + 1e-9 || (cosine > most - 1e-9 && plane.facet < best->facet);
         if (!is_better) continue;
         most = cosine;
         *best = plane;
     }
     return most > -2;
+}
+
+int facet_contact_is_top(const solid_pair *p, const facet_contact *c, const manifold_state *s) {
+    const manifold_corner *lowest = &s->polygon.corners[0];
+    if (c->axis == OVOID_MANIFOLD_FACE_B) return 1;
+    for (uint32_t i = 1; i < s->polygon.count; i++)
+        if (s->polygon.corners[i].separation < lowest->separation) lowest = &s->polygon.corners[i];
+    double height = patch_get_height(&s->a, lowest->x, lowest->y) + lowest->separation;
+    facet_plane best = {.facet = UINT32_MAX};
+    return solid_pair_is_top(p, facet_contact_place(p, s, (vec3){lowest->x, lowest->y, height}),
+                             vec3_neg(solid_pair_get_direction(p, c->n)), &best);
 }
 
 // A point of the part that is in contact, in the solid's frame, and how deep it is along the normal.
@@ -191,7 +202,10 @@ static int give(const ovoid_body_pair *pair, const ovoid_body_manifold *item, gi
     if (other->solid || !body_tree_make(other, &tree) || g->item.part_a >= tree.count) return 3 - of_solid;
     if (!body_is_one(solid) || g->item.part_b >= solid->solid->triangle_count) return of_solid;
     ovoid_posed_shape part = body_tree_get_leaf(&tree, body_tree_get_place(&tree, g->item.part_a), NULL);
-    return solid_pair_make(&g->pair, &part, solid) == OVOID_LIMIT_NONE ? 0 : of_solid;
+    if (solid_pair_make(&g->pair, &part, solid) != OVOID_LIMIT_NONE) return of_solid;
+    // Corners by their ids are where they were but for rounding.
+    g->pair.slack = 2;
+    return 0;
 }
 
 // The corners of a manifold's points, in their order.
@@ -300,27 +314,14 @@ static ovoid_code verify_polygon(verifier *v, manifold_state *s) {
     return refuse(v, "share %.9g; the points have %.9g", (double)m->share, share);
 }
 
-// The solid is nowhere higher beside the point that is nearest to the part.
-static ovoid_code verify_top(verifier *v, const manifold_state *s) {
-    const solid_pair *p = &v->given.pair;
-    const manifold_corner *lowest = &s->polygon.corners[0];
-    for (uint32_t i = 1; i < s->polygon.count; i++)
-        if (s->polygon.corners[i].separation < lowest->separation) lowest = &s->polygon.corners[i];
-    double height = patch_get_height(&s->a, lowest->x, lowest->y) + lowest->separation;
-    vec3 x = facet_contact_place(p, s, (vec3){lowest->x, lowest->y, height});
-    facet_plane best = {.facet = UINT32_MAX};
-    vec3 up = vec3_neg(solid_pair_get_direction(p, v->contact.n));
-    if (v->contact.axis == OVOID_MANIFOLD_FACE_B || solid_pair_is_top(p, x, up, &best)) return OVOID_OK;
-    return refuse(v, "the solid rises beside the contact, along the normal");
-}
-
 COMPILER_NOINLINE static ovoid_code verify_corners(verifier *v) {
     manifold_state s;
     if (!open_corners(&v->given, &v->contact, &s)) return refuse(v, "the features are none of the bodies");
     ovoid_code code = verify_features(v, &s);
     if (code == OVOID_OK) code = verify_bracket(v, &s);
     for (uint32_t i = 0; i < s.polygon.count && code == OVOID_OK; i++) code = verify_point(v, &s, i);
-    return code == OVOID_OK ? verify_top(v, &s) : code;
+    if (code != OVOID_OK || facet_contact_is_top(&v->given.pair, &v->contact, &s)) return code;
+    return refuse(v, "the solid rises beside the contact, along the normal");
 }
 
 COMPILER_NOINLINE static ovoid_code verify_whole(verifier *v) {

@@ -92,8 +92,9 @@ static void emit(solid_search *s, const facet_contact *c, const contact_features
         state->polygon.corners[i] = state->polygon.corners[chosen.index[i]];
         m->id[i] = state->polygon.corners[i].id;
     }
+    state->polygon.count = chosen.count;
     facet_contact_measure(&s->pair, &s->terms, state, m);
-    if (m->lower > s->terms.margin) return;
+    if (m->lower > s->terms.margin || !facet_contact_is_top(&s->pair, c, state)) return;
     if (s->request->has_points)
         facet_contact_write_points(&s->pair, state, &(points_order){chosen.count, s->is_exchanged}, &points);
     item.part_a = s->is_exchanged ? part_b : s->part;

@@ -16,17 +16,21 @@ ovoid_limit solid_pair_make(solid_pair *p, const ovoid_posed_shape *part, const 
     ovoid_limit refused = frame_make(&pair, &p->frame);
     if (refused != OVOID_LIMIT_NONE) return refused;
     p->center = solid_pair_get_point(p, a->inner.center);
+    p->slack = 1;
     p->snap = MANIFOLD_SNAP * (a->reach + a->radius) + 16 * p->frame.claim;
     return OVOID_LIMIT_NONE;
 }
 
 // ---- boxes and walks
 
+// The tree lies within one unit of its origin. No end is as large as those of lanes that are not used.
+static double limit_end(double x) { return x > 4 ? 4 : x < -4 ? -4 : x; }
+
 static tree_ends make_ends(const ovoid_solid *s, const double low[3], const double high[3]) {
     tree_ends e;
     for (int k = 0; k < 3; k++) {
-        e.ends[k] = (low[k] - vec3_get(s->center, k)) / s->unit;
-        e.ends[3 + k] = (high[k] - vec3_get(s->center, k)) / s->unit;
+        e.ends[k] = limit_end((low[k] - vec3_get(s->center, k)) / s->unit);
+        e.ends[3 + k] = limit_end((high[k] - vec3_get(s->center, k)) / s->unit);
     }
     return e;
 }

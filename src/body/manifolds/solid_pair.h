@@ -15,6 +15,7 @@ typedef struct solid_pair {
     pair_frame frame;
     vec3 center;         ///< of the part, in the solid's frame: it tells the side of a surface that is not closed
     double snap;         ///< lengths across the normal below this are none, as in manifold.h
+    double slack;        ///< by what the verifier allows more than the query does in what rounding may change: 1, or 2
     triangle_shape room; ///< stands for the solid in the frame: one point of it
 } solid_pair;
 
@@ -119,6 +120,10 @@ clip_rules facet_contact_make_rules(const solid_pair *p, const manifold_terms *t
 /// Is the solid nowhere higher than at a point, along a direction of its frame, as far as its triangles reach that hold
 /// the point? Then *best is the facet there that faces the direction most.
 int solid_pair_is_top(const solid_pair *p, vec3 x, vec3 up, facet_plane *best);
+
+/// Is the solid nowhere higher beside the corner of a state that is nearest to the part? Along its facet's normal
+/// another rule holds, and this is 1.
+int facet_contact_is_top(const solid_pair *p, const facet_contact *c, const manifold_state *s);
 
 /// Does a contact along its facet's normal count? *is_through: where it does not, the part has gone through the solid.
 int facet_contact_counts(const solid_pair *p, const facet_contact *c, const manifold_state *s, const facet_depths *d,
