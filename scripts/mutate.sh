@@ -17,7 +17,7 @@ cd "$(dirname "$0")/.." || exit 1
 jobs=${JOBS:-2}
 copy=build/mutate
 tree=$copy/tree
-groups="allowance query prepared growth boxes closed exact hull shape ellipsoid simd environment tools world world_manifolds compound solid solid_body solid_files decompose motion smooth paper manifold table lanes io robot robot_read robot_solid robot_spheres robot_cover robot_table robot_compare ompl fcl adapters robot_cli robot_spheres_cli shard verify page report python python_solid decompose_watch robot_watch hostile hostile_cli contact_faces contact_python"
+groups="allowance query prepared growth boxes closed exact hull shape ellipsoid simd environment tools world world_manifolds solid_manifolds compound solid solid_body solid_files decompose motion smooth paper manifold table lanes io robot robot_read robot_solid robot_spheres robot_cover robot_table robot_compare ompl fcl adapters robot_cli robot_spheres_cli shard verify page report python python_solid decompose_watch robot_watch hostile hostile_cli contact_faces contact_python"
 
 # The tests of a group, fastest first; arguments after a colon.
 tests_of() {

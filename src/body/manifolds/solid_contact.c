@@ -149,23 +149,25 @@ int facet_contact_counts(const solid_pair *p, const facet_contact *c, const mani
 
 // ---- what it claims
 
-static double find_top(const solid_pair *p, vec3 n) {
+// From the top of the part to the solid where it is lowest at the first corners of the state.
+static double find_gap(const solid_pair *p, const manifold_state *s, uint32_t count) {
     simd_points points = shape_get_points(p->part.shape);
-    return simd_find_support(&points, n).value;
+    double lowest = count ? INFINITY : s->b.at.z[0];
+    for (uint32_t i = 0; i < count; i++) {
+        const manifold_corner *c = &s->polygon.corners[i];
+        lowest = min2(lowest, patch_get_height(&s->a, c->x, c->y) + c->separation);
+    }
+    return lowest - simd_find_support(&points, s->frame.n).value;
 }
 
 void facet_contact_measure(const solid_pair *p, const manifold_terms *t, const manifold_state *s, ovoid_manifold *out) {
     const pair_frame *f = &p->frame;
     const manifold_frame *m = &s->frame;
-    double lowest = INFINITY, least = INFINITY, pad = manifold_compute_rounding(s);
-    for (uint32_t i = 0; i < out->count; i++) {
-        const manifold_corner *c = &s->polygon.corners[i];
-        lowest = min2(lowest, patch_get_height(&s->a, c->x, c->y) + c->separation);
-        least = min2(least, c->separation);
-    }
+    double least = INFINITY, pad = manifold_compute_rounding(s);
+    for (uint32_t i = 0; i < out->count; i++) least = min2(least, s->polygon.corners[i].separation);
     // Along its own normal the facet's plane is level: no slope adds to the rounding.
-    if (out->axis == OVOID_MANIFOLD_FACE_B) lowest = s->b.at.z[0];
-    double lower = lowest - find_top(p, m->n) - f->lower_radii - (out->axis == OVOID_MANIFOLD_FACE_B ? f->claim : pad);
+    int is_level = out->axis == OVOID_MANIFOLD_FACE_B;
+    double lower = find_gap(p, s, is_level ? 0 : out->count) - f->lower_radii - (is_level ? f->claim : pad);
     out->lower = frame_take_gain(lower, frame_compute_gain(f, m->n, m->n_in_b, AXIS_CLAIM));
     out->upper = max2(least - f->upper_radii + pad, out->lower);
     out->proof = OVOID_MANIFOLD_PROOF_NORMAL;
@@ -174,9 +176,10 @@ void facet_contact_measure(const solid_pair *p, const manifold_terms *t, const m
     out->limit = is_narrow ? OVOID_LIMIT_NONE : OVOID_LIMIT_PRECISION;
 }
 
-void facet_contact_write_points(const solid_pair *p, const manifold_state *s, const points_order *order,
+void facet_contact_write_points(const solid_pair *p, manifold_state *s, const points_order *order,
                                 ovoid_manifold_points *out) {
     double steep = max2(s->a.steepness, s->b.steepness);
+    s->frame.gap = find_gap(p, s, order->count);
     manifold_write_points(s, &(corner_choice){order->count, {0, 1, 2, 3}, 1}, order->is_exchanged, out);
     out->grown += p->solid->flatness * steep;
 }

@@ -132,12 +132,12 @@ int facet_contact_counts(const solid_pair *p, const facet_contact *c, const mani
 /// The bracket along the normal with status, limit and proof, from the first out->count corners of the state.
 void facet_contact_measure(const solid_pair *p, const manifold_terms *t, const manifold_state *s, ovoid_manifold *out);
 
-/// The points of the first corners of the state.
+/// The points of the first corners of the state. None is deeper than the bodies are along the normal.
 typedef struct points_order {
     uint32_t count;
     int is_exchanged; ///< the caller's body A is the solid
 } points_order;
-void facet_contact_write_points(const solid_pair *p, const manifold_state *s, const points_order *order,
+void facet_contact_write_points(const solid_pair *p, manifold_state *s, const points_order *order,
                                 ovoid_manifold_points *out);
 
 /// ovoid_body_manifold_compute_points and ovoid_body_manifold_verify of such a pair.

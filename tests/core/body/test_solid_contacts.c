@@ -228,6 +228,33 @@ static void test_plate(void) {
     end(&x);
 }
 
+// The low edge of a tilted box comes back from beyond a rim: the kept corners of the rim are beside the box, where the
+// plane of its face is below it, and are no deeper than the box.
+static void test_kept(void) {
+    const double tilt = 0.05, beyond = 2e-3;
+    scene x;
+    begin(&x, make_block(1, -2, 0), make_box(0.5, 2.5, 0.3));
+    x.options.keep = 5e-3;
+    // The edge from the centre: a vector in the box, turned.
+    double edge_x = 0.5 * cos(tilt) - 0.3 * sin(tilt), edge_z = -0.5 * sin(tilt) - 0.3 * cos(tilt);
+    x.pair.a.pose = (ovoid_pose){{1 + beyond - edge_x, 0, -0.01 - edge_z}, {cos(tilt / 2), 0, sin(tilt / 2), 0}};
+    find(&x);
+    CHECK_EQ(x.found.count, 1);
+    ovoid_body_manifold earlier = x.items[0];
+    x.pair.a.pose.position.x -= 2 * beyond;
+    x.found = (ovoid_body_manifolds){
+        .items = x.items, .points = x.points, .capacity = MOST, .earlier = &earlier, .earlier_count = 1};
+    CHECK_EQ(ovoid_body_manifolds_find(&x.pair, &x.options, &x.found), OVOID_LIMIT_NONE);
+    CHECK_EQ(x.found.count, 1);
+    uint32_t at_rim = 0;
+    for (uint32_t i = 0; i < x.points[0].count; i++) {
+        CHECK_LE(x.items[0].manifold.lower - 1e-9, x.points[0].points[i].separation);
+        at_rim += x.points[0].points[i].point_b.x > 1 - 0.5 * beyond;
+    }
+    CHECK_EQ(at_rim, 2);
+    end(&x);
+}
+
 // ---- forged: all that is measured is true, but the normal is not one that the solid has
 
 // A manifold along a normal of the frame at the facet of a triangle, as if it had been found.
@@ -345,6 +372,7 @@ int main(void) {
     test_corner();
     test_rim();
     test_plate();
+    test_kept();
     test_forged();
     test_compound();
     test_sheet();
