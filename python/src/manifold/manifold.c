@@ -521,9 +521,9 @@ PyMethodDef manifold_methods[] = {
     {"find_manifolds", METHOD_KEYWORDS(find_manifolds), METH_VARARGS | METH_KEYWORDS,
      "find_manifolds(a: Body, b: Body, pose_a: PoseLike = None, pose_b: PoseLike = None, "
      "*, " MANIFOLD_SIGNATURE ", earlier: Sequence[Manifold] | None = None) -> list[Manifold]\n--\n\nThe contacts of "
-     "all pairs of parts that are not proven farther apart than the margin, sorted by their parts; of one Solid the parts "
-     "are its flat facets. " OPTIONS_DOC
-     " earlier: the last list of these two."},
+     "all pairs of parts that are not proven farther apart than the margin, sorted by their parts; of one Solid the "
+     "parts "
+     "are its flat facets. " OPTIONS_DOC " earlier: the last list of these two."},
     {"find_manifold_batch", METHOD_KEYWORDS(find_manifold_batch), METH_VARARGS | METH_KEYWORDS,
      "find_manifold_batch(bodies: Bodies, couples: Numbers, *, " MANIFOLD_SIGNATURE
      ", manifolds: Records | None = None, progress: Progress | None = None) -> tuple[Records, Records, Floats]\n--\n\n"
