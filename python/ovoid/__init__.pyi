@@ -207,9 +207,9 @@ class Impact:
 
 class Manifold:
     def __len__(self) -> int: ...
-    a: Final[Shape | Compound]
+    a: Final[Body]
     axis: Final[Axis]
-    b: Final[Shape | Compound]
+    b: Final[Body]
     corners: Final[int]
     facet_a: Final[int]
     facet_b: Final[int]
