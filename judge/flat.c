@@ -102,7 +102,7 @@ static int append(flat_polygon *out, const flat_point *corner, const flat_line *
 
 int flat_cut(pool *p, const flat_line *line, flat_polygon *polygon) {
     static flat_polygon in;
-    int side[FLAT_CORNERS], most = -1, least = 1, is_kept = 1;
+    int side[FLAT_CORNERS] = {0}, most = -1, least = 1, is_kept = 1;
     for (uint32_t i = 0; i < polygon->count; i++) {
         side[i] = flat_find_side(p, line, &polygon->corners[i]);
         if (side[i] > most) most = side[i];

@@ -54,9 +54,9 @@ typedef struct num_bracket {
 } num_bracket;
 
 /// Twice the area, 0 of points and segments, to about 2^-200 of its terms.
-num_bracket flat_find_area(pool *p, const flat_polygon *polygon);
+num_bracket flat_find_area(pool *p, const flat_polygon *g);
 
 /// 1 if a point is farther from a polygon than sqrt(square).
-int flat_is_farther(pool *p, const flat_polygon *polygon, const flat_point *at, const num metric_and_square[2]);
+int flat_is_farther(pool *p, const flat_polygon *g, const flat_point *at, const num metric_and_square[2]);
 
 #endif

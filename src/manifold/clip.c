@@ -309,7 +309,7 @@ static reader open_reader(const place_list *l, uint32_t begin, uint32_t end) {
 static void merge(clipper *c) {
     place_list l;
     uint8_t order[PLACES];
-    reader lists[LISTS];
+    reader lists[LISTS] = {{0}};
     uint32_t ends[LISTS], count = 0, first = 0;
     list_places(c, &l, ends);
     for (int k = 0; k < LISTS; k++)

@@ -160,7 +160,7 @@ void patch_make_b(const manifold_frame *m, uint32_t feature, manifold_patch *p);
 /// Places a patch whose corners are listed, with its sides: of a facet the slopes are set afterwards.
 void patch_place(const simd_placing *placing, manifold_patch *p);
 /// The slopes of a facet whose unit normal has these coordinates in the frame of the manifold.
-void patch_set_slope(manifold_patch *p, vec3 normal);
+void patch_set_slope(manifold_patch *p, vec3 plane);
 
 /// The distance of a point from a patch; 0 inside.
 double patch_measure_distance(const manifold_patch *patch, double x, double y);

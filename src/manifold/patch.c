@@ -7,6 +7,7 @@ _Static_assert(2 * PATCH_CORNERS == OVOID_MANIFOLD_CORNERS, "a polygon has at mo
 // Of a facet of more corners than a patch has room for, as many of them, from the one that is extreme on.
 static void take_some(const ovoid_shape *s, uint32_t facet, uint32_t low, manifold_patch *p) {
     uint32_t start = shape_loop_starts(s)[facet], count = shape_loop_starts(s)[facet + 1] - start, first = 0;
+    if (count <= PATCH_CORNERS) return; // take_facet has them all
     while (first < count && shape_loop_vertices(s)[start + first] != low) first++;
     p->at.count = PATCH_CORNERS;
     for (uint32_t i = 0; i < PATCH_CORNERS; i++) {

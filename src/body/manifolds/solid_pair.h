@@ -141,9 +141,9 @@ void facet_contact_write_points(const solid_pair *p, manifold_state *s, const po
                                 ovoid_manifold_points *out);
 
 /// ovoid_body_manifold_compute_points and ovoid_body_manifold_verify of such a pair.
-void solid_manifold_compute_points(const ovoid_body_pair *pair, const ovoid_body_manifold *manifold,
+void solid_manifold_compute_points(const ovoid_body_pair *pair, const ovoid_body_manifold *item,
                                    ovoid_manifold_points *points);
-ovoid_code solid_manifold_verify(const ovoid_body_pair *pair, const ovoid_body_manifold *manifold,
+ovoid_code solid_manifold_verify(const ovoid_body_pair *pair, const ovoid_body_manifold *item,
                                  const ovoid_manifold_options *options, ovoid_error *error);
 
 // ---- solid_manifolds.c
