@@ -9,6 +9,7 @@
 #define OVOID_DECOMPOSE_BODY_H
 
 #include "decompose/tetrahedra.h"
+#include "linear/triangle.h"
 #include "solid/solid.h"
 
 #define BODY_PAD (2048 * ROUNDING)
@@ -63,8 +64,6 @@ double body_find_depth(const body *b, uint32_t part, vec3 x, vec3 n);
 static inline void body_get_triangle(const body *b, uint32_t place, vec3 corner[3]) {
     for (int i = 0; i < 3; i++) corner[i] = vec3_scale(solid_get_corner(b->solid, place, i), b->inverse);
 }
-/// A point of the triangle near to x, the nearest one except for triangles of nearly no area; on the triangle to 8 u.
-vec3 triangle_find_nearest(const vec3 corner[3], vec3 x);
 /// A triangle about as near to x as any; *distance: of x from it, to 16 u.
 uint32_t body_find_triangle(const body *b, vec3 x, uint32_t hint, double *distance);
 /// The places of all triangles that are within the pad of the cell, and perhaps some that are not. Returns their

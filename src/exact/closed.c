@@ -1,8 +1,7 @@
 // A point, a segment and a box are the sets of all c + sum t_i g_i, |t_i| <= 1, of zero, one and three segments g_i at
 // right angles. The nearest points of two of them, one of which is no box:
 // - Two segments: V. J. Lumelsky, On fast computation of distance between line segments, 1985: the nearest points of
-// the
-//   lines where both parameters are within their ends; else one of them is at an end.
+//   the lines where both parameters are within their ends; else one of them is at an end.
 // - A box and a point: each of the point's coordinates along the box's axes, cut off at the faces.
 // - A box and a segment: the square of the distance from the box is a convex function of the segment's parameter, made
 //   of parabolas between the at most six parameters at which the segment passes a face's plane. Its derivative grows,

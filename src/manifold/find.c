@@ -153,7 +153,6 @@ static int is_given_normal(const task *t, const manifold_state *s, const manifol
 // what is computed from it later has the same bits.
 static void write_points(const task *t, const manifold_state *s, const manifold_axis *axis, vec3 given,
                          ovoid_manifold *out) {
-    const manifold_polygon *p = &s->polygon;
     corner_choice chosen = corners_choose(s, t->earlier, t->terms.slack);
     out->normal = is_given_normal(t, s, axis, given) ? given : frame_direction_to_world(&t->frame, s->frame.n);
     out->axis = axis->kind;
@@ -161,10 +160,7 @@ static void write_points(const task *t, const manifold_state *s, const manifold_
     out->feature_b = axis->b;
     out->facet_a = s->facet_a;
     out->facet_b = s->facet_b;
-    out->count = (uint8_t)chosen.count;
-    out->corners = (uint16_t)p->count;
-    out->share = (float)chosen.share;
-    for (uint32_t i = 0; i < chosen.count; i++) out->id[i] = p->corners[chosen.index[i]].id;
+    corner_choice_write(&chosen, &s->polygon, out);
     if (t->terms.points) manifold_write_points(s, &chosen, t->is_exchanged, t->terms.points);
 }
 

@@ -162,6 +162,16 @@ void patch_place(const simd_placing *placing, manifold_patch *p);
 /// The slopes of a facet whose unit normal has these coordinates in the frame of the manifold.
 void patch_set_slope(manifold_patch *p, vec3 plane);
 
+/// The square of a point's distance from the segment from the first of two corners to the second; x and y are columns.
+static inline double segment_measure_square(const double *x, const double *y, vec3 at) {
+    double dx = x[1] - x[0], dy = y[1] - y[0], px = at.x - x[0], py = at.y - y[0];
+    double square = dx * dx + dy * dy, t = square > 0 ? (px * dx + py * dy) / square : 0;
+    t = t < 0 ? 0 : t > 1 ? 1 : t;
+    px -= t * dx;
+    py -= t * dy;
+    return px * px + py * py;
+}
+
 /// The distance of a point from a patch; 0 inside.
 double patch_measure_distance(const manifold_patch *patch, double x, double y);
 
@@ -194,11 +204,18 @@ typedef struct corner_choice {
     uint32_t count, index[4];
     double share; ///< of the polygon's area
 } corner_choice;
+/// Writes how many corners a polygon has, and which were chosen.
+void corner_choice_write(const corner_choice *choice, const manifold_polygon *polygon, ovoid_manifold *out);
 /// The deepest corner, to the snap, and those that span the most area with it. earlier: its corners are kept while
 /// their share is within 2 % of what it was, and the deepest of them is the deepest of all to the slack.
 corner_choice corners_choose(const manifold_state *state, const ovoid_manifold *earlier, double slack);
 /// The place of the corner with an id, or -1.
 int polygon_find_corner(const manifold_polygon *polygon, uint32_t id);
+/// Do the numbers of points and corners and the share of a contact fit each other?
+ovoid_code manifold_verify_counts(const ovoid_manifold *m, ovoid_error *error);
+/// Are a contact's points corners of a polygon made again, in its order? Written: which.
+ovoid_code manifold_verify_choice(const ovoid_manifold *m, const manifold_polygon *p, corner_choice *own,
+                                  ovoid_error *error);
 /// The share of the polygon's area that chosen corners span.
 double polygon_compute_share(const manifold_polygon *polygon, const corner_choice *choice);
 

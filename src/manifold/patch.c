@@ -134,22 +134,12 @@ void patch_make_b(const manifold_frame *m, uint32_t feature, manifold_patch *p) 
                p);
 }
 
-// The distance of a point from the segment from corner i to the next.
-static double measure_segment(const simd_patch *p, uint32_t i, double x, double y) {
-    double dx = p->x[i + 1] - p->x[i], dy = p->y[i + 1] - p->y[i], px = x - p->x[i], py = y - p->y[i];
-    double square = dx * dx + dy * dy, t = square > 0 ? (px * dx + py * dy) / square : 0;
-    t = t < 0 ? 0 : t > 1 ? 1 : t;
-    px -= t * dx;
-    py -= t * dy;
-    return sqrt(px * px + py * py);
-}
-
 double patch_measure_distance(const manifold_patch *p, double x, double y) {
     double least = INFINITY, nearest = INFINITY;
     uint32_t count = p->at.count;
     for (uint32_t i = 0; count > 2 && i < count; i++) least = min2(least, patch_get_side(p, i, x, y));
     if (count > 2 && least >= 0) return 0;
     for (uint32_t i = 0; i < (count > 1 ? patch_get_edge_count(p) : 1); i++)
-        nearest = min2(nearest, measure_segment(&p->at, i, x, y));
-    return nearest;
+        nearest = min2(nearest, segment_measure_square(&p->at.x[i], &p->at.y[i], (vec3){x, y, 0}));
+    return sqrt(nearest);
 }

@@ -142,3 +142,10 @@ corner_choice corners_choose(const manifold_state *s, const ovoid_manifold *earl
     choice.share = all > 0 ? min2(r.area / all, 1) : 1;
     return choice;
 }
+
+void corner_choice_write(const corner_choice *choice, const manifold_polygon *p, ovoid_manifold *out) {
+    out->count = (uint8_t)choice->count;
+    out->corners = (uint16_t)p->count;
+    out->share = (float)choice->share;
+    for (uint32_t i = 0; i < choice->count; i++) out->id[i] = p->corners[choice->index[i]].id;
+}

@@ -101,25 +101,40 @@ static ovoid_code verify_deepest(const checker *c) {
     return refuse(c, "the deepest point is at %.9g; the polygon has a corner at %.9g", given, deepest);
 }
 
+ovoid_code manifold_verify_counts(const ovoid_manifold *m, ovoid_error *error) {
+    int is_few = m->corners <= 4;
+    if (m->corners < m->count || (is_few && m->count != m->corners) || (!is_few && m->count != 4))
+        return error_set(error, OVOID_ERROR_PROOF, -1, "%u points of a polygon of %u corners", m->count, m->corners);
+    if (is_few ? m->share == 1 : m->share >= 0 && m->share <= 1) return OVOID_OK;
+    return error_set(error, OVOID_ERROR_PROOF, -1, "share %.9g", (double)m->share);
+}
+
+ovoid_code manifold_verify_choice(const ovoid_manifold *m, const manifold_polygon *p, corner_choice *own,
+                                  ovoid_error *error) {
+    if (p->count != m->corners)
+        return error_set(error, OVOID_ERROR_PROOF, -1, "%u corners; the polygon has %u", m->corners, p->count);
+    *own = (corner_choice){m->count, {0}, 1};
+    for (uint32_t i = 0; i < m->count; i++) {
+        int at = polygon_find_corner(p, m->id[i]);
+        if (at < 0) return error_set(error, OVOID_ERROR_PROOF, -1, "point %u is no corner of the polygon", i);
+        if (i && (uint32_t)at < own->index[i - 1])
+            return error_set(error, OVOID_ERROR_PROOF, -1, "point %u is not in the polygon's order", i);
+        own->index[i] = (uint32_t)at;
+    }
+    return OVOID_OK;
+}
+
 // The polygon again: without kept corners it does not depend on earlier contacts.
 static ovoid_code verify_polygon(const checker *c) {
     const manifold_polygon *p = &c->state.polygon;
     const ovoid_manifold *m = c->given;
-    int is_few = m->corners <= 4;
-    if (m->corners < m->count || (is_few && m->count != m->corners) || (!is_few && m->count != 4))
-        return refuse(c, "%u points of a polygon of %u corners", m->count, m->corners);
-    if (!(is_few ? m->share == 1 : m->share >= 0 && m->share <= 1)) return refuse(c, "share %.9g", (double)m->share);
-    if (c->terms.keep > 0) return OVOID_OK;
-    if (p->count != m->corners) return refuse(c, "%u corners; the polygon has %u", m->corners, p->count);
-    corner_choice own = {m->count, {0}, 1};
-    for (uint32_t i = 0; i < m->count; i++) {
-        int at = polygon_find_corner(p, m->id[i]);
-        if (at < 0) return refuse(c, "point %u is no corner of the polygon", i);
-        if (i && (uint32_t)at < own.index[i - 1]) return refuse(c, "point %u is not in the polygon's order", i);
-        own.index[i] = (uint32_t)at;
-    }
+    corner_choice own;
+    ovoid_code code = manifold_verify_counts(m, c->error);
+    if (code != OVOID_OK || c->terms.keep > 0) return code;
+    code = manifold_verify_choice(m, p, &own, c->error);
+    if (code != OVOID_OK || m->corners <= 4) return code;
     double share = polygon_compute_share(p, &own);
-    if (is_few || !(p->area > 0) || fabs(share - (double)m->share) <= 1e-6) return OVOID_OK;
+    if (!(p->area > 0) || fabs(share - (double)m->share) <= 1e-6) return OVOID_OK;
     return refuse(c, "share %.9g; the points have %.9g", (double)m->share, share);
 }
 

@@ -52,18 +52,11 @@ static flat_triangle flatten(const facet_clipper *c, uint32_t place) {
     return turned;
 }
 
-static double measure_segment(const flat_triangle *t, int i, double x, double y) {
-    double dx = t->x[i + 1] - t->x[i], dy = t->y[i + 1] - t->y[i], px = x - t->x[i], py = y - t->y[i];
-    double square = dx * dx + dy * dy, at = square > 0 ? (px * dx + py * dy) / square : 0;
-    at = at < 0 ? 0 : at > 1 ? 1 : at;
-    px -= at * dx;
-    py -= at * dy;
-    return px * px + py * py;
-}
-
 static double measure_distance(const flat_triangle *t, double x, double y) {
     if (get_turn(t, 0, x, y) >= 0 && get_turn(t, 1, x, y) >= 0 && get_turn(t, 2, x, y) >= 0) return 0;
-    return sqrt(min2(measure_segment(t, 0, x, y), min2(measure_segment(t, 1, x, y), measure_segment(t, 2, x, y))));
+    double nearest = INFINITY;
+    for (int i = 0; i < 3; i++) nearest = min2(nearest, segment_measure_square(&t->x[i], &t->y[i], (vec3){x, y, 0}));
+    return sqrt(nearest);
 }
 
 // ---- the hull of corners

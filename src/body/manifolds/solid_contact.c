@@ -292,10 +292,9 @@ static ovoid_code verify_polygon(verifier *v, manifold_state *s) {
     const ovoid_manifold *m = &v->given.item.manifold;
     solid_pair *p = &v->given.pair;
     facet_depths depths;
-    int is_through, is_few = m->corners <= 4;
-    if (m->corners < m->count || (is_few && m->count != m->corners) || (!is_few && m->count != 4))
-        return refuse(v, "%u points of a polygon of %u corners", m->count, m->corners);
-    if (!(is_few ? m->share == 1 : m->share >= 0 && m->share <= 1)) return refuse(v, "share %.9g", (double)m->share);
+    int is_through;
+    ovoid_code code = manifold_verify_counts(m, v->error);
+    if (code != OVOID_OK) return code;
     const clip_rules rules = facet_contact_make_rules(p, &v->terms, NULL);
     const tree_ends ends = solid_pair_make_ends(p, v->terms.margin);
     if (!facet_contact_clip(p, &(facet_clip){&v->contact, &rules, &ends}, s, &depths))
@@ -303,17 +302,11 @@ static ovoid_code verify_polygon(verifier *v, manifold_state *s) {
     if (m->axis == OVOID_MANIFOLD_FACE_B && !facet_contact_counts(p, &v->contact, s, &depths, &is_through))
         return refuse(v, "the part is not nearest to the solid over this facet");
     if (v->terms.keep > 0) return OVOID_OK;
-    if (s->polygon.count != m->corners)
-        return refuse(v, "%u corners; the polygon has %u", m->corners, s->polygon.count);
-    corner_choice own = {m->count, {0}, 1};
-    for (uint32_t i = 0; i < m->count; i++) {
-        int at = polygon_find_corner(&s->polygon, m->id[i]);
-        if (at < 0) return refuse(v, "point %u is no corner of the polygon", i);
-        if (i && (uint32_t)at < own.index[i - 1]) return refuse(v, "point %u is not in the polygon's order", i);
-        own.index[i] = (uint32_t)at;
-    }
+    corner_choice own;
+    code = manifold_verify_choice(m, &s->polygon, &own, v->error);
+    if (code != OVOID_OK || m->corners <= 4) return code;
     double share = polygon_compute_share(&s->polygon, &own);
-    if (is_few || fabs(share - (double)m->share) <= 1e-6) return OVOID_OK;
+    if (fabs(share - (double)m->share) <= 1e-6) return OVOID_OK;
     return refuse(v, "share %.9g; the points have %.9g", (double)m->share, share);
 }
 

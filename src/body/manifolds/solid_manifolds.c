@@ -85,13 +85,8 @@ static void emit(solid_search *s, const facet_contact *c, const contact_features
     m->feature_b = features->b;
     m->facet_a = c->facet_a;
     m->facet_b = c->facet_b;
-    m->count = (uint8_t)chosen.count;
-    m->corners = (uint16_t)state->polygon.count;
-    m->share = (float)chosen.share;
-    for (uint32_t i = 0; i < chosen.count; i++) {
-        state->polygon.corners[i] = state->polygon.corners[chosen.index[i]];
-        m->id[i] = state->polygon.corners[i].id;
-    }
+    corner_choice_write(&chosen, &state->polygon, m);
+    for (uint32_t i = 0; i < chosen.count; i++) state->polygon.corners[i] = state->polygon.corners[chosen.index[i]];
     state->polygon.count = chosen.count;
     facet_contact_measure(&s->pair, &s->terms, state, m);
     if (m->lower > s->terms.margin || !facet_contact_is_top(&s->pair, c, state)) return;

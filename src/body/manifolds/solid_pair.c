@@ -2,6 +2,7 @@
 #include "body/manifolds/solid_pair.h"
 
 #include "linear/rotation.h"
+#include "linear/triangle.h"
 
 ovoid_limit solid_pair_make(solid_pair *p, const ovoid_posed_shape *part, const ovoid_body *solid) {
     const ovoid_shape *a = part->shape;
@@ -68,24 +69,10 @@ uint32_t place_walk_get_next(place_walk *w) {
 
 // ---- triangles
 
-// C. Ericson, Real-time collision detection, 2004: the nearest point of a triangle, by the regions of its corners and
-// edges.
 vec3 solid_find_nearest(const ovoid_solid *solid, uint32_t place, vec3 x) {
-    vec3 a = solid_get_corner(solid, place, 0), b = solid_get_corner(solid, place, 1),
-         c = solid_get_corner(solid, place, 2);
-    vec3 ab = vec3_sub(b, a), ac = vec3_sub(c, a), ax = vec3_sub(x, a), bx = vec3_sub(x, b), cx = vec3_sub(x, c);
-    double d1 = vec3_dot(ab, ax), d2 = vec3_dot(ac, ax), d3 = vec3_dot(ab, bx), d4 = vec3_dot(ac, bx),
-           d5 = vec3_dot(ab, cx), d6 = vec3_dot(ac, cx);
-    if (d1 <= 0 && d2 <= 0) return a;
-    if (d3 >= 0 && d4 <= d3) return b;
-    if (d6 >= 0 && d5 <= d6) return c;
-    double vc = d1 * d4 - d3 * d2, vb = d5 * d2 - d1 * d6, va = d3 * d6 - d5 * d4;
-    if (vc <= 0 && d1 >= 0 && d3 <= 0) return vec3_add_scaled(a, ab, d1 / (d1 - d3));
-    if (vb <= 0 && d2 >= 0 && d6 <= 0) return vec3_add_scaled(a, ac, d2 / (d2 - d6));
-    double e = d4 - d3, f = d5 - d6;
-    if (va <= 0 && e >= 0 && f >= 0) return vec3_add_scaled(b, vec3_sub(c, b), e / (e + f));
-    double sum = va + vb + vc;
-    return sum > 0 ? vec3_add_scaled(vec3_add_scaled(a, ab, vb / sum), ac, vc / sum) : a;
+    const vec3 corner[3] = {solid_get_corner(solid, place, 0), solid_get_corner(solid, place, 1),
+                            solid_get_corner(solid, place, 2)};
+    return triangle_find_nearest(corner, x);
 }
 
 facet_plane solid_pair_get_plane(const solid_pair *p, uint32_t facet) {
