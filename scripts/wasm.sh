@@ -10,7 +10,7 @@ cd "$(dirname "$0")/.."
 jobs=${JOBS:-2} most=350000
 out=build/wasm
 
-for tool in clang wasm-ld node; do
+for tool in clang wasm-ld wasm-opt node; do
     command -v $tool >/dev/null || { echo "wasm: $tool is not here: scripts/setup.sh wasm" >&2 && exit 1; }
 done
 build() {
@@ -23,7 +23,10 @@ build >$out/build.log 2>&1 || { cat $out/build.log >&2 && exit 1; }
 
 rm -rf $out/package
 mkdir -p $out/package
-cp web/package/* $out/cmake/web/ovoid.wasm LICENSE $out/package/
+cp web/package/* LICENSE $out/package/
+# Binaryen's passes keep every answer's bits: it reorders no operation on floats.
+wasm-opt -Oz --enable-simd --enable-bulk-memory --enable-sign-ext --enable-mutable-globals --enable-nontrapping-float-to-int \
+    $out/cmake/web/ovoid.wasm -o $out/package/ovoid.wasm
 version=$(sed -n 's/^ *"version": "\(.*\)",$/\1/p' web/package/package.json)
 [ "$version" = "$(build/release/ovoid --version | sed 's/^ovoid //;q')" ] || { echo "wasm: package.json says $version, the tool another version" >&2 && exit 1; }
 tar -C $out --sort=name --mtime=@0 --owner=0 --group=0 --numeric-owner --use-compress-program='gzip -9n' -cf "$out/ovoid-$version.tgz" package
