@@ -1,8 +1,8 @@
 // Batches: one query of many couples, without the interpreter's lock, on any number of threads.
 //
-// The couples are taken in chunks, by whichever thread is free; what is written for a couple has the bits of the single
-// query, so the chunks and the threads change nothing. The calling thread works too, and looks between its chunks, each
-// of some milliseconds, for signals (Ctrl-C) and calls `progress`.
+// The couples are taken in chunks, by whichever thread is free; what is written for a couple has the same bits
+// whatever is beside it, so the chunks and the threads change nothing. The calling thread works too, and looks between
+// its chunks, each of some milliseconds, for signals (Ctrl-C) and calls `progress`.
 #include "src/bodies.h"
 
 #include <pthread.h>

@@ -15,7 +15,7 @@ typedef struct bodies_object {
 
 // ---- batch_bodies.c
 
-/// A query of many couples of bodies of any kind; what is written for one has the bits of the single query.
+/// A query of many couples of bodies of any kind; what is written for one has the same bits beside any others.
 typedef struct bodies_query {
     query_name name;
     double margin;

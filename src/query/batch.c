@@ -1,4 +1,4 @@
-// One query of many pairs: arrays in, arrays out. Each couple's answer has the bits of the single query's.
+// One query of many pairs: arrays in, arrays out. Each couple's answer has the bits of a batch of that couple alone.
 #include "base/environment.h"
 #include "base/error.h"
 #include "query/batch_simd.h"
@@ -14,8 +14,6 @@ static size_t find_bad_couple(const ovoid_batch *batch) {
     return i;
 }
 
-enum { FEW = 3 };
-
 static ovoid_code find_answers(const ovoid_batch *batch, query_goal goal, ovoid_error *error) {
     OVOID_ASSERT(batch && (batch->couples || !batch->couple_count));
     size_t bad = find_bad_couple(batch);
@@ -23,11 +21,8 @@ static ovoid_code find_answers(const ovoid_batch *batch, query_goal goal, ovoid_
         return error_set(error, OVOID_ERROR_INDEX, (int64_t)bad, "couple %zu names a body past the last of %zu", bad,
                          batch->body_count);
     ovoid_options options;
-    // Refused options are refused couple by couple, a depth has no cheap stages, and few couples do not pay for the
-    // lanes.
-    int is_few = batch->couple_count < FEW;
-    if (!BATCH_SIMD_IS_BUILT || is_few || goal.wants_depth || !options_make(batch->options, &options) ||
-        !(goal.far >= 0))
+    // Refused options are refused couple by couple, and a depth has no cheap stages.
+    if (goal.wants_depth || !options_make(batch->options, &options) || !(goal.far >= 0))
         for (size_t i = 0; i < batch->couple_count; i++) batch_query_single(batch, i, goal);
     else
         batch_run(batch, goal, &options);

@@ -5,9 +5,9 @@
 // origin, a quaternion to be scaled, a refused pose) is queried alone, from the start; so is one with an earlier proof
 // that the spheres leave open.
 //
-// Every lane has the bits of the single query, so nothing depends on which couples share a group, and a batch may be
-// cut anywhere. Working memory: five lane groups on the stack, 26 KB; they are gone while the couples that they left
-// open are searched, which takes more.
+// No lane depends on the others, so nothing depends on which couples share a group, and a batch may be cut anywhere.
+// Working memory: five lane groups on the stack, 26 KB; they are gone while the couples that they left open are
+// searched, which takes more.
 #include "query/batch_simd.h"
 
 #include "base/compiler.h"
@@ -99,8 +99,12 @@ static void put3(lane_column *c, unsigned k, vec3 v) {
 }
 static mat3 get9(const lane_column *c, unsigned k) { return (mat3){get3(c, k), get3(c + 3, k), get3(c + 6, k)}; }
 
-static const ovoid_posed_shape *get_a(const lane_group *e, unsigned k) { return (const void *)e->at.body_a[k]; }
-static const ovoid_posed_shape *get_b(const lane_group *e, unsigned k) { return (const void *)e->at.body_b[k]; }
+// The body whose pose begins at a row of numbers.
+static const ovoid_posed_shape *get_body(const double *pose) {
+    return (const void *)((const char *)pose - offsetof(ovoid_posed_shape, pose));
+}
+static const ovoid_posed_shape *get_a(const lane_group *e, unsigned k) { return get_body(e->at.pose_a[k]); }
+static const ovoid_posed_shape *get_b(const lane_group *e, unsigned k) { return get_body(e->at.pose_b[k]); }
 
 // Lane k of a group.
 typedef struct group_lane {
@@ -332,8 +336,8 @@ static void end_group(const batch_state *c, lane_group *e, unsigned some, const 
 static void fill(lane_group *e, unsigned count) {
     lane_column *column = (lane_column *)e->lanes;
     for (unsigned k = count; k < PAIR8; k++) {
-        e->at.body_a[k] = e->at.body_a[0];
-        e->at.body_b[k] = e->at.body_b[0];
+        e->at.pose_a[k] = e->at.pose_a[0];
+        e->at.pose_b[k] = e->at.pose_b[0];
         for (int i = 0; i < PAIR8_SPHERE_COLUMNS; i++) column[i].lane[k] = column[i].lane[0];
     }
 }
@@ -358,8 +362,8 @@ static void wait_for_others(batch_state *c, const lane_group *e, unsigned k) {
     lane_group *to = &c->waiting[c->waiting_count / PAIR8];
     unsigned at = c->waiting_count++ % PAIR8;
     to->index[at] = e->index[k];
-    to->at.body_a[at] = e->at.body_a[k];
-    to->at.body_b[at] = e->at.body_b[k];
+    to->at.pose_a[at] = e->at.pose_a[k];
+    to->at.pose_b[at] = e->at.pose_b[k];
     const lane_column *from = (const lane_column *)e->lanes;
     lane_column *column = (lane_column *)to->lanes;
     for (int i = 0; i < PAIR8_SPHERE_COLUMNS; i++) column[i].lane[at] = from[i].lane[k];
@@ -413,8 +417,8 @@ static unsigned find_places(const batch_state *c, size_t first, unsigned count, 
         unsigned is_missing = !a->shape || !b->shape;
         if (is_missing) a = b = &no_body;
         e->index[k] = i;
-        e->at.body_a[k] = (const void *)a;
-        e->at.body_b[k] = (const void *)b;
+        e->at.pose_a[k] = &a->pose.position.x;
+        e->at.pose_b[k] = &b->pose.position.x;
         e->at.shape_a[k] = (const void *)a->shape;
         e->at.shape_b[k] = (const void *)b->shape;
         odd |= (is_missing | is_unusual(a->shape, b->shape)) << k;
@@ -514,8 +518,8 @@ COMPILER_NOINLINE static size_t run_lanes(const batch_state *batch, size_t first
     c.waiting_count = 0;
     c.small = &small;
     c.open = open;
-    small_pool_make(&small, &c.goal, (small_owner){end_small, &c, c.wants_evidence});
     size_t count = c.batch->couple_count;
+    small_pool_make(&small, &c.goal, (small_owner){end_small, &c, c.wants_evidence}, count - first);
     for (; first < count && open->count <= OPEN_FULL; first += PAIR8) {
         size_t left = count - first;
         fetch_ahead(c.batch, first);

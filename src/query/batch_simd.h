@@ -1,5 +1,5 @@
 // Couples of a batch, a lane group at a time through the first stages (simd/pair8.h); couples that these leave open go
-// on alone from there. The bits are those of the single query.
+// on alone from there. A couple's bits do not depend on the others.
 #ifndef OVOID_QUERY_BATCH_SIMD_H
 #define OVOID_QUERY_BATCH_SIMD_H
 
@@ -7,16 +7,13 @@
 
 #include <stddef.h>
 
-/// 1 where bodies and shapes lie in memory as the kernels read them, as rows of doubles: a body is a pointer and seven
-/// numbers, aligned to 8 bytes. 32-bit x86 aligns doubles to 4; batches are single queries there.
-enum {
-    BATCH_SIMD_IS_BUILT = sizeof(ovoid_posed_shape) == 8 * sizeof(double) &&
-                          offsetof(ovoid_posed_shape, pose) == sizeof(double) && offsetof(ovoid_shape, radius) == 8 &&
-                          offsetof(ovoid_shape, center) == 16 && offsetof(ovoid_shape, extent) == 40 &&
-                          offsetof(ovoid_shape, first) == 64 &&
-                          offsetof(ovoid_shape, inner) == offsetof(ovoid_shape, outer) + 9 * sizeof(double) &&
-                          sizeof(shape_inner) == 8 * sizeof(double)
-};
+/// Shapes lie in memory as the kernels read them, as rows of doubles; so do poses, which have nothing but numbers.
+_Static_assert(sizeof(ovoid_pose) == 7 * sizeof(double) && offsetof(ovoid_shape, radius) == 8 &&
+                   offsetof(ovoid_shape, center) == 16 && offsetof(ovoid_shape, extent) == 40 &&
+                   offsetof(ovoid_shape, first) == 64 &&
+                   offsetof(ovoid_shape, inner) == offsetof(ovoid_shape, outer) + 9 * sizeof(double) &&
+                   sizeof(shape_inner) == 8 * sizeof(double),
+               "the rows of src/simd/pair8.h");
 
 /// Writes what the batch wants of the answer of couple i.
 void batch_write(const ovoid_batch *batch, size_t i, const ovoid_answer *answer);

@@ -4,10 +4,14 @@
 
 #include "base/compiler.h"
 
-void small_pool_make(small_pool *pool, const query_goal *goal, small_owner owner) {
+// Fewer couples do not pay for the lanes.
+enum { FEW = 3 };
+
+void small_pool_make(small_pool *pool, const query_goal *goal, small_owner owner, size_t count) {
     pool->kernels = gjk8_get_kernels();
     pool->goal = goal;
     pool->owner = owner;
+    pool->has_lanes = count >= FEW;
     for (int i = 0; i < SMALL_POOL_GROUPS; i++) pool->groups[i].active = 0;
 }
 
@@ -63,7 +67,7 @@ void small_pool_add(small_pool *p, size_t index, const placed_query *q) {
         p->owner.finish(p->owner.self, index, q, is_over ? &end : NULL);
         return;
     }
-    if (is_short(q)) {
+    if (!p->has_lanes || is_short(q)) {
         small_gjk_result r;
         simd_run_small_gjk(&gjk, &r);
         p->owner.finish(p->owner.self, index, q, small_finish(q->frame, q->goal, &r, &end) ? &end : NULL);

@@ -1,5 +1,5 @@
 // The couples of a batch whose bodies are small: searched by GJK in lanes (simd/gjk8.h), whose places are filled again
-// as couples end. Each couple has the bits of its single query.
+// as couples end.
 #ifndef OVOID_QUERY_BATCH_SMALL_H
 #define OVOID_QUERY_BATCH_SMALL_H
 
@@ -28,11 +28,13 @@ typedef struct small_pool {
     const gjk8_kernels *kernels;
     const query_goal *goal;
     small_owner owner;
+    int has_lanes; ///< else each couple is searched by itself, which for a few costs less and gives the same bits
     small_couple couples[SMALL_POOL_PLACES];
     gjk8 groups[SMALL_POOL_GROUPS];
 } small_pool;
 
-void small_pool_make(small_pool *pool, const query_goal *goal, small_owner owner);
+/// count: of the couples that will be added, at most.
+void small_pool_make(small_pool *pool, const query_goal *goal, small_owner owner, size_t count);
 
 /// Begins the search of a couple for which small_takes is 1; others may end meanwhile.
 void small_pool_add(small_pool *pool, size_t index, const placed_query *query);

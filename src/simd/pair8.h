@@ -43,11 +43,10 @@ typedef struct pair8 {
 /// How many columns, from the first one on, are written before `ellipsoids`.
 enum { PAIR8_SPHERE_COLUMNS = 3 + 3 + 3 + 3 + 3 + 9 + 9 + 3 + 3 + 1 + 1 };
 
-/// The places of the numbers of a lane group's bodies and shapes. Body: a number that is not read, position xyz,
-/// rotation wxyz. Shape: reach, radius, centre xyz, extent, two that are not read, first vertex xyz, one that is not
-/// read.
+/// The places of the numbers of a lane group's bodies and shapes. Pose: position xyz, rotation wxyz. Shape: reach,
+/// radius, centre xyz, extent, two that are not read, first vertex xyz, one that is not read.
 typedef struct pair8_places {
-    const double *body_a[PAIR8], *body_b[PAIR8], *shape_a[PAIR8], *shape_b[PAIR8];
+    const double *pose_a[PAIR8], *pose_b[PAIR8], *shape_a[PAIR8], *shape_b[PAIR8];
 } pair8_places;
 
 /// The places of the numbers of the ellipsoids. Outer: centre xyz, Q (xx xy xz yy yz zz), inner centre xyz. Inner: W

@@ -231,7 +231,7 @@ export interface Ovoid {
   depth: Ask<Shape | Compound>;
   /** Checks an answer by its proof alone, its status by the tolerance of the options that it was asked with. null: it holds; else what does not. */
   verify(a: AnyBody, b: AnyBody, poseA: Pose | null | undefined, poseB: Pose | null | undefined, answer: AnswerFields, options?: Options): OvoidError | null;
-  /** Many couples [a, b] of bodies at once, eight in lanes; the bits of single queries. */
+  /** Many couples [a, b] of bodies at once, eight in lanes; the statuses of single queries. */
   batch(kind: 'collide' | 'within' | 'distance' | 'depth', bodies: readonly Body[], couples: Uint32Array | readonly (readonly [number, number])[], options?: Omit<Options, 'earlier'> & { margin?: number }): Batch;
   /** The contact of two shapes. earlier: that of a moment ago, which is moved on and measured again where it still holds: ids stay. */
   findManifold(a: Shape, b: Shape, poseA?: Pose | null, poseB?: Pose | null, options?: ManifoldOptions & { earlier?: ManifoldFields }): Manifold;

@@ -113,14 +113,17 @@ test('compounds and solids have the bits of the tool; their proofs hold, altered
   assert.ok(ovoid.verify(solid, solid, null, null, { ...flush, common: [1.5, 1.5, 0.5] }));
 });
 
-test('batches have the bits of single queries', () => {
+test('batches agree with single queries, and with themselves in another order', () => {
   const bodies = makeScene(24).map((o) => ({ shape: Shape.fromPoints(o.points), pose: o.pose })), couples = [];
   for (let i = 0; i < 24; i++) for (let k = 0; k < i; k++) couples.push([k, i]);
   for (const kind of ['collide', 'distance', 'depth']) {
-    const all = ovoid.batch(kind, bodies, couples);
+    const all = ovoid.batch(kind, bodies, couples), back = ovoid.batch(kind, bodies, [...couples].reverse());
+    for (const name of ['status', 'stage', 'lower', 'upper']) assert.deepEqual([...back[name]].reverse(), [...all[name]]);
     couples.forEach(([a, b], i) => {
       const one = ovoid[kind](bodies[a].shape, bodies[b].shape, bodies[a].pose, bodies[b].pose);
-      assert.deepEqual([ovoid.names.status[all.status[i]], ovoid.names.stage[all.stage[i]], all.lower[i], all.upper[i]], [one.status, one.stage, one.lower, one.upper]);
+      assert.equal(ovoid.names.status[all.status[i]], one.status);
+      assert.ok(one.lower <= all.upper[i] && all.lower[i] <= one.upper);
+      if (kind !== 'collide' && one.status === 'separated') assert.ok(all.upper[i] - all.lower[i] <= 1e-7);
     });
   }
   assert.throws(() => ovoid.batch('distance', bodies, [[0, 24]]), { name: 'OvoidError', place: 0 });

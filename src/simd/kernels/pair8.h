@@ -69,7 +69,8 @@ LANES_INLINE lane_mask is_in_reach(lane3 p, double most) {
 
 // What is read of a body.
 typedef struct body_columns {
-    lane_column pose[8]; ///< what is before it, position, rotation
+    lane_column position[4]; ///< and the rotation's first number
+    lane_column rotation[4];
     lane_column head[6];
     lane_column first[4]; ///< vertex 0, what is behind it
 } body_columns;
@@ -81,9 +82,9 @@ typedef struct pair_columns {
 // frame_place, reject_by_spheres and the bounds of rejection_make_answer.
 LANES_INLINE pair8_found compute_spheres(const pair_columns *from, const pair8_query *query, pair8 *o, int at) {
     const body_columns *a = &from->a, *b = &from->b;
-    lane3 origin = get3(a->pose + 1, at), origin_b = get3(b->pose + 1, at);
+    lane3 origin = get3(a->position, at), origin_b = get3(b->position, at);
     lane_mask good = lane_and(is_in_reach(origin, query->length_most), is_in_reach(origin_b, query->length_most));
-    lane9 world = make_rotation(a->pose + 4, at, &good), world_b = make_rotation(b->pose + 4, at, &good);
+    lane9 world = make_rotation(a->rotation, at, &good), world_b = make_rotation(b->rotation, at, &good);
     lane3 offset = lane3_sub(origin_b, origin);
     lane radii = get(a->head + 1, at) + get(b->head + 1, at), reach = get(a->head, at) + get(b->head, at);
     lane size = get(a->head + 5, at) + get(b->head + 5, at) + lane3_norm(offset) + radii;
@@ -132,8 +133,10 @@ static void add_found(pair8_found *all, pair8_found some, int at) {
 
 LANES_TARGET static pair8_found run_spheres(const pair8_places *from, const pair8_query *query, pair8 *o) {
     pair_columns c;
-    read_columns(from->body_a, 0, 8, c.a.pose);
-    read_columns(from->body_b, 0, 8, c.b.pose);
+    read_columns(from->pose_a, 0, 4, c.a.position);
+    read_columns(from->pose_b, 0, 4, c.b.position);
+    read_columns(from->pose_a, 3, 4, c.a.rotation);
+    read_columns(from->pose_b, 3, 4, c.b.rotation);
     read_columns(from->shape_a, 0, 6, c.a.head);
     read_columns(from->shape_b, 0, 6, c.b.head);
     read_columns(from->shape_a, 8, 4, c.a.first);

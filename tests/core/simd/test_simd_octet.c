@@ -52,8 +52,8 @@ static void fill(uint64_t *s) {
             ovoid_posed_shape *a = &bodies[i][0][k], *b = &bodies[i][1][k];
             *a = make_body(s, away);
             *b = make_body(s, away);
-            places[i].body_a[k] = (const void *)a;
-            places[i].body_b[k] = (const void *)b;
+            places[i].pose_a[k] = &a->pose.position.x;
+            places[i].pose_b[k] = &b->pose.position.x;
             places[i].shape_a[k] = &a->shape->reach;
             places[i].shape_b[k] = &b->shape->reach;
             expected[i].from.outer_a[k] = &a->shape->outer.center.x;
