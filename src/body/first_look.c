@@ -1,6 +1,7 @@
 // Most pairs of bodies in a scene are far apart, and all that a yes or no, or a question within a margin, needs of them
 // is the line of the roots' centres. It proves the lower bound for all pairs of parts at once; the upper one is the
-// distance of a vertex of each. So no part is posed and no frame of either body is made.
+// distance of a vertex of each. So no part is posed and no frame of either body is made. Of solids whose balls overlap,
+// long ones mostly, the boxes of the roots may still part them: the caller has their gap.
 //
 // Errors: all is measured in the world, where rotations are off by 36 u, not by 82 u as in the frame of the other body
 // (node_bounds.c, tree_frame.h): its claim covers them, for the bounds and for whoever checks them in the world poses
@@ -40,7 +41,7 @@ static void exclude_all(const body_search *state, vec3 normal, double lower) {
     if (state->exclusions) exclusions_add(state->exclusions, &roots);
 }
 
-int first_look(const body_search *state, const query_goal *goal) {
+int first_look(const body_search *state, const query_goal *goal, const box_gap *boxes) {
     const body_tree *a = &state->a, *b = &state->b;
     const first_sight of_a = see(a), of_b = see(b);
     ovoid_body_answer *out = state->out;
@@ -50,12 +51,13 @@ int first_look(const body_search *state, const query_goal *goal) {
     double length = vec3_norm(between), size = trees_compute_size(a, b, offset),
            claim = trees_compute_claim(a, b, size);
     double lower = length - (of_a.ball_radius + of_b.ball_radius) - claim;
+    if (boxes) lower = boxes->lower - claim;
     if (!(lower > goal->far)) return 0;
     // A vertex of each; the radii go along their difference, which is longer than both.
     vec3 from = mat3_mul_vec3(ra, of_a.vertex), to = mat3_mul_vec3(rb, of_b.vertex);
     vec3 d = vec3_add(offset, vec3_sub(to, from));
     double distance = vec3_norm(d), upper = distance - (of_a.upper_radius + of_b.upper_radius) + claim;
-    vec3 normal = vec3_scale(between, 1 / length);
+    vec3 normal = boxes ? mat3_mul_vec3(ra, boxes->normal) : vec3_scale(between, 1 / length);
     double tolerance = options_compute_tolerance(&state->options, size, 0), allowance = a->allowance + b->allowance;
     const final_bracket bracket = {lower, upper, tolerance + allowance, allowance, OVOID_SEPARATED, OVOID_PROOF_POINTS};
     out->part_a = body_tree_get_index(a, 0);

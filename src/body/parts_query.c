@@ -184,7 +184,7 @@ static void search_parts(body_search *state, const ovoid_body_pair *pair, const 
     }
     set_nodes(state->parts, 0, &state->a);
     set_nodes(state->parts, 1, &state->b);
-    if (goal->far < INFINITY && first_look(state, goal)) return;
+    if (goal->far < INFINITY && first_look(state, goal, NULL)) return;
     find(state, goal, earlier);
 }
 

@@ -76,6 +76,7 @@ typedef struct parts_state {
 typedef struct solids_state {
     triangle_shape rooms[2];
     const solid8_kernels *kernels;
+    box_gap roots; ///< of the boxes of both roots, before there is a normal to try
     // Normals of best pairs, in a's frame; the last one is tried on all boxes. A pair that waits knows which one its
     // bound may rest on.
     vec3 normals[SEARCH_REASONS];

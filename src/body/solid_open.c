@@ -105,12 +105,17 @@ static void pass_on(body_search *state, int side, const children *found, waiting
     if (leaves.count) visit_triangles(state, side, &leaves);
 }
 
+box_gap solids_find_roots_gap(const body_search *state) {
+    turned_box a = body_tree_get_turned_box(&state->a, body_tree_get_root(&state->a)),
+               b = body_tree_get_turned_box(&state->b, body_tree_get_root(&state->b));
+    return tree_frame_find_gap(&state->frame, &a, &b, solids_get_normal(state));
+}
+
 waiting_pair solids_bound_roots(const body_search *state, double enough) {
     (void)enough;
-    tree_ref root_a = body_tree_get_root(&state->a), root_b = body_tree_get_root(&state->b);
-    turned_box a = body_tree_get_turned_box(&state->a, root_a), b = body_tree_get_turned_box(&state->b, root_b);
-    double gap = tree_frame_find_gap(&state->frame, &a, &b, solids_get_normal(state)).lower;
-    return waiting_make(root_a, root_b, gap - state->frame.claim, state->solids->normal_count - 1);
+    uint32_t reason = state->solids->normal_count - 1;
+    double gap = reason ? solids_find_roots_gap(state).lower : state->solids->roots.lower;
+    return waiting_make(body_tree_get_root(&state->a), body_tree_get_root(&state->b), gap - state->frame.claim, reason);
 }
 
 // A node of a solid beside one triangle of the other, if all its children are triangles: they cost no more than their

@@ -70,8 +70,15 @@ static void finish(body_search *state) {
 
 // ---- the beginning
 
-static void begin(body_search *state, const query_goal *goal) {
+// The frame, and the boxes of the roots.
+static void begin_frame(body_search *state) {
     tree_frame_make(&state->a, &state->b, &state->frame);
+    state->solids->normals[0] = (vec3){0, 0, 0};
+    state->solids->normal_count = 1;
+    state->solids->roots = solids_find_roots_gap(state);
+}
+
+static void begin(body_search *state, const query_goal *goal) {
     state->tolerance = tree_frame_compute_tolerance(&state->frame, &state->options);
     // Half for a pair, half for what is left out beside it.
     state->slack = state->options.absolute_tolerance = state->tolerance / 2;
@@ -81,8 +88,6 @@ static void begin(body_search *state, const query_goal *goal) {
     solids_state *solids = state->solids;
     solids->flush.count = 0;
     solids->filter_support = -INFINITY;
-    solids->normals[0] = (vec3){0, 0, 0};
-    solids->normal_count = 1;
     solids->kernels = solid8_get_kernels();
     if (state->a.solid) triangle_begin(&solids->rooms[0]);
     if (state->b.solid) triangle_begin(&solids->rooms[1]);
@@ -96,7 +101,12 @@ static ovoid_limit search_from(body_search *state, const ovoid_body_pair *pair, 
     if (!options_make(request->options, &state->options) || !(goal->far >= 0)) return OVOID_LIMIT_OPTIONS;
     ovoid_limit refused = body_trees_make(pair, &state->a, &state->b);
     if (refused != OVOID_LIMIT_NONE) return refused;
-    if (goal->far < INFINITY && first_look(state, goal)) {
+    int is_seen = goal->far < INFINITY && first_look(state, goal, NULL);
+    if (!is_seen) {
+        begin_frame(state);
+        is_seen = goal->far < INFINITY && first_look(state, goal, &state->solids->roots);
+    }
+    if (is_seen) {
         take_deciding(state->out);
         return OVOID_LIMIT_NONE;
     }

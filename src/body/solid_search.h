@@ -9,6 +9,8 @@ static inline vec3 solids_get_normal(const body_search *state) {
     return state->solids->normals[state->solids->normal_count - 1];
 }
 
+/// The gap of the boxes of both roots, and its direction in a's frame.
+box_gap solids_find_roots_gap(const body_search *state);
 /// The steps (search_kind).
 waiting_pair solids_bound_roots(const body_search *state, double enough);
 void solids_exclude_boxes(body_search *state, const waiting_pair *w);

@@ -7,16 +7,6 @@ static vec3 absolute(vec3 v) { return (vec3){fabs(v.x), fabs(v.y), fabs(v.z)}; }
 
 static mat3 absolute_matrix(mat3 m) { return (mat3){absolute(m.r0), absolute(m.r1), absolute(m.r2)}; }
 
-double trees_compute_size(const body_tree *a, const body_tree *b, vec3 offset) {
-    return a->extent + b->extent + vec3_norm(offset);
-}
-
-double trees_compute_claim(const body_tree *a, const body_tree *b, double size) {
-    double claim = TREE_CLAIM * size + 4 * OVOID_LENGTH_MIN;
-    if (!a->compound && !b->compound) return claim;
-    return claim + 8 * 0x1p-53 * (vec3_norm(a->pose->position) + vec3_norm(b->pose->position));
-}
-
 void tree_frame_make(const body_tree *a, const body_tree *b, tree_frame *f) {
     f->world = quat_to_mat3(a->pose->rotation);
     f->world_b = quat_to_mat3(b->pose->rotation);

@@ -37,8 +37,14 @@ typedef struct tree_frame {
 } tree_frame;
 
 /// The size and the claim of a frame, for bodies whose origins are `offset` apart.
-double trees_compute_size(const body_tree *a, const body_tree *b, vec3 offset);
-double trees_compute_claim(const body_tree *a, const body_tree *b, double size);
+static inline double trees_compute_size(const body_tree *a, const body_tree *b, vec3 offset) {
+    return a->extent + b->extent + vec3_norm(offset);
+}
+static inline double trees_compute_claim(const body_tree *a, const body_tree *b, double size) {
+    double claim = TREE_CLAIM * size + 4 * OVOID_LENGTH_MIN;
+    if (!a->compound && !b->compound) return claim;
+    return claim + 8 * 0x1p-53 * (vec3_norm(a->pose->position) + vec3_norm(b->pose->position));
+}
 
 void tree_frame_make(const body_tree *a, const body_tree *b, tree_frame *frame);
 

@@ -91,6 +91,45 @@ static void check_random(int rounds, double scale, uint64_t seed) {
     CHECK(common > 0 && common < rounds && (inside > 0 || scale != 1));
 }
 
+// Two needles side by side: the balls around them overlap, and where the boxes of their roots part them, these answer.
+static void check_needles(int rounds, uint64_t seed) {
+    int by_boxes = 0, others = 0;
+    for (int i = 0; i < rounds; i++) {
+        uint64_t s = check_seed = seed + (uint64_t)i;
+        mesh needle[2] = {{NULL, NULL, 0, 0, 0, 0}, {NULL, NULL, 0, 0, 0, 0}};
+        ovoid_solid *solids[2];
+        for (int k = 0; k < 2; k++) {
+            mesh_add_star(&needle[k], (ovoid_vec3){0, 0, 0}, 1, 5, 6, 0.3, &s);
+            for (size_t p = 0; p < needle[k].points; p++) needle[k].xyz[3 * p] *= 20;
+            solids[k] = mesh_make_solid(&needle[k]);
+        }
+        ovoid_body_pair pair = {{.solid = solids[0], .pose = {random_vec3(&s, i % 4 ? 1 : 1e4), random_quat(&s)}},
+                                {.solid = solids[1]}};
+        ovoid_vec3 way = random_vec3(&s, 12), at = pair.a.pose.position;
+        pair.b.pose = (ovoid_pose){{at.x + way.x, at.y + way.y, at.z + way.z}, random_quat(&s)};
+        solid_truth t = find_solid_truth(&needle[0], &pair.a.pose, &needle[1], &pair.b.pose);
+        check_pair(&pair, t, i % 4 ? 80 : 4e4, &s);
+        ovoid_exclusion roots;
+        ovoid_exclusions all = {.items = &roots, .capacity = 1};
+        double margin = t.surfaces * random_uniform(&s, 0, 1);
+        ovoid_body_answer x = ovoid_body_within(&pair, margin, NULL, &(ovoid_body_evidence){.exclusions = &all});
+        int is_first = x.tested == 0;
+        by_boxes += is_first;
+        others += !is_first;
+        // One exclusion shows it, and the points are vertices of both.
+        if (is_first) {
+            check_answer(&pair, &x, &all);
+            CHECK(all.count == 1 && x.visited == 1 && x.status == OVOID_SEPARATED && x.lower > margin);
+            CHECK(x.lower <= t.surfaces && t.surfaces <= x.upper);
+        }
+        for (int k = 0; k < 2; k++) ovoid_solid_destroy(solids[k]), mesh_clear(&needle[k]);
+    }
+    check_seed = 0;
+    printf("%d pairs of needles: %d answered by the boxes of their roots\n", rounds, by_boxes);
+    CHECK_LE(rounds / 8, by_boxes);
+    CHECK_LE(rounds / 8, others);
+}
+
 // A solid and a shape, which is a solid of its own hull's triangles to brute force.
 static void check_shapes(int rounds, uint64_t seed) {
     for (int i = 0; i < rounds; i++) {
@@ -276,6 +315,7 @@ int main(void) {
     check_random(60, 1, 1000);
     check_random(30, 1e-20, 2000);
     check_random(30, 1e20, 3000);
+    check_needles(60, 7000);
     check_shapes(40, 4000);
     check_warm();
     return check_end();
