@@ -1,5 +1,5 @@
 // The exact sign of an orientation: a filter in doubles, one in double-double, then Shewchuk expansions of the full
-// determinant.
+// determinant. Planes across or along an axis are seen from the coordinates.
 // J. R. Shewchuk, Adaptive precision floating-point arithmetic and fast robust geometric predicates, 1997.
 #include "linear/exact.h"
 
@@ -69,6 +69,25 @@ static int sign_double_double(vec3 a, vec3 b, vec3 c, vec3 d, double permanent) 
     return (det > bound) - (-det > bound);
 }
 
+// Points that agree in one coordinate lie in a plane across its axis. Points that are pairwise above one another along
+// an axis, as the corners of a prism's side are, lie in a plane along it. Boxes, prisms and cylinders have many of
+// both, whose signs neither filter finds.
+static int is_along(vec3 a, vec3 b, int axis) {
+    return (axis == 0 || a.x == b.x) && (axis == 1 || a.y == b.y) && (axis == 2 || a.z == b.z);
+}
+
+static int is_in_axis_plane(vec3 a, vec3 b, vec3 c, vec3 d) {
+    if (a.x == d.x && b.x == d.x && c.x == d.x) return 1;
+    if (a.y == d.y && b.y == d.y && c.y == d.y) return 1;
+    if (a.z == d.z && b.z == d.z && c.z == d.z) return 1;
+    for (int axis = 0; axis < 3; axis++) {
+        if (is_along(a, d, axis) && is_along(b, c, axis)) return 1;
+        if (is_along(b, d, axis) && is_along(a, c, axis)) return 1;
+        if (is_along(c, d, axis) && is_along(a, b, axis)) return 1;
+    }
+    return 0;
+}
+
 int orient3d_sign(vec3 a, vec3 b, vec3 c, vec3 d) {
     vec3 p = vec3_sub(a, d), q = vec3_sub(b, d), r = vec3_sub(c, d);
     double yz = fabs(q.y * r.z) + fabs(q.z * r.y), zx = fabs(q.z * r.x) + fabs(q.x * r.z);
@@ -78,6 +97,7 @@ int orient3d_sign(vec3 a, vec3 b, vec3 c, vec3 d) {
     double permanent = fabs(p.x) * yz + fabs(p.y) * zx + fabs(p.z) * xy, bound = 8e-16 * permanent;
     if (det > bound) return 1;
     if (-det > bound) return -1;
+    if (is_in_axis_plane(a, b, c, d)) return 0;
     int sign = sign_double_double(a, b, c, d, permanent);
     return sign ? sign : sign_exact(a, b, c, d);
 }

@@ -27,6 +27,41 @@ static void check_eigen(void) {
     check_seed = 0;
 }
 
+// Gives some points coordinates of others, so that planes across and along an axis are common.
+static void share_coordinates(int64_t p[4][3], uint64_t *s) {
+    for (int k = 0; k < 8; k++) {
+        uint64_t bits = random_next(s);
+        p[bits % 4][bits / 16 % 3] = p[bits / 4 % 4][bits / 16 % 3];
+    }
+}
+
+// The sign of det(p0 - p3, p1 - p3, p2 - p3), of integers whose products fit 64 bits.
+static int find_sign(int64_t p[4][3]) {
+    int64_t m[3][3];
+    for (int k = 0; k < 3; k++)
+        for (int j = 0; j < 3; j++) m[k][j] = p[k][j] - p[3][j];
+    int64_t det = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
+                  m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) + m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+    return (det > 0) - (det < 0);
+}
+
+// Points that a plane across or along an axis misses by so little that doubles cannot tell: (x + 1) (x + 1) and x (x +
+// 2) differ by 1. In all orders, along all axes.
+static void check_axis_planes(void) {
+    const int64_t x = (int64_t)1 << 27;
+    const int64_t given[2][4][3] = {{{x + 1, x, 3}, {0, 0, 1}, {x + 2, x + 1, 5}, {0, 0, 0}},
+                                    {{x + 1, x, 0}, {x + 2, x + 1, 0}, {2, 3, 1}, {0, 0, 0}}};
+    for (int turn = 0; turn < 2 * 3 * 256; turn++) {
+        int64_t p[4][3];
+        vec3 v[4];
+        for (int k = 0; k < 4; k++) {
+            for (int j = 0; j < 3; j++) p[k][j] = given[turn % 2][turn / 6 >> 2 * k & 3][(turn / 2 + j) % 3];
+            v[k] = vec3_make((double)p[k][0], (double)p[k][1], (double)p[k][2]);
+        }
+        CHECK_EQ(orient3d_sign(v[0], v[1], v[2], v[3]), find_sign(p));
+    }
+}
+
 // Orientation of points that are coplanar but for the last bit; integer coordinates give the truth exactly.
 static void check_orientation(void) {
     vec3 a = {0, 0, 0}, b = {1, 0, 0}, c = {0, 1, 0};
@@ -44,16 +79,12 @@ static void check_orientation(void) {
             for (int j = 0; j < 3; j++) p[k][j] = (int64_t)(random_next(&s) % 200001) - 100000;
             if (k == 3)
                 for (int j = 0; j < 3; j++) p[3][j] = p[0][j] + p[1][j] - p[2][j] + (int64_t)(random_next(&s) % 3) - 1;
+        }
+        if (i % 2) share_coordinates(p, &s);
+        for (int k = 0; k < 4; k++)
             v[k] = vec3_make((double)p[k][0] * 0x1p-40 + 0x1p10, (double)p[k][1] * 0x1p-40 + 0x1p10,
                              (double)p[k][2] * 0x1p-40 + 0x1p10);
-        }
-        int64_t m[3][3];
-        for (int k = 0; k < 3; k++)
-            for (int j = 0; j < 3; j++) m[k][j] = p[k][j] - p[3][j];
-        int64_t det = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
-                      m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-                      m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-        CHECK_EQ(orient3d_sign(v[0], v[1], v[2], v[3]), (det > 0) - (det < 0));
+        CHECK_EQ(orient3d_sign(v[0], v[1], v[2], v[3]), find_sign(p));
     }
     check_seed = 0;
 }
@@ -166,6 +197,7 @@ int main(void) {
     check_product();
     check_eigen();
     check_orientation();
+    check_axis_planes();
     check_dd3();
     check_rotation();
     check_double_double();
