@@ -11,6 +11,7 @@
 #include "pairs/stages.h"
 #include "pairs/standing.h"
 #include "robots/robots.h"
+#include "setup/setup.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -32,7 +33,9 @@ static const char help[] =
     "  --alone          without the peers built beside it\n"
     "  --stages         instead: which stage decides how many pairs, at what cost; spheres and boxes beside "
     "ellipsoids\n"
-    "  --scale          instead: cost over vertices, pairs and threads; memory and set-up of a shape\n"
+    "  --scale          instead: cost over vertices, pairs and threads; memory of a shape\n"
+    "  --setup          instead: making a shape and reading its file, beside Qhull's and peers' hulls "
+    "(bench/peers/setup_peer.h)\n"
     "  --many           instead: frames of many moving bodies; a robot among parts, for a planner and a monitor\n"
     "  --bodies N,...   with --many: numbers of bodies (1000,10000,100000)\n"
     "  --robot          instead: robots of the data folder among obstacles: states, edges, monitor, matrix\n"
@@ -49,7 +52,7 @@ typedef struct settings {
     effort much;
     field all;
     const char *csv, *svg;
-    int alone, stages, scale, many, robot, contacts;
+    int alone, stages, scale, setup, many, robot, contacts;
     const char *modules[ROBOT_PEERS_MOST];
     uint32_t module_count;
     robots_plan robots;
@@ -186,6 +189,8 @@ static int read_switch(settings *how, const char *name) {
         how->stages = 1;
     else if (!strcmp(name, "--scale"))
         how->scale = 1;
+    else if (!strcmp(name, "--setup"))
+        how->setup = 1;
     else if (!strcmp(name, "--many"))
         how->many = 1;
     else if (!strcmp(name, "--robot"))
@@ -229,6 +234,11 @@ int main(int argc, char **argv) {
     }
     if (how.stages) return !stages_run(&how.what);
     if (how.scale) return !scale_run(how.csv, how.svg, how.pairs, how.what.smoke);
+    if (how.setup) {
+        const setup_plan asked = {how.what.sizes,   how.what.size_count, how.modules,
+                                  how.module_count, how.alone,           how.what.smoke};
+        return !setup_run(&asked, how.csv, how.svg);
+    }
     if (how.many) return !many_run(&how.crowd, how.csv, how.svg, how.alone);
     if (how.robot) return !robots_run_all(&how.robots, how.modules, how.module_count, how.csv, how.svg, how.alone);
     if (how.contacts) {

@@ -1,6 +1,5 @@
 // Cost as the work grows: a query over the vertices of its bodies; many pairs, in one batch and each by its own call; a
-// batch on several threads; a shape's memory and set-up time, compared with reading its file and with Qhull's time for
-// the hull alone.
+// batch on several threads; a shape's memory.
 #define _POSIX_C_SOURCE 200809L
 #include "pairs/scale.h"
 
@@ -13,10 +12,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
-
-#if defined(OVOID_HAVE_QHULL)
-#include <libqhull_r/qhull_ra.h>
-#endif
 
 enum { PASSES = 9, THREADS_MOST = 64 };
 
@@ -60,88 +55,7 @@ static int add_queries(rows *all, const bodies *set) {
     return 1;
 }
 
-// --- set-up
-
-#if defined(OVOID_HAVE_QHULL)
-static int run_qhull(const double *points, uint32_t count) {
-    FILE *nothing = fopen("/dev/null", "w");
-    double *copy = malloc(sizeof(double) * 3 * count);
-    int code = 1;
-    if (nothing && copy) {
-        for (uint32_t i = 0; i < 3 * count; i++) copy[i] = points[i];
-        char command[] = "qhull Qt";
-        qhT qh;
-        int current, total;
-        qh_zero(&qh, nothing);
-        code = qh_new_qhull(&qh, 3, (int)count, copy, 0, command, nothing, nothing);
-        qh_freeqhull(&qh, !qh_ALL);
-        qh_memfreeshort(&qh, &current, &total);
-    }
-    free(copy);
-    if (nothing) (void)fclose(nothing);
-    return code == 0;
-}
-#endif
-
-/// The steps of a set-up; those inside ovoid_shape_create_from_points are run again, alone.
-typedef enum setup { SETUP_SHAPE, SETUP_FILE, SETUP_OUTER, SETUP_INNER, SETUP_TABLES, SETUP_QHULL, SETUP_COUNT } setup;
-static const char *const setup_names[SETUP_COUNT] = {"whole shape",     "file written and read", "outer ellipsoid",
-                                                     "inner ellipsoid", "ovoid_areas, k = 8",    "Qhull's hull"};
-
-static int write_and_read(const ovoid_shape *shape) {
-    size_t size = ovoid_shape_write(shape, NULL, 0);
-    void *bytes = malloc(size);
-    if (!bytes) return 0;
-    (void)ovoid_shape_write(shape, bytes, size);
-    ovoid_shape *read = ovoid_shape_read(bytes, size, NULL, NULL);
-    ovoid_shape_destroy(read);
-    free(bytes);
-    return read != NULL;
-}
-
-/// 0: it failed, or is not available.
-static int run_setup(const body *b, setup step) {
-    ovoid_polytope p = ovoid_shape_get_polytope(b->shape);
-    ovoid_fit fit = ovoid_shape_get_inner(b->shape);
-    switch (step) {
-    case SETUP_SHAPE: {
-        ovoid_shape *shape = ovoid_shape_create_from_points(b->vertices, b->vertex_count, NULL, NULL);
-        ovoid_shape_destroy(shape);
-        return shape != NULL;
-    }
-    case SETUP_FILE: return write_and_read(b->shape);
-    case SETUP_OUTER: return ovoid_ellipsoid_compute_outer(&p, NULL, &fit, NULL) == OVOID_OK;
-    case SETUP_INNER: return ovoid_ellipsoid_compute_inner(&p, NULL, &fit, NULL) == OVOID_OK;
-    case SETUP_TABLES: {
-        ovoid_areas *areas =
-            ovoid_areas_create(&p, &fit.ellipsoid, &(ovoid_areas_options){.split = OVOID_SPLIT_CUBE, .k = 8}, NULL);
-        ovoid_areas_destroy(areas);
-        return areas != NULL;
-    }
-#if defined(OVOID_HAVE_QHULL)
-    case SETUP_QHULL: return run_qhull(b->vertices, b->vertex_count);
-#endif
-    default: return 0;
-    }
-}
-
-/// Each sample is the mean over the set.
-static void add_setup(rows *all, const bodies *set) {
-    double vertices = set->items[0].vertex_count;
-    uint32_t passes = vertices > 5000 ? 3 : 5;
-    for (int step = 0; step < SETUP_COUNT; step++) {
-        double samples[PASSES];
-        int good = 1;
-        for (uint32_t pass = 0; good && pass < passes; pass++) {
-            double start = get_own_seconds();
-            for (uint32_t i = 0; good && i < set->count; i++) good = run_setup(&set->items[i], (setup)step);
-            samples[pass] = (get_own_seconds() - start) / set->count * 1e3;
-        }
-        if (good)
-            rows_add(all, (row){"Set-up of a shape", "vertices", "ms", setup_names[step], vertices,
-                                timing_make(samples, passes), 0, 0});
-    }
-}
+// --- memory
 
 static void add_memory(rows *all, const bodies *set) {
     double bytes = 0;
@@ -168,10 +82,6 @@ static int visit_sizes(rows *all, int smoke, int (*visit)(rows *, const bodies *
     return 1;
 }
 
-static int visit_setup(rows *all, const bodies *set) {
-    add_setup(all, set);
-    return 1;
-}
 static int visit_memory(rows *all, const bodies *set) {
     add_memory(all, set);
     return 1;
@@ -321,7 +231,7 @@ int scale_run(const char *csv, const char *svg, uint32_t most_pairs, int smoke) 
     static rows all;
     printf("%s\n", get_build());
     if (!visit_sizes(&all, smoke, add_queries) || !visit_sizes(&all, smoke, visit_memory) ||
-        !visit_sizes(&all, smoke, visit_setup) || !visit_pairs(&all, most_pairs))
+        !visit_pairs(&all, most_pairs))
         return 0;
     return (!csv || rows_write_csv(&all, csv)) && (!svg || rows_write_svg(&all, svg));
 }

@@ -1,0 +1,205 @@
+// The cost of a shape: made from points, read from its file, and the parts of it that can be run alone, beside Qhull's
+// hull and the hulls of peers. All contestants get the same points, in turn, pass after pass; a sample is the mean over
+// the bodies, in processor time.
+#include "setup/setup.h"
+
+#include "common/build.h"
+#include "common/module.h"
+#include "common/random.h"
+#include "common/rows.h"
+#include "peers/setup_peer.h"
+
+#include <ovoid/ovoid.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#if defined(OVOID_HAVE_QHULL)
+#include <libqhull_r/qhull_ra.h>
+#endif
+
+enum { PASSES = 9, CONTESTANTS_MOST = 16, CLOUDS_MOST = 40, LARGE = 50000 };
+
+static uint32_t get_cloud_count(uint32_t size) { return size > LARGE ? 1 : size > 400 ? 4 : CLOUDS_MOST; }
+
+/// Points, the shape of their hull, and its file.
+typedef struct cloud {
+    double *points;
+    ovoid_shape *shape;
+    void *bytes;
+    size_t size;
+    uint32_t count;
+} cloud;
+
+static void cloud_destroy(cloud *c) {
+    ovoid_shape_destroy(c->shape);
+    free(c->points);
+    free(c->bytes);
+}
+
+/// Points on an ellipsoid, stretched by 1 to 4 along two axes, or evenly in it. Returns 0 if memory runs out.
+static int cloud_create(cloud *c, uint32_t count, int is_inside, uint64_t *state) {
+    *c = (cloud){.points = malloc(sizeof *c->points * 3 * count), .count = count};
+    if (!c->points) return 0;
+    double stretch_y = random_uniform(state, 1, 4), stretch_z = random_uniform(state, 1, 4);
+    for (size_t i = 0; i < count; i++) {
+        ovoid_vec3 p = random_unit(state);
+        double r = is_inside ? cbrt(random_uniform(state, 0, 1)) : 1;
+        c->points[3 * i] = r * p.x;
+        c->points[3 * i + 1] = r * p.y * stretch_y;
+        c->points[3 * i + 2] = r * p.z * stretch_z;
+    }
+    c->shape = ovoid_shape_create_from_points(c->points, count, NULL, NULL);
+    if (!c->shape) return 0;
+    c->size = ovoid_shape_write(c->shape, NULL, 0);
+    c->bytes = malloc(c->size);
+    return c->bytes && ovoid_shape_write(c->shape, c->bytes, c->size) == c->size;
+}
+
+// --- contestants
+
+/// 0: it failed.
+typedef int (*step)(const cloud *c);
+
+static int make_shape(const cloud *c) {
+    ovoid_shape *shape = ovoid_shape_create_from_points(c->points, c->count, NULL, NULL);
+    ovoid_shape_destroy(shape);
+    return shape != NULL;
+}
+
+static int read_file(const cloud *c) {
+    ovoid_shape *shape = ovoid_shape_read(c->bytes, c->size, NULL, NULL);
+    ovoid_shape_destroy(shape);
+    return shape != NULL;
+}
+
+static int fit_outer(const cloud *c) {
+    ovoid_polytope p = ovoid_shape_get_polytope(c->shape);
+    ovoid_fit fit;
+    return ovoid_ellipsoid_compute_outer(&p, NULL, &fit, NULL) == OVOID_OK;
+}
+
+static int fit_inner(const cloud *c) {
+    ovoid_polytope p = ovoid_shape_get_polytope(c->shape);
+    ovoid_fit fit;
+    return ovoid_ellipsoid_compute_inner(&p, NULL, &fit, NULL) == OVOID_OK;
+}
+
+static int make_areas(const cloud *c) {
+    ovoid_polytope p = ovoid_shape_get_polytope(c->shape);
+    ovoid_fit fit = ovoid_shape_get_inner(c->shape);
+    ovoid_areas *areas =
+        ovoid_areas_create(&p, &fit.ellipsoid, &(ovoid_areas_options){.split = OVOID_SPLIT_CUBE, .k = 8}, NULL);
+    ovoid_areas_destroy(areas);
+    return areas != NULL;
+}
+
+#if defined(OVOID_HAVE_QHULL)
+static int run_qhull(const cloud *c) {
+    FILE *nothing = fopen("/dev/null", "w");
+    double *copy = malloc(sizeof(double) * 3 * c->count);
+    int code = 1;
+    if (nothing && copy) {
+        memcpy(copy, c->points, sizeof(double) * 3 * c->count);
+        char command[] = "qhull Qt";
+        qhT qh;
+        int current, total;
+        qh_zero(&qh, nothing);
+        code = qh_new_qhull(&qh, 3, (int)c->count, copy, 0, command, nothing, nothing);
+        qh_freeqhull(&qh, !qh_ALL);
+        qh_memfreeshort(&qh, &current, &total);
+    }
+    free(copy);
+    if (nothing) (void)fclose(nothing);
+    return code == 0;
+}
+#endif
+
+static const struct {
+    const char *name;
+    step run;
+} steps[] = {
+    {"shape", make_shape},          {"shape's file read", read_file},   {"outer ellipsoid", fit_outer},
+    {"inner ellipsoid", fit_inner}, {"ovoid_areas, k = 8", make_areas},
+#if defined(OVOID_HAVE_QHULL)
+    {"Qhull's hull", run_qhull},
+#endif
+};
+enum { STEPS = sizeof steps / sizeof *steps };
+
+typedef struct contestants {
+    const setup_peer *peers[CONTESTANTS_MOST];
+    uint32_t count;
+} contestants;
+
+static int load(contestants *all, const char *path) {
+    const setup_peer *const *(*get)(void) =
+        (const setup_peer *const *(*)(void))module_load(path, "bench_get_setup_peers");
+    if (!get) return 0;
+    for (const setup_peer *const *p = get(); *p && STEPS + all->count < CONTESTANTS_MOST; p++)
+        all->peers[all->count++] = *p;
+    return 1;
+}
+
+static const struct { const char *name, *path; } built[] = {OVOID_BENCH_SETUP_MODULES{NULL, NULL}};
+
+static int load_all(contestants *all, const setup_plan *plan) {
+    for (int i = 0; built[i].name && !plan->alone; i++)
+        if (*built[i].path) (void)load(all, built[i].path);
+    for (uint32_t i = 0; i < plan->module_count; i++)
+        if (!load(all, plan->modules[i])) return 0;
+    return 1;
+}
+
+// --- the table
+
+/// Runs contestant i on all clouds; microseconds a cloud. Negative: it failed.
+static double time_contestant(const contestants *all, uint32_t i, const cloud *clouds, uint32_t count) {
+    int good = 1;
+    double start = get_own_seconds();
+    for (uint32_t k = 0; k < count && good; k++)
+        good =
+            i < STEPS ? steps[i].run(&clouds[k]) : all->peers[i - STEPS]->make(clouds[k].points, clouds[k].count) > 0;
+    return good ? (get_own_seconds() - start) / count * 1e6 : -1;
+}
+
+static void add_clouds(rows *table, const contestants *all, const cloud *clouds, row named) {
+    uint32_t count = get_cloud_count(clouds->count), passes = clouds->count > LARGE ? 2 : PASSES;
+    static double samples[CONTESTANTS_MOST][PASSES];
+    for (uint32_t pass = 0; pass < passes; pass++)
+        for (uint32_t i = 0; i < STEPS + all->count; i++) samples[i][pass] = time_contestant(all, i, clouds, count);
+    for (uint32_t i = 0; i < STEPS + all->count; i++) {
+        named.line = i < STEPS ? steps[i].name : all->peers[i - STEPS]->name;
+        named.y = timing_make(samples[i], passes);
+        if (named.y.least > 0) rows_add(table, named);
+    }
+}
+
+static int add_size(rows *table, const contestants *all, uint32_t size, int is_inside) {
+    cloud clouds[CLOUDS_MOST] = {{0}};
+    uint32_t count = get_cloud_count(size);
+    uint64_t state = size;
+    int good = 1;
+    for (uint32_t k = 0; k < count && good; k++) good = cloud_create(&clouds[k], size, is_inside, &state);
+    row named = {.chart = is_inside ? "Making a shape of points in an ellipsoid"
+                                    : "Making a shape of points on an ellipsoid",
+                 .x_name = "points",
+                 .y_name = "us",
+                 .x = size};
+    if (good) add_clouds(table, all, clouds, named);
+    for (uint32_t k = 0; k < count; k++) cloud_destroy(&clouds[k]);
+    return good;
+}
+
+int setup_run(const setup_plan *plan, const char *csv, const char *svg) {
+    static rows table;
+    contestants all = {.count = 0};
+    if (!load_all(&all, plan)) return 0;
+    printf("%s\n", get_build());
+    uint32_t sizes = plan->smoke && plan->size_count > 2 ? 2 : plan->size_count;
+    for (int is_inside = 0; is_inside < 2; is_inside++)
+        for (uint32_t i = 0; i < sizes; i++)
+            if (!add_size(&table, &all, plan->sizes[i], is_inside)) return 0;
+    return (!csv || rows_write_csv(&table, csv)) && (!svg || rows_write_svg(&table, svg));
+}
