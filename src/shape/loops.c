@@ -1,59 +1,88 @@
 // The boundaries of facets from triangles that know their facet: an edge is on the boundary where the facets of its two
-// sides differ. Around the end of a boundary edge, from triangle to triangle of the same facet, is the next one. While
-// the loops are made, the table of an edge's facet holds its corner.
+// sides differ. Around the end of a boundary edge, from triangle to triangle of the same facet, is the next one.
+//
+// Lists of neighbors ascend. So if the edges are taken in the order of the vertices they lead to, those that begin at
+// one vertex come in the order of its list, and a place that moves along each list numbers them without a search.
 #include "shape/loops.h"
+
+#include <string.h>
 
 #define NOTHING UINT32_MAX
 
 typedef struct tables {
     ovoid_shape *shape;
     const ovoid_polytope *p;
-    uint32_t *tails;   // of directed edges
-    uint32_t *lefts;   // of directed edges, the corner of a triangle where it begins; of a polygon the side
-    uint32_t *edges;   // of the corners of triangles, the directed edge to the next
-    uint32_t *reverse; // of directed edges, the one back
+    uint32_t *tails;                               // of directed edges
+    uint32_t *facets;                              // of directed edges, to the left
+    uint32_t *next;                                // of directed edges, the next of the triangle or side to the left
+    uint32_t *reverse;                             // of directed edges, the one back
+    uint32_t *corners;                             // of the corners of triangles, working memory
+    uint32_t *places, *heads;                      // of vertices, working memory
     uint32_t *starts, *loop_vertices, *loop_edges; // of loops
 } tables;
 
 static uint32_t *get_table(ovoid_shape *shape, uint64_t at) { return (uint32_t *)((char *)shape + at); }
 
-static uint32_t get_facet(const tables *t, uint32_t edge) {
-    return t->p->rank == 3 ? t->p->triangle_facets[t->lefts[edge] / 3] : t->lefts[edge];
+static int is_boundary(const tables *t, uint32_t edge) { return t->facets[t->reverse[edge]] != t->facets[edge]; }
+
+static void start_lists(const tables *t) {
+    memcpy(t->places, t->p->neighbor_starts, t->p->vertex_count * sizeof *t->places);
 }
 
-static int is_boundary(const tables *t, uint32_t edge) { return get_facet(t, t->reverse[edge]) != get_facet(t, edge); }
+// Replaces each corner's vertex by the directed edge that begins there. `reverse` links the corners whose edges lead to
+// one vertex.
+static void number_corners(tables *t) {
+    const ovoid_polytope *p = t->p;
+    memset(t->heads, 0xff, p->vertex_count * sizeof *t->heads);
+    for (uint32_t i = 0; i < 3 * p->triangle_count; i += 3)
+        for (uint32_t k = 0; k < 3; k++) {
+            uint32_t to = p->triangles[i + (k == 2 ? 0 : k + 1)];
+            t->corners[i + k] = p->triangles[i + k];
+            t->reverse[i + k] = t->heads[to];
+            t->heads[to] = i + k;
+        }
+    start_lists(t);
+    for (uint32_t v = 0; v < p->vertex_count; v++)
+        for (uint32_t i = t->heads[v]; i != NOTHING; i = t->reverse[i]) t->corners[i] = t->places[t->corners[i]]++;
+}
 
-static uint32_t get_next_corner(uint32_t corner) { return corner % 3 == 2 ? corner - 2 : corner + 1; }
+static void link_solid(tables *t) {
+    number_corners(t);
+    for (uint32_t i = 0; i < t->p->triangle_count; i++) {
+        const uint32_t *edge = t->corners + 3 * (size_t)i;
+        for (int k = 0; k < 3; k++) {
+            t->next[edge[k]] = edge[k == 2 ? 0 : k + 1];
+            t->facets[edge[k]] = t->p->triangle_facets[i];
+        }
+    }
+    start_lists(t);
+    for (uint32_t i = 0; i < t->shape->counts.neighbors; i++) t->reverse[i] = t->places[t->p->neighbors[i]]++;
+}
 
-// Of a polygon the lists of neighbors hold the corner before, then the corner after.
-static void set_lefts(tables *t) {
+// Of a polygon the lists of neighbors hold the corner before, then the corner after; it has two sides.
+static void link_flat(tables *t) {
+    const ovoid_polytope *p = t->p;
+    for (uint32_t i = 0; i < t->shape->counts.neighbors; i++) {
+        t->facets[i] = p->rank == 2 && i == p->neighbor_starts[t->tails[i]];
+        t->next[i] = p->neighbor_starts[p->neighbors[i]] + (t->facets[i] == 0);
+        t->reverse[i] = shape_find_edge(t->shape, p->neighbors[i], t->tails[i]);
+    }
+}
+
+static void link_edges(tables *t) {
     const ovoid_polytope *p = t->p;
     for (uint32_t v = 0; v < p->vertex_count; v++)
-        for (uint32_t i = p->neighbor_starts[v]; i < p->neighbor_starts[v + 1]; i++) {
-            t->tails[i] = v;
-            t->lefts[i] = p->rank == 2 && i == p->neighbor_starts[v];
-        }
-    for (uint32_t i = 0; p->rank == 3 && i < 3 * p->triangle_count; i++) {
-        t->edges[i] = shape_find_edge(t->shape, p->triangles[i], p->triangles[get_next_corner(i)]);
-        t->lefts[t->edges[i]] = i;
-    }
-    for (uint32_t i = 0; i < t->shape->counts.neighbors; i++) {
-        if (t->tails[i] > p->neighbors[i]) continue;
-        t->reverse[i] = shape_find_edge(t->shape, p->neighbors[i], t->tails[i]);
-        t->reverse[t->reverse[i]] = i;
-    }
-}
-
-// The next edge of the triangle, or side, to the left of a directed edge.
-static uint32_t get_next(const tables *t, uint32_t edge) {
-    if (t->p->rank == 2) return t->p->neighbor_starts[t->p->neighbors[edge]] + (t->lefts[edge] == 0);
-    return t->edges[get_next_corner(t->lefts[edge])];
+        for (uint32_t i = p->neighbor_starts[v]; i < p->neighbor_starts[v + 1]; i++) t->tails[i] = v;
+    if (p->rank == 3)
+        link_solid(t);
+    else
+        link_flat(t);
 }
 
 // The edge of the facet's boundary that begins where this one ends.
 static uint32_t find_next(const tables *t, uint32_t edge) {
-    uint32_t next = get_next(t, edge);
-    while (!is_boundary(t, next)) next = get_next(t, t->reverse[next]);
+    uint32_t next = t->next[edge];
+    while (!is_boundary(t, next)) next = t->next[t->reverse[next]];
     return next;
 }
 
@@ -81,7 +110,7 @@ static int is_convex(const tables *t, const uint32_t *loop, uint32_t count, vec3
     for (uint32_t i = 0; i < count; i++) {
         vec3 side = get_side(t, loop, i, count), next = get_side(t, loop, (i + 1) % count, count);
         double turn = vec3_dot(vec3_cross(side, next), normal);
-        if (turn < -1e-9 * vec3_norm(side) * vec3_norm(next)) return 0;
+        if (turn < 0 && turn < -1e-9 * vec3_norm(side) * vec3_norm(next)) return 0;
         area += vec3_dot(vec3_cross(vec3_sub(vec3_at(t->p->vertices, loop[i]), first), side), normal);
     }
     return area > 0;
@@ -89,23 +118,29 @@ static int is_convex(const tables *t, const uint32_t *loop, uint32_t count, vec3
 
 // Replaces the loop that begins at `start` by the triangle to the left of a directed edge.
 static uint32_t put_triangle(tables *t, uint32_t edge, uint32_t start) {
-    for (uint32_t i = 0; i < 3; i++, edge = get_next(t, edge)) {
+    for (uint32_t i = 0; i < 3; i++, edge = t->next[edge]) {
         t->loop_vertices[start + i] = t->tails[edge];
         t->loop_edges[start + i] = t->tails[edge] < t->p->neighbors[edge] ? edge : t->reverse[edge];
     }
     return start + 3;
 }
 
+// 1 if the loop through a directed edge is the triangle to its left.
+static int is_triangle(const tables *t, uint32_t edge) {
+    return is_boundary(t, t->next[edge]) && is_boundary(t, t->next[t->next[edge]]);
+}
+
 static void fill_loops(tables *t, uint32_t loop_count) {
     for (uint32_t f = 0; f <= loop_count; f++) t->starts[f] = NOTHING;
     for (uint32_t i = t->shape->counts.neighbors; i-- > 0;)
-        if (is_boundary(t, i)) t->starts[get_facet(t, i)] = i;
+        if (is_boundary(t, i)) t->starts[t->facets[i]] = i;
     uint32_t count = 0;
     for (uint32_t f = 0; f < loop_count; f++) {
         uint32_t first = t->starts[f], start = count;
         t->starts[f] = start;
         if (first == NOTHING) continue;
         count = append_loop(t, first, start);
+        if (t->p->rank == 3 && is_triangle(t, first)) continue;
         vec3 normal = shape_get_facet_normal(t->shape, f);
         if (t->p->rank == 3 && !is_convex(t, t->loop_vertices + start, count - start, normal))
             count = put_triangle(t, first, start);
@@ -127,22 +162,26 @@ static void fill_thin(tables *t) {
     }
 }
 
-size_t loops_get_room(block_counts counts) { return 3 * (size_t)counts.triangles + counts.neighbors; }
+size_t loops_get_room(block_counts counts) {
+    return 3 * (size_t)counts.triangles + 2 * ((size_t)counts.neighbors + counts.vertices);
+}
 
 void loops_fill(ovoid_shape *s, const ovoid_polytope *p, uint32_t *room) {
     const block_offsets *at = &s->at;
     tables t = {.shape = s, .p = p};
-    t.edges = room;
     t.tails = get_table(s, at->edge_tails);
-    t.lefts = get_table(s, at->edge_facets);
-    t.reverse = room + 3 * (size_t)p->triangle_count;
+    t.facets = get_table(s, at->edge_facets);
+    t.next = room;
+    t.reverse = t.next + s->counts.neighbors;
+    t.places = t.reverse + s->counts.neighbors;
+    t.heads = t.places + p->vertex_count;
+    t.corners = t.heads + p->vertex_count;
     t.starts = get_table(s, at->loop_starts);
     t.loop_vertices = get_table(s, at->loop_vertices);
     t.loop_edges = get_table(s, at->loop_edges);
-    set_lefts(&t);
+    link_edges(&t);
     if (p->rank < 2)
         fill_thin(&t);
     else
         fill_loops(&t, loops_get_count(p->rank, p->facet_count));
-    for (uint32_t i = 0; i < s->counts.neighbors; i++) t.lefts[i] = get_facet(&t, i);
 }
