@@ -11,6 +11,7 @@
 #include "base/allocator.h"
 #include "linear/exact.h"
 #include "polytope/sort.h"
+#include "simd/areas.h"
 
 #include <string.h>
 
@@ -19,21 +20,17 @@
 // The number of triangles from which radix sort is faster than merge sort.
 #define RADIX_LEAST 256
 
-// a b - c d, rounded.
-static double compute_minor(dd a, dd b, dd c, dd d) { return dd_sub(dd_mul(a, b), dd_mul(c, d)).high; }
-
 vec3 compute_area(vec3 a, vec3 b, vec3 c) {
-    dd px = two_sum(b.x, -a.x), py = two_sum(b.y, -a.y), pz = two_sum(b.z, -a.z);
-    dd qx = two_sum(c.x, -a.x), qy = two_sum(c.y, -a.y), qz = two_sum(c.z, -a.z);
-    return (vec3){compute_minor(py, qz, pz, qy), compute_minor(pz, qx, px, qz), compute_minor(px, qy, py, qx)};
+    const double xyz[9] = {a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z};
+    const uint32_t corners[3] = {0, 1, 2};
+    vec3 area;
+    areas_compute(&(simd_triangles){xyz, corners, 1}, &area);
+    return area;
 }
 
 int surface_compute_areas(surface *s, const double *grid, const ovoid_allocator *allocator) {
     s->areas = allocator_allocate(allocator, s->triangle_count, sizeof *s->areas);
-    for (uint32_t t = 0; t < s->triangle_count && s->areas; t++) {
-        const uint32_t *corner = s->triangles + 3 * (size_t)t;
-        s->areas[t] = compute_area(vec3_at(grid, corner[0]), vec3_at(grid, corner[1]), vec3_at(grid, corner[2]));
-    }
+    if (s->areas) areas_compute(&(simd_triangles){grid, s->triangles, s->triangle_count}, s->areas);
     return s->areas != NULL;
 }
 

@@ -9,8 +9,7 @@
 /// for the rank: 64 roundings, the error of points on a common plane after a rotation or two.
 #define FACET_FLATNESS (64 * 0x1p-53)
 
-/// Twice the area of a triangle as a vector, through double-double: in doubles the normal of a thin triangle is off by
-/// a rounding over its least angle.
+/// Twice the area of a triangle as a vector, through double-double (simd/areas.h).
 vec3 compute_area(vec3 a, vec3 b, vec3 c);
 
 /// Fills s->areas: twice the area of each triangle. 0 if memory runs out. Cost: linear.

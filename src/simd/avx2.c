@@ -7,12 +7,15 @@
 #include "simd/kernels/small_gjk_kept.h"
 
 #define LANES 4
+#include "simd/kernels/areas.h"
 #include "simd/kernels/box_axes.h"
 #include "simd/kernels/epa8.h"
 #include "simd/kernels/gjk8.h"
 #include "simd/kernels/pair8.h"
 #include "simd/kernels/patch.h"
 #include "simd/kernels/solid8.h"
+
+LANES_TARGET void areas_compute_avx2(const simd_triangles *triangles, vec3 *areas) { run_areas(triangles, areas); }
 
 LANES_TARGET int box_axes_find_avx2(const box_axes_query *query, box_axes *out) { return run_axes(query, out); }
 

@@ -24,6 +24,8 @@ static int has(simd_isa isa) { return isa == SIMD_SCALAR; }
 #endif
 
 // One row for each kernel. Those of small bodies are four lanes wide at most.
+static areas_function *const areas_of[SIMD_ISA_COUNT] =
+    KERNELS(areas_compute_scalar, areas_compute_avx2, areas_compute_avx2);
 static box_axes_function *const box_axes_of[SIMD_ISA_COUNT] =
     KERNELS(box_axes_find_scalar, box_axes_find_avx2, box_axes_find_avx512);
 static epa8_function *const epa8_of[SIMD_ISA_COUNT] = KERNELS(epa8_grow_scalar, epa8_grow_avx2, epa8_grow_avx512);
@@ -39,6 +41,7 @@ static small_gjk_kept_function *const find_kept_of[SIMD_ISA_COUNT] =
     KERNELS(small_gjk_find_kept_scalar, small_gjk_find_kept_avx2, small_gjk_find_kept_avx2);
 
 // The kernels of the widest instruction set of this machine.
+void areas_compute(const simd_triangles *triangles, vec3 *areas) { areas_of[find_widest()](triangles, areas); }
 int box_axes_find(const box_axes_query *query, box_axes *out) { return box_axes_of[find_widest()](query, out); }
 epa8_end epa8_grow(epa8 *s, const epa8_query *query) { return epa8_of[find_widest()](s, query); }
 const gjk8_kernels *gjk8_get_kernels(void) { return gjk8_of[find_widest()]; }
@@ -56,6 +59,7 @@ void simd_find_kept(const small_gjk_query *query, const small_gjk_kept *kept, sm
 }
 
 // The kernels of one instruction set, for tests: NULL where this machine or build lacks it.
+areas_function *areas_get(simd_isa isa) { return has(isa) ? areas_of[isa] : NULL; }
 box_axes_function *box_axes_get(simd_isa isa) { return has(isa) ? box_axes_of[isa] : NULL; }
 epa8_function *epa8_get(simd_isa isa) { return has(isa) ? epa8_of[isa] : NULL; }
 const gjk8_kernels *gjk8_get_kernels_of(simd_isa isa) { return has(isa) ? gjk8_of[isa] : NULL; }

@@ -3,12 +3,14 @@
 #ifndef OVOID_SIMD_KERNELS_H
 #define OVOID_SIMD_KERNELS_H
 
+#include "simd/areas.h"
 #include "simd/box_axes.h"
 #include "simd/epa8.h"
 #include "simd/gjk8.h"
 #include "simd/patch.h"
 #include "simd/solid8.h"
 
+areas_function areas_compute_scalar, areas_compute_avx2;
 box_axes_function box_axes_find_scalar, box_axes_find_avx2, box_axes_find_avx512;
 epa8_function epa8_grow_scalar, epa8_grow_avx2, epa8_grow_avx512;
 extern const gjk8_kernels gjk8_scalar, gjk8_avx2, gjk8_avx512;

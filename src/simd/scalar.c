@@ -6,6 +6,7 @@
 
 #include "simd/kernels/small_gjk_kept.h"
 
+#include "simd/kernels/areas.h"
 #include "simd/kernels/box_axes.h"
 #include "simd/kernels/epa8.h"
 #include "simd/kernels/gjk8.h"
@@ -15,6 +16,8 @@
 
 const uint8_t box_axes_first[BOX_AXES] = {0, 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 3, 3, 4, 4};
 const uint8_t box_axes_second[BOX_AXES] = {1, 2, 3, 4, 5, 2, 3, 4, 5, 3, 4, 5, 4, 5, 5, 5};
+
+void areas_compute_scalar(const simd_triangles *triangles, vec3 *areas) { run_areas(triangles, areas); }
 
 int box_axes_find_scalar(const box_axes_query *query, box_axes *out) { return run_axes(query, out); }
 

@@ -2,11 +2,12 @@
 // twin). A kernel is written once over these (kernels/pair8.h) and compiled for each; every operation is IEEE 754's,
 // lane by lane, so all widths give the same bits. Sums and products are the operators. lane_sign is 1 of -0 too; of NaN
 // it is anything. lane_top and lane_min are b where one of them is NaN; lane_find_max is the greatest of the lanes, in
-// all of them.
+// all of them. lane_gather reads p at LANES indices; kernels that are eight wide load columns instead.
 #ifndef OVOID_SIMD_KERNELS_LANES_H
 #define OVOID_SIMD_KERNELS_LANES_H
 
 #include <math.h>
+#include <stdint.h>
 
 #if LANES == 8
 
@@ -58,6 +59,9 @@ typedef __m256d lane_mask;
 LANES_INLINE lane lane_set(double x) { return _mm256_set1_pd(x); }
 LANES_INLINE lane lane_load(const double *x) { return _mm256_loadu_pd(x); }
 LANES_INLINE lane lane_load_floats(const float *x) { return _mm256_cvtps_pd(_mm_loadu_ps(x)); }
+LANES_INLINE lane lane_gather(const double *p, const uint32_t *at) {
+    return _mm256_setr_pd(p[at[0]], p[at[1]], p[at[2]], p[at[3]]);
+}
 LANES_INLINE void lane_store(double *x, lane v) { _mm256_storeu_pd(x, v); }
 LANES_INLINE lane lane_sqrt(lane v) { return _mm256_sqrt_pd(v); }
 LANES_INLINE lane lane_abs(lane v) { return _mm256_andnot_pd(_mm256_set1_pd(-0.0), v); }
@@ -93,6 +97,7 @@ typedef long long lane_mask __attribute__((vector_size(16)));
 LANES_INLINE lane lane_set(double x) { return (lane){x, x}; }
 LANES_INLINE lane lane_load(const double *x) { return (lane)wasm_v128_load(x); }
 LANES_INLINE lane lane_load_floats(const float *x) { return (lane){x[0], x[1]}; }
+LANES_INLINE lane lane_gather(const double *p, const uint32_t *at) { return (lane){p[at[0]], p[at[1]]}; }
 LANES_INLINE void lane_store(double *x, lane v) { wasm_v128_store(x, (v128_t)v); }
 LANES_INLINE lane lane_sqrt(lane v) { return (lane)wasm_f64x2_sqrt((v128_t)v); }
 LANES_INLINE lane lane_abs(lane v) { return (lane)wasm_f64x2_abs((v128_t)v); }
@@ -124,6 +129,7 @@ typedef int lane_mask;
 LANES_INLINE lane lane_set(double x) { return x; }
 LANES_INLINE lane lane_load(const double *x) { return *x; }
 LANES_INLINE lane lane_load_floats(const float *x) { return *x; }
+LANES_INLINE lane lane_gather(const double *p, const uint32_t *at) { return p[*at]; }
 LANES_INLINE void lane_store(double *x, lane v) { *x = v; }
 LANES_INLINE lane lane_sqrt(lane v) { return sqrt(v); }
 LANES_INLINE lane lane_abs(lane v) { return fabs(v); }

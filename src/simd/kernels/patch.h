@@ -3,16 +3,6 @@
 #include "simd/kernels/lanes.h"
 #include "simd/patch.h"
 
-#if LANES == 4
-LANES_INLINE lane lane_gather(const double *p, const uint32_t *at) {
-    return _mm256_setr_pd(p[at[0]], p[at[1]], p[at[2]], p[at[3]]);
-}
-#elif LANES == 2
-LANES_INLINE lane lane_gather(const double *p, const uint32_t *at) { return (lane){p[at[0]], p[at[1]]}; }
-#else
-LANES_INLINE lane lane_gather(const double *p, const uint32_t *at) { return p[*at]; }
-#endif
-
 LANES_INLINE lane place_along(const simd_placing *f, int row, lane3 at) {
     const double *r = f->rows + 3 * row;
     lane sum = (lane_set(r[0]) * at.x + lane_set(r[1]) * at.y) + lane_set(r[2]) * at.z;
