@@ -184,8 +184,7 @@ ovoid_shape *shape_create_from_points(xyz_points given, const ovoid_shape_option
         error_write(error, OVOID_ERROR_ARGUMENT, -1, "the array of points is NULL");
         return NULL;
     }
-    // The working memory of bodies of some 40 vertices; larger ones need the allocator.
-    _Alignas(64) char buffer[16 * 1024];
+    _Alignas(64) char buffer[SHAPE_WORK_SIZE];
     ovoid_allocator allocator = allocator_make(o.allocator);
     arena a;
     ovoid_allocator work = arena_make(&a, &allocator, buffer, sizeof buffer);

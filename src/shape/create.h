@@ -5,6 +5,9 @@
 #include "ovoid/shape.h"
 #include "polytope/hull.h"
 
+/// The working memory on the stack: that of bodies of some 40 vertices; larger ones need the allocator.
+enum { SHAPE_WORK_SIZE = 16 * 1024 };
+
 /// The options with their defaults; NULL allowed. Errors: RADIUS, RANGE, ARGUMENT.
 ovoid_code shape_options_make(const ovoid_shape_options *given, ovoid_shape_options *options, ovoid_error *error);
 

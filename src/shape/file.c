@@ -12,6 +12,7 @@
 // frame, that the rank is right, and that the ellipsoids are proven to enclose and to be enclosed.
 #include "shape/file.h"
 #include "base/allocator.h"
+#include "base/arena.h"
 #include "base/environment.h"
 #include "base/error.h"
 #include "ellipsoid/contain.h"
@@ -143,6 +144,7 @@ typedef struct reader {
     const uint8_t *bytes;
     size_t at;
     ovoid_error *error;
+    const ovoid_allocator *allocator, *work; // of the shape; of working memory
 } reader;
 
 static uint64_t get_integer(reader *r, int bytes) {
@@ -208,7 +210,7 @@ static ovoid_code validate_envelope(reader *r, size_t size, content *c) {
     if (count > 0 && count <= POINTS_MAX) c->at = make_layout((uint32_t)version, (uint32_t)count);
     if (c->at.size != total) return refuse(r, 24, "the number of vertices does not agree with the size");
     c->vertex_count = (uint32_t)count;
-    reader end = {r->bytes, size - CHECKSUM_SIZE, r->error};
+    reader end = {.bytes = r->bytes, .at = size - CHECKSUM_SIZE};
     if (get_integer(&end, 8) != compute_checksum(r->bytes, size - CHECKSUM_SIZE))
         return refuse(r, size - CHECKSUM_SIZE, "the checksum does not agree: the file is damaged");
     return OVOID_OK;
@@ -328,9 +330,9 @@ static ovoid_code set_radius(const reader *r, const content *c, ovoid_shape *sha
     return refuse(r, ALLOWANCE_AT + 8, "the allowance inside is larger than the body");
 }
 
-static ovoid_shape *make_shape(const reader *r, const content *c, hull *polytope, const ovoid_allocator *allocator) {
+static ovoid_shape *make_shape(const reader *r, const content *c, hull *polytope) {
     polytope->origin = c->origin;
-    ovoid_shape *shape = shape_create_block(polytope, allocator, allocator, r->error);
+    ovoid_shape *shape = shape_create_block(polytope, r->allocator, r->work, r->error);
     if (!shape) return NULL;
     shape->report = c->report;
     shape_set_fits(shape, &c->outer, &c->inner);
@@ -340,17 +342,17 @@ static ovoid_shape *make_shape(const reader *r, const content *c, hull *polytope
 }
 
 // The hull of the vertices, computed from the vertices alone.
-static ovoid_code find_hull(const reader *r, const content *c, const ovoid_allocator *allocator, hull *polytope) {
-    ovoid_code code = hull_create((xyz_points){c->vertices, c->vertex_count}, allocator, polytope, r->error);
+static ovoid_code find_hull(const reader *r, const content *c, hull *polytope) {
+    ovoid_code code = hull_create((xyz_points){c->vertices, c->vertex_count}, r->work, polytope, r->error);
     if (code == OVOID_OK || code == OVOID_ERROR_MEMORY) return code;
     return refuse(r, c->at.vertices_at, "the vertices have no hull");
 }
 
 // The hull of the vertices, proven from vertices and triangles.
-static ovoid_code prove_hull(const reader *r, const content *c, const ovoid_allocator *allocator, hull *polytope) {
+static ovoid_code prove_hull(const reader *r, const content *c, hull *polytope) {
     surface_claim claim = {c->vertices, c->vertex_count, c->triangles, c->at.triangle_count, c->inner.ellipsoid.center};
     surface_flaw flaw;
-    ovoid_code code = hull_create_proven(&claim, allocator, polytope, &flaw);
+    ovoid_code code = hull_create_proven(&claim, r->work, polytope, &flaw);
     if (code == OVOID_OK) return code;
     if (code == OVOID_ERROR_MEMORY)
         return error_set(r->error, code, -1, "no memory for a hull of %u vertices", c->vertex_count);
@@ -358,14 +360,13 @@ static ovoid_code prove_hull(const reader *r, const content *c, const ovoid_allo
     return refuse(r, start + each * flaw.index, flaw.what);
 }
 
-static ovoid_shape *read_shape(reader *r, content *c, const ovoid_allocator *allocator) {
+static ovoid_shape *read_shape(reader *r, content *c) {
     if (read_header(r, c) || read_vertices(r, c)) return NULL;
     read_triangles(r, c);
     hull polytope;
-    if (c->at.triangle_count ? prove_hull(r, c, allocator, &polytope) : find_hull(r, c, allocator, &polytope))
-        return NULL;
-    ovoid_shape *shape = validate_hull(r, c, &polytope) ? NULL : make_shape(r, c, &polytope, allocator);
-    hull_destroy(&polytope, allocator);
+    if (c->at.triangle_count ? prove_hull(r, c, &polytope) : find_hull(r, c, &polytope)) return NULL;
+    ovoid_shape *shape = validate_hull(r, c, &polytope) ? NULL : make_shape(r, c, &polytope);
+    hull_destroy(&polytope, r->work);
     return shape;
 }
 
@@ -374,19 +375,22 @@ static ovoid_shape *read_bytes(const void *bytes, size_t size, const ovoid_alloc
         error_write(error, size ? OVOID_ERROR_ARGUMENT : OVOID_ERROR_FORMAT, size ? -1 : 0, "there are no bytes");
         return NULL;
     }
-    reader r = {bytes, 0, error};
+    _Alignas(64) char buffer[SHAPE_WORK_SIZE];
+    ovoid_allocator allocator = allocator_make(given);
+    arena a;
+    ovoid_allocator work = arena_make(&a, &allocator, buffer, sizeof buffer);
+    reader r = {bytes, 0, error, &allocator, &work};
     content c = {0};
     if (validate_envelope(&r, size, &c)) return NULL;
-    ovoid_allocator allocator = allocator_make(given);
     // Vertices, then triangles.
-    c.vertices = allocator_allocate(&allocator, c.at.size, 1);
+    c.vertices = allocator_allocate(&work, c.at.size, 1);
     if (!c.vertices) {
         error_write(error, OVOID_ERROR_MEMORY, -1, "no memory for %u vertices", c.vertex_count);
         return NULL;
     }
     if (c.at.triangle_count) c.triangles = (uint32_t *)(c.vertices + 3 * (size_t)c.vertex_count);
-    ovoid_shape *shape = read_shape(&r, &c, &allocator);
-    allocator_release(&allocator, c.vertices);
+    ovoid_shape *shape = read_shape(&r, &c);
+    allocator_release(&work, c.vertices);
     return shape;
 }
 
