@@ -192,19 +192,112 @@ void measure(const named &x, const named &y, const poses &at, int rounds) {
     std::printf("\n");
 }
 
+/// Objects in a cube, for managers: boxes, spheres and capsules, each with sizes of its own.
+std::vector<std::unique_ptr<fcl::CollisionObjectd>> make_objects(std::mt19937 &engine, int count) {
+    std::uniform_real_distribution<double> part;
+    const double side = 2 * std::cbrt(count);
+    const poses at = make_poses(engine, count, 0);
+    std::vector<std::unique_ptr<fcl::CollisionObjectd>> all;
+    for (std::size_t i = 0; i < at.a.size(); i++) {
+        const auto size = [&] { return 0.5 + part(engine); };
+        geometry of;
+        if (i % 3 == 0)
+            of = std::make_shared<fcl::Boxd>(size(), size(), size());
+        else if (i % 3 == 1)
+            of = std::make_shared<fcl::Sphered>(size() / 2);
+        else
+            of = std::make_shared<fcl::Capsuled>(size() / 4, size());
+        fcl::Transform3d t = at.a[i];
+        t.translation() = side * fcl::Vector3d(part(engine), part(engine), part(engine));
+        all.push_back(std::make_unique<fcl::CollisionObjectd>(of, t));
+        all.back()->computeAABB();
+    }
+    return all;
+}
+
+/// What a callback counts.
+struct tally {
+    long pairs = 0, hits = 0;
+    double least = 1e9;
+};
+template <bool is_ours> bool count_hits(fcl::CollisionObjectd *a, fcl::CollisionObjectd *b, void *data) {
+    auto &to = *static_cast<tally *>(data);
+    fcl::CollisionResultd result;
+    const fcl::CollisionRequestd yes;
+    to.hits += (is_ours ? ovoid::fcl::collide<double>(a, b, yes, result) : fcl::collide<double>(a, b, yes, result)) > 0;
+    return false;
+}
+bool count_pairs(fcl::CollisionObjectd *, fcl::CollisionObjectd *, void *data) {
+    static_cast<tally *>(data)->pairs++;
+    return false;
+}
+template <bool is_ours> bool find_least(fcl::CollisionObjectd *a, fcl::CollisionObjectd *b, void *data, double &least) {
+    auto &to = *static_cast<tally *>(data);
+    fcl::DistanceResultd result;
+    const fcl::DistanceRequestd near;
+    to.least = std::min(to.least, is_ours ? ovoid::fcl::distance<double>(a, b, near, result)
+                                          : fcl::distance<double>(a, b, near, result));
+    least = to.least;
+    return false;
+}
+
+/// FCL's dynamic tree with FCL's calls beside ovoid's manager with ovoid's, step by step. False if they disagree.
+bool measure_managers(int count, int rounds, double step) {
+    std::mt19937 engine(2);
+    std::normal_distribution<double> normal;
+    const auto all = make_objects(engine, count);
+    std::vector<fcl::CollisionObjectd *> list;
+    for (const auto &o : all) list.push_back(o.get());
+    fcl::DynamicAABBTreeCollisionManagerd theirs;
+    ovoid::fcl::BroadPhaseManager<double> ours;
+    theirs.registerObjects(list), ours.registerObjects(list);
+    theirs.setup(), ours.setup();
+    tally warm;
+    ours.collide(&warm, count_hits<true>);
+    sides update, pairs, collide, distance;
+    bool is_same = true;
+    for (int n = 0; n < rounds; n++) {
+        for (auto *o : list) {
+            o->setTranslation(o->getTranslation() +
+                              step * fcl::Vector3d(normal(engine), normal(engine), normal(engine)));
+            o->computeAABB();
+        }
+        tally a, b;
+        update.fcl.add([&] { theirs.update(); }), update.ovoid.add([&] { ours.update(); });
+        pairs.fcl.add([&] { theirs.collide(&a, count_pairs); }),
+            pairs.ovoid.add([&] { ours.collide(&b, count_pairs); });
+        collide.fcl.add([&] { theirs.collide(&a, count_hits<false>); });
+        collide.ovoid.add([&] { ours.collide(&b, count_hits<true>); });
+        distance.fcl.add([&] { theirs.distance(&a, find_least<false>); });
+        distance.ovoid.add([&] { ours.distance(&b, find_least<true>); });
+        for (auto *both : {&update, &pairs, &collide, &distance}) both->fcl.end_round(1), both->ovoid.end_round(1);
+        is_same = is_same && a.pairs == b.pairs && a.hits == b.hits;
+    }
+    std::printf("%6d %5.2f", count, step);
+    for (auto *both : {&update, &pairs, &collide, &distance}) {
+        const double first = both->fcl.get_median(), second = both->ovoid.get_median();
+        std::printf(" | %8.1f %8.1f %6.2f", first / 1e3, second / 1e3, first / second);
+    }
+    std::printf("%s\n", is_same ? "" : " | NOT THE SAME PAIRS");
+    return is_same;
+}
+
 } // namespace
 
 int main(int argc, char **argv) {
-    int calls = 1000, rounds = 7;
+    int calls = 1000, rounds = 7, objects = 1000;
     for (int i = 1; i < argc; i++) {
         if (std::strcmp(argv[i], "--calls") == 0 && i + 1 < argc) {
-            calls = std::max(1, std::atoi(argv[++i]));
+            calls = std::max(0, std::atoi(argv[++i]));
         } else if (std::strcmp(argv[i], "--rounds") == 0 && i + 1 < argc) {
             rounds = std::max(0, std::atoi(argv[++i]));
+        } else if (std::strcmp(argv[i], "--objects") == 0 && i + 1 < argc) {
+            objects = std::max(0, std::atoi(argv[++i]));
         } else {
-            std::printf("bench_fcl_calls [--calls N] [--rounds N]: FCL's calls by FCL and by ovoid; N calls of each "
-                        "pair of types, "
-                        "and N rounds of 100 calls are timed (0: none)\n");
+            std::printf(
+                "bench_fcl_calls [--calls N] [--rounds N] [--objects N]: FCL's calls by FCL and by ovoid; N "
+                "calls of each pair of types (0: none), N rounds of 100 calls are timed (0: none), and managers "
+                "of 100, 1000, ... up to N objects\n");
             return std::strcmp(argv[i], "--help") != 0;
         }
     }
@@ -230,10 +323,15 @@ int main(int argc, char **argv) {
     std::printf(
         "all %ld calls: %ld answers differ, FCL wrong %ld, ovoid wrong %ld, open %ld; %ld of FCL's distances outside\n",
         total.calls, total.answers, total.fcl_wrong, total.ours_wrong, total.open, total.far);
-    if (rounds > 0)
+    if (rounds > 0 && calls > 0)
         std::printf(
             "\nns a call, FCL, ovoid, FCL / ovoid | collide | collide with 4 contacts | distance with points\n");
-    for (std::size_t i = 0; i < all.size() && rounds > 0; i++)
+    for (std::size_t i = 0; i < all.size() && rounds > 0 && calls > 0; i++)
         for (std::size_t j = i; j < all.size(); j++) measure(all[i], all[j], make_poses(engine, 100, 0.5), rounds);
-    return total.ours_wrong > 0;
+    bool is_same = true;
+    if (rounds > 0)
+        std::printf("\nmanagers, us a step, FCL, ovoid, FCL / ovoid | update | pairs | collide | distance\n");
+    for (int count = 100; count <= objects && rounds > 0; count *= 10)
+        for (const double step : {0.0, 0.02}) is_same = measure_managers(count, rounds, step) && is_same;
+    return total.ours_wrong > 0 || !is_same;
 }

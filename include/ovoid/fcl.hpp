@@ -17,6 +17,7 @@
 #include "ovoid/body_impact.h"
 #include "ovoid/fcl/cache.hpp"
 #include "ovoid/fcl/contacts.hpp"
+#include "ovoid/fcl/manager.hpp"
 #include "ovoid/fcl/motions.hpp"
 #include "ovoid/fcl/planes.hpp"
 

@@ -8,6 +8,7 @@
 #define OVOID_FCL_BODY_HPP
 
 #include "ovoid/body.h"
+#include "ovoid/fcl/boxes.hpp"
 #include "ovoid/fcl/pose.hpp"
 #include "ovoid/fcl/print.hpp"
 #include "ovoid/motion.h"
@@ -38,12 +39,10 @@ struct solid_deleter {
 using shape_owner = std::unique_ptr<ovoid_shape, shape_deleter>;
 using solid_owner = std::unique_ptr<ovoid_solid, solid_deleter>;
 
-/// A tree of boxes over the triangles of a solid, in the solid's own order: the halves of a range of n triangles are
-/// the node after it, of the first n / 2, and the node 2 (n / 2) after it, of the others. A shape has one box.
+/// A tree of boxes over the triangles of a solid, in the solid's own order. A shape has one box.
 struct box_tree {
     std::vector<ovoid_box> boxes;
     std::vector<std::uint32_t> order;
-    std::size_t count() const { return order.size(); }
 };
 
 /// A geometry of FCL as a shape or a solid; neither of them if ovoid refused it: then FCL answers.
@@ -88,8 +87,9 @@ class body {
             if (shape_) return make_box();
             const std::uint32_t *order = ovoid_solid_get_order(solid_.get());
             tree_.order.assign(order, order + pieces_.size());
-            tree_.boxes.resize(2 * pieces_.size() - 1);
-            fill(0, 0, pieces_.size());
+            tree_.boxes.resize(count_boxes(pieces_.size()));
+            fill_boxes(tree_.boxes, {0, 0, pieces_.size()},
+                       [this](std::size_t k) { return box_of_triangle(tree_.order[k]); });
         });
         return tree_;
     }
@@ -109,13 +109,6 @@ class body {
         tree_.order.assign(1, 0);
         tree_.boxes.assign(1, box);
     }
-    ovoid_box fill(std::size_t node, std::size_t first, std::size_t end) const {
-        const std::size_t half = (end - first) / 2;
-        const ovoid_box box = half == 0
-                                  ? box_of_triangle(tree_.order[first])
-                                  : join(fill(node + 1, first, first + half), fill(node + 2 * half, first + half, end));
-        return tree_.boxes[node] = box;
-    }
     ovoid_box box_of_triangle(std::uint32_t i) const {
         const double *points = ovoid_solid_get_points(solid_.get());
         std::uint32_t corners[3];
@@ -125,10 +118,6 @@ class body {
             return ovoid_box{{xyz[0], xyz[1], xyz[2]}, {xyz[0], xyz[1], xyz[2]}};
         };
         return join(join(at(0), at(1)), at(2));
-    }
-    static ovoid_box join(const ovoid_box &a, const ovoid_box &b) {
-        return {{std::min(a.min.x, b.min.x), std::min(a.min.y, b.min.y), std::min(a.min.z, b.min.z)},
-                {std::max(a.max.x, b.max.x), std::max(a.max.y, b.max.y), std::max(a.max.z, b.max.z)}};
     }
 
     shape_owner shape_;

@@ -19,6 +19,7 @@
 #include <memory>
 #include <mutex>
 #include <unordered_map>
+#include <vector>
 
 namespace ovoid {
 namespace fcl {
@@ -115,7 +116,8 @@ class store {
 };
 
 /// What one thread used last: sets of two places. The place that was used last stays when its set takes a new entry, so
-/// the two bodies of a call keep each other.
+/// the two bodies of a call keep each other. The sets are doubled when as many entries were put out as there are sets,
+/// up to a limit, so that a scene of many geometries is found without a lock too.
 class table {
   public:
     /// This thread's table. A thread that calls FCL while it ends, after its table, gets one that is not freed.
@@ -148,7 +150,7 @@ class table {
     /// where it is not known.
     template <class S> const body *find(const geometry<S> *g, const std::shared_ptr<const geometry<S>> &owner) {
         const auto address = reinterpret_cast<std::uintptr_t>(g);
-        set &s = sets_[(address >> 4 ^ address >> 12) % set_count];
+        set &s = sets_[pick_set(address)];
         for (std::uint32_t i = 0; i < 2; i++) {
             const place &at = s.places[i];
             if (at.address != g || !has_print(g, at.held->of)) continue;
@@ -159,11 +161,7 @@ class table {
             return e.made.get();
         }
         std::shared_ptr<entry> held = make_entry(g, owner);
-        if (!held) return nullptr;
-        s.last = s.pick(g);
-        place &to = s.places[s.last];
-        to = {g, std::move(held)};
-        return to.held->made.get();
+        return held ? put(g, std::move(held)) : nullptr;
     }
 
   private:
@@ -181,7 +179,32 @@ class table {
             return 1 - last;
         }
     };
-    static constexpr std::size_t set_count = 256;
+    static constexpr std::size_t fewest_sets = 256, most_sets = std::size_t{1} << 15;
+
+    /// The number of sets is a power of two.
+    std::size_t pick_set(std::uintptr_t address) const { return (address >> 4 ^ address >> 12) & (sets_.size() - 1); }
+    const body *put(const void *address, std::shared_ptr<entry> held) {
+        if (evictions_ >= sets_.size() && sets_.size() < most_sets) grow();
+        set &s = sets_[pick_set(reinterpret_cast<std::uintptr_t>(address))];
+        s.last = s.pick(address);
+        place &to = s.places[s.last];
+        evictions_ += to.address && to.address != address;
+        to = {address, std::move(held)};
+        return to.held->made.get();
+    }
+    /// Doubles the sets. An entry keeps its place within its set, and the one that was used last stays so.
+    void grow() {
+        const std::size_t half = sets_.size();
+        sets_.resize(2 * half);
+        for (std::size_t k = 0; k < half; k++) {
+            set &lower = sets_[k], &upper = sets_[k + half];
+            upper.last = lower.last;
+            for (std::uint32_t i = 0; i < 2; i++)
+                if (pick_set(reinterpret_cast<std::uintptr_t>(lower.places[i].address)) != k)
+                    std::swap(lower.places[i], upper.places[i]);
+        }
+        evictions_ = 0;
+    }
 
     /// The entry of all threads, or a new one; NULL if the geometry has no translation.
     template <class S>
@@ -198,7 +221,8 @@ class table {
         return e;
     }
 
-    set sets_[set_count];
+    std::vector<set> sets_ = std::vector<set>(fewest_sets);
+    std::size_t evictions_ = 0; ///< since the sets were doubled
     std::uint64_t sweeps_ = 0;
 };
 

@@ -83,34 +83,13 @@ class box_test {
     double turn_[9], size_[9], at_[3], reach_;
 };
 
-/// A node of a box_tree, with its range of the order.
-struct box_range {
-    std::size_t node, first, end;
-    bool is_leaf() const { return end - first == 1; }
-    box_range lower() const { return {node + 1, first, first + (end - first) / 2}; }
-    box_range upper() const { return {node + 2 * ((end - first) / 2), first + (end - first) / 2, end}; }
-};
-
-/// Goes through the pairs of a triangle (or the shape) of a and one of b whose boxes meet, until `take` returns false.
-template <class Take> class pair_search {
-  public:
-    pair_search(const body_couple &of, Take take) : a_(of.a->tree()), b_(of.b->tree()), may_meet_(of), take_(take) {}
-    bool run() { return visit({0, 0, a_.count()}, {0, 0, b_.count()}); }
-
-  private:
-    bool visit(const box_range &x, const box_range &y) {
-        if (!may_meet_(a_.boxes[x.node], b_.boxes[y.node])) return true;
-        if (x.is_leaf() && y.is_leaf()) return take_(a_.order[x.first], b_.order[y.first]);
-        if (y.is_leaf() || (!x.is_leaf() && x.end - x.first >= y.end - y.first))
-            return visit(x.lower(), y) && visit(x.upper(), y);
-        return visit(x, y.lower()) && visit(x, y.upper());
-    }
-
-    const box_tree &a_, &b_;
-    box_test may_meet_;
-    Take take_;
-};
-template <class Take> void search_pairs(const body_couple &of, Take take) { pair_search<Take>(of, take).run(); }
+/// Goes through the pairs of a triangle (or the shape) of a and one of b whose boxes meet, until `take` returns true.
+template <class Take> void search_pairs(const body_couple &of, Take take) {
+    const box_tree &a = of.a->tree(), &b = of.b->tree();
+    const auto take_leaves = [&](std::size_t i, std::size_t j) { return take(a.order[i], b.order[j]); };
+    pair_search(a.boxes.data(), b.boxes.data(), box_test(of), take_leaves)
+        .visit({0, 0, a.order.size()}, {0, 0, b.order.size()});
+}
 
 /// Adds contacts to a result of FCL.
 template <class S> class contact_list {
@@ -217,7 +196,7 @@ template <class S> void collide_meshes(contact_list<S> &to, const body_couple &o
     if (before > 1)
         search_pairs(of, [&](std::uint32_t i, std::uint32_t j) {
             collide_parts(to, of, i, j);
-            return to.room() > 0;
+            return to.room() == 0;
         });
     if (to.room() < before) return;
     // One is wanted, or rounding lets only the whole query see the contact.

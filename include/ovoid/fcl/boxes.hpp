@@ -1,0 +1,125 @@
+/**
+ * @file boxes.hpp
+ * Trees of axis-aligned boxes for <ovoid/fcl.hpp>: over the triangles of a mesh, and over the objects of a broad-phase
+ * manager. A tree is an array in the order of a depth-first walk, without links: every range of leaves is halved.
+ */
+#ifndef OVOID_FCL_BOXES_HPP
+#define OVOID_FCL_BOXES_HPP
+
+#include "ovoid/motion.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+namespace ovoid {
+namespace fcl {
+namespace detail {
+
+inline ovoid_box join(const ovoid_box &a, const ovoid_box &b) {
+    return {{std::min(a.min.x, b.min.x), std::min(a.min.y, b.min.y), std::min(a.min.z, b.min.z)},
+            {std::max(a.max.x, b.max.x), std::max(a.max.y, b.max.y), std::max(a.max.z, b.max.z)}};
+}
+
+/// Have the boxes a common point? Of NaN they have. All six comparisons are made, which is faster than to branch.
+struct overlap_test {
+    bool operator()(const ovoid_box &a, const ovoid_box &b) const {
+        const auto is_beyond = [](const ovoid_vec3 &low, const ovoid_vec3 &high) {
+            return static_cast<int>(low.x > high.x) | static_cast<int>(low.y > high.y) |
+                   static_cast<int>(low.z > high.z);
+        };
+        return (is_beyond(a.min, b.max) | is_beyond(b.min, a.max)) == 0;
+    }
+};
+
+/// The square of the distance of two boxes.
+inline double compute_gap2(const ovoid_box &a, const ovoid_box &b) {
+    const double x = std::max(0.0, std::max(a.min.x - b.max.x, b.min.x - a.max.x)),
+                 y = std::max(0.0, std::max(a.min.y - b.max.y, b.min.y - a.max.y)),
+                 z = std::max(0.0, std::max(a.min.z - b.max.z, b.min.z - a.max.z));
+    return x * x + y * y + z * z;
+}
+
+/// A node of a tree of boxes, and the range of its leaves. The halves of a range of n leaves are the node after it, of
+/// the first n / 2 leaves, and the node 2 (n / 2) after it, of the others.
+struct box_range {
+    std::size_t node, first, end;
+    bool is_leaf() const { return end - first == 1; }
+    std::size_t half() const { return (end - first) / 2; }
+    box_range lower() const { return {node + 1, first, first + half()}; }
+    box_range upper() const { return {node + 2 * half(), first + half(), end}; }
+};
+
+/// The number of boxes of a tree of so many leaves.
+inline std::size_t count_boxes(std::size_t leaves) { return leaves > 0 ? 2 * leaves - 1 : 0; }
+
+/// Writes the boxes of a range: box_of(i) is that of leaf i, and each other one holds its halves.
+template <class BoxOf> ovoid_box fill_boxes(std::vector<ovoid_box> &boxes, const box_range &at, const BoxOf &box_of) {
+    const ovoid_box box = at.is_leaf()
+                              ? box_of(at.first)
+                              : join(fill_boxes(boxes, at.lower(), box_of), fill_boxes(boxes, at.upper(), box_of));
+    return boxes[at.node] = box;
+}
+
+/// Goes through the pairs of a leaf of one tree and one of another that `may_meet` does not part, until `take` returns
+/// true: then it returns true.
+template <class Test, class Take> class pair_search {
+  public:
+    pair_search(const ovoid_box *a, const ovoid_box *b, const Test &may_meet, Take &take)
+        : a_(a), b_(b), may_meet_(may_meet), take_(take) {}
+
+    bool visit(const box_range &x, const box_range &y) const {
+        if (!may_meet_(a_[x.node], b_[y.node])) return false;
+        if (x.is_leaf() && y.is_leaf()) return take_(x.first, y.first);
+        if (y.is_leaf() || (!x.is_leaf() && x.end - x.first >= y.end - y.first))
+            return visit(x.lower(), y) || visit(x.upper(), y);
+        return visit(x, y.lower()) || visit(x, y.upper());
+    }
+    /// The pairs of two leaves of one range; both trees are the same.
+    bool visit_own(const box_range &x) const {
+        return !x.is_leaf() && (visit_own(x.lower()) || visit_own(x.upper()) || visit(x.lower(), x.upper()));
+    }
+
+  private:
+    const ovoid_box *a_, *b_;
+    const Test &may_meet_;
+    Take &take_;
+};
+
+/// Goes through the pairs of leaves whose boxes are nearer than a bound, nearer halves first, until `take` returns
+/// true. The bound is the square of a distance, and `take` may lower it.
+template <class Take> class near_search {
+  public:
+    near_search(const ovoid_box *a, const ovoid_box *b, const double &bound2, Take &take)
+        : a_(a), b_(b), bound2_(bound2), take_(take) {}
+
+    bool visit(const box_range &x, const box_range &y) const { return gap2(x, y) < bound2_ && visit_near(x, y); }
+    bool visit_own(const box_range &x) const {
+        return !x.is_leaf() && (visit_own(x.lower()) || visit_own(x.upper()) || visit(x.lower(), x.upper()));
+    }
+
+  private:
+    double gap2(const box_range &x, const box_range &y) const { return compute_gap2(a_[x.node], b_[y.node]); }
+    bool visit_near(const box_range &x, const box_range &y) const {
+        if (x.is_leaf() && y.is_leaf()) return take_(x.first, y.first);
+        if (y.is_leaf() || (!x.is_leaf() && x.end - x.first >= y.end - y.first))
+            return visit_both(x.lower(), y, x.upper(), y);
+        return visit_both(x, y.lower(), x, y.upper());
+    }
+    bool visit_both(const box_range &x, const box_range &y, const box_range &z, const box_range &w) const {
+        const double first = gap2(x, y), second = gap2(z, w);
+        if (second < first) return (second < bound2_ && visit_near(z, w)) || (first < bound2_ && visit_near(x, y));
+        return (first < bound2_ && visit_near(x, y)) || (second < bound2_ && visit_near(z, w));
+    }
+
+    const ovoid_box *a_, *b_;
+    const double &bound2_;
+    Take &take_;
+};
+
+} // namespace detail
+} // namespace fcl
+} // namespace ovoid
+
+#endif

@@ -1,0 +1,337 @@
+/**
+ * @file manager.hpp
+ * A broad-phase manager with the interface of FCL's, for <ovoid/fcl.hpp>. A tree of boxes is built over all objects by
+ * halving them along the longest axis of their centres; objects that are registered after that are kept in a list
+ * beside it until they are a sixteenth of all, or until the next setup() or update(). An update refits the tree, and
+ * builds it anew where its boxes have grown by a fifth.
+ */
+#ifndef OVOID_FCL_MANAGER_HPP
+#define OVOID_FCL_MANAGER_HPP
+
+#include "ovoid/fcl/boxes.hpp"
+#include "ovoid/fcl/pose.hpp"
+
+#include <fcl/fcl.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <unordered_map>
+#include <vector>
+
+namespace ovoid {
+namespace fcl {
+
+/**
+ * FCL's manager of objects, in the place of fcl::DynamicAABBTreeCollisionManager and its sisters. The objects remain
+ * the caller's and must live while they are registered. Their boxes are those of the last registration or update, as in
+ * FCL: after an object was moved, obj->computeAABB() and update(). A callback that returns true ends the query.
+ *
+ * An object is registered once, however often it is handed in; one that is not registered is not updated or
+ * unregistered. Queries do not change the manager: several threads may ask one at the same time, but not change it.
+ * Octrees are objects like others.
+ */
+template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionManager<S> {
+  public:
+    using object = ::fcl::CollisionObject<S>;
+    using base = ::fcl::BroadPhaseCollisionManager<S>;
+
+    /** Adds objects with their present boxes and builds the tree. */
+    void registerObjects(const std::vector<object *> &objects) override {
+        for (object *o : objects) add(o);
+        build();
+    }
+    /** Adds an object with its present box. */
+    void registerObject(object *o) override {
+        add(o);
+        if (count_recent() > 16 + leaves_ / 16) build();
+    }
+    /** Removes an object. */
+    void unregisterObject(object *o) override {
+        const auto found = places_.find(o);
+        if (found == places_.end()) return;
+        const std::size_t place = found->second;
+        places_.erase(found);
+        objects_[place] = nullptr;
+        set_box(place, empty_box());
+        if (places_.size() < objects_.size() / 2) build();
+    }
+    /** Builds the tree, if objects were registered since it was built. */
+    void setup() override {
+        if (count_recent() > 0) build();
+    }
+    /** Reads the boxes of all objects. */
+    void update() override {
+        if (count_recent() > 0) return build();
+        if (leaves_ == 0) return;
+        refit();
+        if (!(measure() <= 1.2 * measure_)) build();
+    }
+    /** Reads the box of one object. */
+    void update(object *o) override {
+        const auto found = places_.find(o);
+        if (found != places_.end()) set_box(found->second, box_of(o));
+        setup();
+    }
+    /** Reads the boxes of some objects. */
+    void update(const std::vector<object *> &objects) override {
+        if (objects.size() > objects_.size() / 8) return update();
+        for (object *o : objects) update(o);
+    }
+    /** Removes all objects. */
+    void clear() override {
+        places_.clear();
+        build();
+    }
+    /** Writes the objects in the place of what the vector holds. */
+    void getObjects(std::vector<object *> &objects) const override {
+        objects.clear();
+        for (object *o : objects_)
+            if (o) objects.push_back(o);
+    }
+    bool empty() const override { return places_.empty(); }
+    std::size_t size() const override { return places_.size(); }
+
+    /** Calls back with each object whose box meets that of `o`, and `o`. */
+    void collide(object *o, void *data, ::fcl::CollisionCallBack<S> callback) const override {
+        const ovoid_box box = box_of(o);
+        const auto take = [&](std::size_t i) { return objects_[i] && callback(objects_[i], o, data); };
+        find_overlaps(box, objects_.size(), take);
+    }
+    /** Calls back with the objects whose boxes are nearer to that of `o` than the least distance so far, and `o`. */
+    void distance(object *o, void *data, ::fcl::DistanceCallBack<S> callback) const override {
+        nearest found(callback, data);
+        find_near(o, found);
+    }
+    /** Calls back with each two objects whose boxes meet. */
+    void collide(void *data, ::fcl::CollisionCallBack<S> callback) const override {
+        const auto take = [&](std::size_t i, std::size_t j) {
+            return objects_[i] && objects_[j] && callback(objects_[i], objects_[j], data);
+        };
+        if (leaves_ > 0 &&
+            detail::pair_search(boxes_.data(), boxes_.data(), detail::overlap_test(), take).visit_own(root()))
+            return;
+        for (std::size_t k = leaves_; k < objects_.size(); k++)
+            if (objects_[k] && find_overlaps(box_at(k), k, [&](std::size_t i) { return take(i, k); })) return;
+    }
+    /** Calls back with two objects while their boxes are nearer than the least distance so far. */
+    void distance(void *data, ::fcl::DistanceCallBack<S> callback) const override {
+        nearest found(callback, data);
+        if (leaves_ > 0 && find_own(found)) return;
+        for (std::size_t k = leaves_; k < objects_.size(); k++)
+            if (objects_[k] && find_near(box_at(k), k, found, objects_[k])) return;
+    }
+    /**
+     * Calls back with each object of this manager and each of the other whose boxes meet. The other one may be any
+     * manager of FCL: then its objects are asked one by one, by their present boxes. FCL's managers cannot be asked
+     * with one of this class, as they take it for one of their own.
+     */
+    void collide(base *other, void *data, ::fcl::CollisionCallBack<S> callback) const override {
+        bool is_done = false;
+        const auto take = [&](object *x, object *y) { return is_done = x && y && callback(x, y, data); };
+        if (other == this) return collide(data, callback);
+        const auto *ours = dynamic_cast<const BroadPhaseManager *>(other);
+        if (!ours) {
+            for (object *o : objects_of(*other))
+                if (find_overlaps(box_of(o), objects_.size(), [&](std::size_t i) { return take(objects_[i], o); }))
+                    return;
+            return;
+        }
+        const auto take_leaves = [&](std::size_t i, std::size_t j) { return take(objects_[i], ours->objects_[j]); };
+        if (leaves_ > 0 && ours->leaves_ > 0 &&
+            detail::pair_search(boxes_.data(), ours->boxes_.data(), detail::overlap_test(), take_leaves)
+                .visit(root(), ours->root()))
+            return;
+        for (std::size_t k = ours->leaves_; k < ours->objects_.size(); k++)
+            if (find_overlaps(ours->box_at(k), objects_.size(), [&](std::size_t i) { return take_leaves(i, k); }))
+                return;
+        for (std::size_t k = leaves_; k < objects_.size(); k++)
+            if (ours->find_overlaps(box_at(k), ours->leaves_, [&](std::size_t j) { return take_leaves(k, j); })) return;
+    }
+    /** Calls back with an object of each manager while their boxes are nearer than the least distance so far. */
+    void distance(base *other, void *data, ::fcl::DistanceCallBack<S> callback) const override {
+        if (other == this) return distance(data, callback);
+        nearest found(callback, data);
+        for (object *o : objects_of(*other))
+            if (find_near(o, found)) return;
+    }
+
+  private:
+    /// The callback of a distance query, and the least distance so far.
+    class nearest {
+      public:
+        nearest(::fcl::DistanceCallBack<S> callback, void *data) : callback_(callback), data_(data) {}
+        /// True if the query is over: the callback says so, or no two boxes can be nearer.
+        bool take(object *x, object *y) {
+            if (!x || !y) return false;
+            if (callback_(x, y, data_, least_)) return true;
+            const double least = static_cast<double>(least_);
+            bound2_ = least > 0 ? least * least : 0;
+            return bound2_ == 0;
+        }
+        const double &bound2() const { return bound2_; }
+
+      private:
+        ::fcl::DistanceCallBack<S> callback_;
+        void *data_;
+        S least_ = std::numeric_limits<S>::max();
+        double bound2_ = std::numeric_limits<double>::infinity();
+    };
+
+    static ovoid_box box_of(const object *o) {
+        const auto &box = o->getAABB();
+        return {detail::to_vec3<S>(box.min_), detail::to_vec3<S>(box.max_)};
+    }
+    /// In the place of an object that was removed: it meets nothing.
+    static ovoid_box empty_box() {
+        const double far = std::numeric_limits<double>::infinity();
+        return {{far, far, far}, {-far, -far, -far}};
+    }
+    static std::vector<object *> objects_of(const base &manager) {
+        std::vector<object *> objects;
+        manager.getObjects(objects);
+        return objects;
+    }
+
+    detail::box_range root() const { return {0, 0, leaves_}; }
+    std::size_t count_recent() const { return objects_.size() - leaves_; }
+    const ovoid_box &box_at(std::size_t recent) const { return recent_[recent - leaves_]; }
+
+    void add(object *o) {
+        const auto found = places_.emplace(o, objects_.size());
+        if (!found.second) return set_box(found.first->second, box_of(o));
+        objects_.push_back(o);
+        recent_.push_back(box_of(o));
+    }
+    /// Sets the box of an object, and those of the tree that hold it.
+    void set_box(std::size_t place, const ovoid_box &box) {
+        if (place >= leaves_)
+            recent_[place - leaves_] = box;
+        else
+            set_box(root(), place, box);
+    }
+    void set_box(const detail::box_range &at, std::size_t place, const ovoid_box &box) {
+        if (at.is_leaf()) {
+            boxes_[at.node] = box;
+            return;
+        }
+        const detail::box_range lower = at.lower(), upper = at.upper();
+        set_box(place < lower.end ? lower : upper, place, box);
+        boxes_[at.node] = detail::join(boxes_[lower.node], boxes_[upper.node]);
+    }
+    void refit() {
+        detail::fill_boxes(boxes_, root(),
+                           [this](std::size_t i) { return objects_[i] ? box_of(objects_[i]) : empty_box(); });
+    }
+    /// The sum of the lengths of all boxes that hold an object.
+    double measure() const {
+        double sum = 0;
+        for (const ovoid_box &box : boxes_)
+            if (box.min.x <= box.max.x)
+                sum += (box.max.x - box.min.x) + (box.max.y - box.min.y) + (box.max.z - box.min.z);
+        return sum;
+    }
+
+    /// An object and the doubled centre of its box, for the build.
+    struct item {
+        object *of;
+        double centre[3];
+    };
+    /// Builds the tree over all objects that are registered.
+    void build() {
+        std::vector<item> items;
+        items.reserve(places_.size());
+        for (object *o : objects_)
+            if (o && places_.count(o) > 0) items.push_back(make_item(o));
+        if (!items.empty()) split(items.data(), items.data() + items.size());
+        leaves_ = items.size();
+        objects_.resize(leaves_);
+        recent_.clear();
+        boxes_.resize(detail::count_boxes(leaves_));
+        for (std::size_t i = 0; i < leaves_; i++) {
+            objects_[i] = items[i].of;
+            places_[items[i].of] = i;
+        }
+        if (leaves_ > 0) refit();
+        measure_ = measure();
+    }
+    static item make_item(object *o) {
+        const ovoid_box box = box_of(o);
+        item made{o, {box.min.x + box.max.x, box.min.y + box.max.y, box.min.z + box.max.z}};
+        for (double &c : made.centre)
+            if (!std::isfinite(c)) c = 0; // no order is known of NaN
+        return made;
+    }
+    /// Puts the items into the order of the tree's leaves.
+    static void split(item *first, item *end) {
+        const auto half = (end - first) / 2;
+        if (half == 0) return;
+        int axis = 0;
+        double longest = -1;
+        for (int k = 0; k < 3; k++) {
+            const auto ends = std::minmax_element(
+                first, end, [k](const item &x, const item &y) { return x.centre[k] < y.centre[k]; });
+            const double length = ends.second->centre[k] - ends.first->centre[k];
+            if (length > longest) longest = length, axis = k;
+        }
+        std::nth_element(first, first + half, end,
+                         [axis](const item &x, const item &y) { return x.centre[axis] < y.centre[axis]; });
+        split(first, first + half);
+        split(first + half, end);
+    }
+
+    /// Takes the places below `end` whose boxes meet a box, until `take` returns true: then it returns true.
+    template <class Take> bool find_overlaps(const ovoid_box &box, std::size_t end, const Take &take) const {
+        const auto take_leaf = [&](std::size_t i, std::size_t) { return take(i); };
+        if (leaves_ > 0 &&
+            detail::pair_search(boxes_.data(), &box, detail::overlap_test(), take_leaf).visit(root(), {0, 0, 1}))
+            return true;
+        for (std::size_t k = leaves_; k < end; k++)
+            if (detail::overlap_test()(box_at(k), box) && take(k)) return true;
+        return false;
+    }
+    bool find_near(object *o, nearest &found) const { return find_near(box_of(o), objects_.size(), found, o); }
+    /// Asks for the places below `end` and an object with this box.
+    bool find_near(const ovoid_box &box, std::size_t end, nearest &found, object *o) const {
+        const auto take = [&](std::size_t i, std::size_t) { return found.take(objects_[i], o); };
+        if (leaves_ > 0 && detail::near_search(boxes_.data(), &box, found.bound2(), take).visit(root(), {0, 0, 1}))
+            return true;
+        for (std::size_t k = leaves_; k < end; k++)
+            if (detail::compute_gap2(box_at(k), box) < found.bound2() && take(k, 0)) return true;
+        return false;
+    }
+    /// Asks for the pairs of the tree. Those with the nearest boxes come first, as the distance of one of them ends
+    /// most of the search.
+    bool find_own(nearest &found) const {
+        double least2 = std::numeric_limits<double>::infinity();
+        std::size_t first = 0, second = 0;
+        const auto seek = [&](std::size_t i, std::size_t j) {
+            least2 = detail::compute_gap2(leaf_box(i), leaf_box(j)), first = i, second = j;
+            return least2 == 0;
+        };
+        detail::near_search(boxes_.data(), boxes_.data(), least2, seek).visit_own(root());
+        if (first != second && found.take(objects_[first], objects_[second])) return true;
+        const auto take = [&](std::size_t i, std::size_t j) {
+            return (i != first || j != second) && found.take(objects_[i], objects_[j]);
+        };
+        return detail::near_search(boxes_.data(), boxes_.data(), found.bound2(), take).visit_own(root());
+    }
+    const ovoid_box &leaf_box(std::size_t i) const {
+        detail::box_range at = root();
+        while (!at.is_leaf()) at = i < at.lower().end ? at.lower() : at.upper();
+        return boxes_[at.node];
+    }
+
+    std::vector<object *> objects_; ///< of the tree's leaves, then those registered since; NULL: removed
+    std::vector<ovoid_box> boxes_;  ///< of the tree
+    std::vector<ovoid_box> recent_; ///< of the objects that are not in the tree
+    std::unordered_map<object *, std::size_t> places_;
+    std::size_t leaves_ = 0; ///< of the tree
+    double measure_ = 0;     ///< of the tree, when it was built
+};
+
+} // namespace fcl
+} // namespace ovoid
+
+#endif
