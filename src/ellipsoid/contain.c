@@ -73,7 +73,13 @@ double ellipsoid_compute_enclosing_bound(const ovoid_polytope *polytope, const o
 }
 
 int ellipsoid_is_enclosing(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid) {
-    return vec3_is_finite(ellipsoid->center) && ellipsoid_compute_enclosing_bound(polytope, ellipsoid) <= 1;
+    if (!vec3_is_finite(ellipsoid->center)) return 0;
+    factor f;
+    double size;
+    // Mostly a factor in doubles proves it.
+    return (factor_make_quickly(ellipsoid->q, &f, &size) &&
+            factor_compute_enclosing_bound(&f, polytope, ellipsoid->center) <= 1) ||
+           ellipsoid_compute_enclosing_bound(polytope, ellipsoid) <= 1;
 }
 
 // Q and lengths in a unit near their size, a power of two.
@@ -142,20 +148,25 @@ static double bound_triangle(const scaled *s, const vec3 corner[3], vec3 n, doub
     return clear >= bound ? clear : fmax(clear, bound_factor(s, corner, triangle_compute_normal(corner)));
 }
 
-// The bound over all triangles. Most do not limit it, as rough bounds along the planes of their facets show. `rough`:
-// takes the rough bounds of the others too.
-static double compute_clear_bound(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid, int rough) {
+// How a bound over all triangles is computed.
+typedef struct bounding {
+    int is_rough; // by rough bounds alone
+    double most;  // a larger bound is not needed
+} bounding;
+
+// The bound over all triangles. Most do not limit it, as rough bounds along the planes of their facets show.
+static double compute_clear_bound(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid, bounding how) {
     scaled s = scale(ellipsoid);
-    double bound = INFINITY;
+    double bound = how.most;
     for (uint32_t t = 0; t < polytope->triangle_count; t++) {
         const uint32_t *index = polytope->triangles + 3 * (size_t)t;
         vec3 corner[3];
         for (int i = 0; i < 3; i++) corner[i] = vec3_at(polytope->vertices, index[i]);
         vec3 n = polytope->planes[polytope->triangle_facets[t]].normal;
         double least = bound_least(&s, corner, n), reach = bound_reach_roughly(&s, n);
-        // Squares save a root and a division; the first bound is infinite, and never reached.
+        // Squares save a root and a division; an infinite bound is never reached.
         if (least > 0 && least * least * (1 - 8 * ROUNDING) >= bound * bound * reach) continue;
-        double clear = rough ? least / sqrt(reach) * (1 - 8 * ROUNDING) : bound_triangle(&s, corner, n, bound);
+        double clear = how.is_rough ? least / sqrt(reach) * (1 - 8 * ROUNDING) : bound_triangle(&s, corner, n, bound);
         if (!(clear >= bound)) bound = clear;
         if (isnan(bound)) return -INFINITY;
     }
@@ -163,16 +174,18 @@ static double compute_clear_bound(const ovoid_polytope *polytope, const ovoid_el
 }
 
 double ellipsoid_compute_clear_bound(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid) {
-    return compute_clear_bound(polytope, ellipsoid, 0);
+    return compute_clear_bound(polytope, ellipsoid, (bounding){.most = INFINITY});
 }
 
 double ellipsoid_compute_clear_bound_roughly(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid) {
-    return compute_clear_bound(polytope, ellipsoid, 1);
+    return compute_clear_bound(polytope, ellipsoid, (bounding){1, INFINITY});
 }
 
 int ellipsoid_is_enclosed(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid) {
     factor f;
-    if (polytope->rank < 3 || !vec3_is_finite(ellipsoid->center) || !factor_make(ellipsoid->q, &f)) return 0;
+    double size;
+    if (polytope->rank < 3 || !vec3_is_finite(ellipsoid->center)) return 0;
+    if (!factor_make_quickly(ellipsoid->q, &f, &size) && !factor_make(ellipsoid->q, &f)) return 0;
     if (f.count == 0) {
         for (uint32_t v = 0; v < polytope->vertex_count; v++) {
             vec3 d = vec3_sub(vec3_at(polytope->vertices, v), ellipsoid->center);
@@ -180,6 +193,6 @@ int ellipsoid_is_enclosed(const ovoid_polytope *polytope, const ovoid_ellipsoid 
         }
         return 0;
     }
-    return f.count == 3 && ellipsoid_compute_clear_bound(polytope, ellipsoid) >= 1 &&
+    return f.count == 3 && compute_clear_bound(polytope, ellipsoid, (bounding){.most = 1}) >= 1 &&
            polytope_compute_winding(polytope, ellipsoid->center) != 0;
 }
