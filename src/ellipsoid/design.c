@@ -124,7 +124,7 @@ static uint32_t find_steepest(const core *c, const qp *q, double least) {
 // The weights that maximise the model, to about `least` in its slopes.
 static void solve_model(const core *c, double least, double *weight) {
     qp q;
-    q.count = 0;
+    qp_clear(&q);
     choose_support(c, &q);
     qp_settle(&q);
     for (int add = 0; add < 30 && q.count < QP_SIZE; add++) {

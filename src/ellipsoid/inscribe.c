@@ -184,7 +184,7 @@ static uint32_t find_violated(const solver *w, const qp *q, double least) {
 // The step and its multipliers.
 static void solve_model(solver *w, double least) {
     qp q;
-    q.count = 0;
+    qp_clear(&q);
     choose_first(w, &q);
     qp_settle(&q);
     for (int add = 0; add < STEPS; add++) {

@@ -13,14 +13,19 @@ typedef struct qp {
     uint32_t item[QP_SIZE]; ///< what the unknown belongs to, for the caller
     double row[QP_SIZE][QP_WIDTH];
     double c[QP_SIZE], x[QP_SIZE];
-    double gram[QP_SIZE][QP_SIZE]; ///< row_i . row_j
+    double gram[QP_SIZE][QP_SIZE];                     ///< row_i . row_j
+    int factored;                                      ///< unknowns whose rows of the factor below are there
+    double factor[QP_SIZE][QP_SIZE], inverse[QP_SIZE]; ///< Cholesky's, below the diagonal, and the diagonal's inverse
 } qp;
+
+/// A program without unknowns.
+void qp_clear(qp *q);
 
 /// Adds the unknown whose item, row and c stand at index q->count, with the value x >= 0.
 void qp_add(qp *q, double x);
 
-/// Moves x from a feasible point to the minimum of the unknowns it has; those that reach zero are dropped. Cost: one
-/// Cholesky factor of the unknowns, and one for each that is dropped.
+/// Moves x from a feasible point to the minimum of the unknowns it has; those that reach zero are dropped. Cost: the
+/// rows of a Cholesky factor for the unknowns that are new, and for those behind each that is dropped.
 void qp_settle(qp *q);
 
 /// 1 if an unknown belongs to that item.
