@@ -429,23 +429,33 @@ static ovoid_code build(builder *b, uint32_t count, const uint32_t corner[4]) {
 
 // ---- the result ----
 
+// The vertex of the facet beyond edge k of f.
+static uint32_t get_beyond(const builder *b, const facet *f, int k) {
+    const facet *g = get_facet(b, f->across[k]);
+    for (int i = 0; i < 3; i++)
+        if (g->vertex[i] != f->vertex[k] && g->vertex[i] != f->vertex[(k + 1) % 3]) return g->vertex[i];
+    return g->vertex[0];
+}
+
 // Sets the states of the points that were corners of facets at some time: inside if no facet is left at them, on a face
 // if fewer than three of the remaining edges are creases. (A corner all of whose facets are replaced is strictly
 // inside: the new point is above all of them.)
-static void mark_corners(builder *b, const surface *s, uint32_t count) {
+static void mark_corners(builder *b, uint32_t count) {
     uint32_t *creases = b->next;
     memset(creases, 0xff, count * sizeof *creases);
-    for (size_t i = 0; i < 3 * (size_t)s->triangle_count; i++) creases[s->triangles[i]] = 0;
-    for (uint32_t t = 0; t < s->triangle_count; t++) {
-        const uint32_t *corner = s->triangles + 3 * (size_t)t;
-        vec3 p[3] = {get_point(b, corner[0]), get_point(b, corner[1]), get_point(b, corner[2])};
-        // Each edge is counted at the first of its triangles.
-        for (uint32_t k = 0; k < 3; k++) {
-            int is_first = t < s->across[3 * (size_t)t + k];
-            if (is_first && orient3d_sign(p[0], p[1], p[2], get_point(b, surface_get_beyond(s, t, k)))) {
-                creases[corner[k]]++;
-                creases[corner[(k + 1) % 3]]++;
-            }
+    for (uint32_t i = 0; i < b->facets.count; i++) {
+        const facet *f = get_facet(b, i);
+        for (int k = 0; k < 3 && !f->is_free; k++) creases[f->vertex[k]] = 0;
+    }
+    for (uint32_t i = 0; i < b->facets.count; i++) {
+        const facet *f = get_facet(b, i);
+        for (int k = 0; k < 3 && !f->is_free; k++) {
+            // Each edge is counted at the first of its facets.
+            if (f->across[k] < i) continue;
+            uint32_t beyond = get_beyond(b, f, k);
+            if (!get_side(b, f, beyond, get_height(b, f, beyond))) continue;
+            creases[f->vertex[k]]++;
+            creases[f->vertex[(k + 1) % 3]]++;
         }
     }
     for (uint32_t i = 0; i < count; i++) {
@@ -510,9 +520,8 @@ static int extract(builder *b, uint32_t count, surface *s) {
             s->across[t++] = get_facet(b, f->across[k])->stamp;
         }
     }
-    if (!order_by_walk(s, b->allocator)) return 0;
-    mark_corners(b, s, count);
-    return 1;
+    mark_corners(b, count);
+    return order_by_walk(s, b->allocator);
 }
 
 static vec3 compute_size(const double *grid, uint32_t count) {
@@ -526,7 +535,10 @@ static ovoid_code find_hull(builder *b, uint32_t count, surface *s) {
     b->size = compute_size(b->grid, count);
     b->state = s->state = allocator_allocate(b->allocator, count, 1);
     b->next = allocator_allocate(b->allocator, count, sizeof *b->next);
-    ovoid_code code = s->state && b->next ? build(b, count, s->corner) : OVOID_ERROR_MEMORY;
+    // A hull of all points has about two facets a point; many points are mostly inside.
+    b->facets.capacity = count < 32 ? 64 : count < 1 << 13 ? 2 * count : 1 << 14;
+    b->facets.items = allocator_allocate(b->allocator, b->facets.capacity, sizeof(facet));
+    ovoid_code code = s->state && b->next && b->facets.items ? build(b, count, s->corner) : OVOID_ERROR_MEMORY;
     if (!code && !extract(b, count, s)) code = OVOID_ERROR_MEMORY;
     allocator_release(b->allocator, b->next);
     allocator_release(b->allocator, b->facets.items);
