@@ -17,9 +17,6 @@
 
 #define NOTHING UINT32_MAX
 
-// The number of triangles from which radix sort is faster than merge sort.
-#define RADIX_LEAST 256
-
 vec3 compute_area(vec3 a, vec3 b, vec3 c) {
     const double xyz[9] = {a.x, a.y, a.z, b.x, b.y, b.z, c.x, c.y, c.z};
     const uint32_t corners[3] = {0, 1, 2};
@@ -80,11 +77,6 @@ typedef struct joiner {
     double flatness;
 } joiner;
 
-static int compare_areas(const void *context, uint32_t a, uint32_t b) {
-    const double *area = context;
-    return (area[a] < area[b]) - (area[a] > area[b]);
-}
-
 static double compute_height(const joiner *j, uint32_t corner, const ovoid_plane *plane) {
     return fabs(vec3_dot(plane->normal, vec3_at(j->grid, corner)) - plane->offset);
 }
@@ -139,8 +131,8 @@ static void prepare(joiner *j) {
         *plane = (ovoid_plane){normal, vec3_dot(normal, c[0])};
         j->area[t] = vec3_norm(s->areas[t]);
         double longest = 0;
-        for (int k = 0; k < 3; k++) longest = max2(longest, vec3_norm(vec3_sub(c[(k + 1) % 3], c[k])));
-        j->kinds[t] = j->area[t] <= longest * j->flatness ? TRIANGLE_SLIVER : TRIANGLE_PLAIN;
+        for (int k = 0; k < 3; k++) longest = max2(longest, vec3_norm_squared(vec3_sub(c[(k + 1) % 3], c[k])));
+        j->kinds[t] = j->area[t] <= sqrt(longest) * j->flatness ? TRIANGLE_SLIVER : TRIANGLE_PLAIN;
         for (uint32_t k = 0; k < 3; k++)
             if (compute_height(j, surface_get_beyond(s, t, k), plane) <= j->flatness &&
                 is_in_plane(j, s->across[3 * (size_t)t + k], plane))
@@ -152,11 +144,6 @@ static void prepare(joiner *j) {
 // Larger triangles first, equal ones in their order. 0 if memory runs out.
 static int order_triangles(joiner *j, const ovoid_allocator *allocator) {
     uint32_t count = j->s->triangle_count;
-    if (count < RADIX_LEAST) {
-        for (uint32_t t = 0; t < count; t++) j->order[t] = t;
-        sort_indices(j->order, j->queue, count, (index_order){compare_areas, j->area});
-        return 1;
-    }
     sort_entry *entries = allocator_allocate(allocator, 2 * (size_t)count, sizeof *entries);
     for (uint32_t t = 0; t < count && entries; t++) {
         // For doubles that are not negative the order of their bits is the order of their values.

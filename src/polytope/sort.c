@@ -30,9 +30,27 @@ void sort_indices(uint32_t *index, uint32_t *scratch, uint32_t count, index_orde
     }
 }
 
-enum { BYTES = 8, VALUES = 256 };
+// Radix sort is faster from this number of entries on.
+enum { BYTES = 8, VALUES = 256, RADIX_LEAST = 256 };
 
-void sort_entries(sort_entry *entries, sort_entry *scratch, uint32_t count) {
+// Merges runs between the two arrays in turn. Returns the one that holds the result.
+static sort_entry *merge_entries(sort_entry *from, sort_entry *to, uint32_t count) {
+    for (uint32_t run = 1; run < count; run *= 2) {
+        for (uint32_t start = 0; start < count; start += 2 * run) {
+            uint32_t i = start, middle = start + run < count ? start + run : count, j = middle;
+            uint32_t end = middle + run < count ? middle + run : count;
+            for (uint32_t k = start; k < end; k++)
+                to[k] = j == end || (i < middle && from[i].key <= from[j].key) ? from[i++] : from[j++];
+        }
+        sort_entry *swapped = from;
+        from = to;
+        to = swapped;
+    }
+    return from;
+}
+
+// Returns the array that holds the result.
+static sort_entry *sort_by_radix(sort_entry *entries, sort_entry *scratch, uint32_t count) {
     uint32_t places[BYTES][VALUES] = {{0}};
     for (uint32_t i = 0; i < count; i++)
         for (int byte = 0; byte < BYTES; byte++) places[byte][entries[i].key >> 8 * byte & (VALUES - 1)]++;
@@ -50,5 +68,11 @@ void sort_entries(sort_entry *entries, sort_entry *scratch, uint32_t count) {
         from = to;
         to = swapped;
     }
-    if (from != entries) memcpy(entries, from, count * sizeof *entries);
+    return from;
+}
+
+void sort_entries(sort_entry *entries, sort_entry *scratch, uint32_t count) {
+    const sort_entry *sorted =
+        count < RADIX_LEAST ? merge_entries(entries, scratch, count) : sort_by_radix(entries, scratch, count);
+    if (sorted != entries) memcpy(entries, sorted, count * sizeof *entries);
 }
