@@ -12,6 +12,8 @@
 // that is short has digits for a length but not for a direction. The gap along the normal, whatever it is, is the lower
 // bound; where rounding leaves it below the upper one by more than the tolerance, the search for all pairs answers.
 //
+// Where many points are nearest, as of parallel segments or of a segment along a face, those in the middle are taken.
+//
 // Of bodies whose cores overlap the radii alone prove the overlap. The normal is then that of the face which the core
 // is the least behind; of a point in a box that is the depth, for which another proof is needed (exact/boxes.h).
 #include "exact/closed.h"
@@ -37,6 +39,13 @@ static vec3 get_half(const ovoid_shape *s) {
 
 // ---- two segments, or points
 
+// The parameter on one of two parallel segments of the middle of what lies beside the other one, which reaches from
+// middle - half to middle + half in the parameters of the first; of segments one behind the other, the end.
+static double find_beside(double middle, double half) {
+    double low = max2(-1, middle - half), high = min2(1, middle + half);
+    return clamp(0.5 * (low + high));
+}
+
 // The parameters of the nearest points of two segments d apart, in the world: s on A, t on B.
 static void find_parameters(vec3 d, vec3 u, vec3 v, double *s, double *t) {
     double uu = vec3_norm_squared(u), vv = vec3_norm_squared(v), uv = vec3_dot(u, v), ud = vec3_dot(u, d),
@@ -52,8 +61,7 @@ static void find_parameters(vec3 d, vec3 u, vec3 v, double *s, double *t) {
         return;
     }
     double det = uu * vv - uv * uv;
-    // Of parallel segments any parameter of one will do, as long as the other is the nearest to it.
-    *s = det > 1e-14 * (uu * vv) ? clamp((ud * vv - vd * uv) / det) : clamp(ud / uu);
+    *s = det > 1e-14 * (uu * vv) ? clamp((ud * vv - vd * uv) / det) : find_beside(ud / uu, fabs(uv) / uu);
     *t = (*s * uv - vd) / vv;
     if (fabs(*t) <= 1) return;
     *t = clamp(*t);
@@ -98,49 +106,69 @@ static void find_segments(const pair_frame *f, nearest_pair *out) {
     out->normal = n;
 }
 
-// Two points: any normal is as good as another where they are one.
 static void find_points(const pair_frame *f, nearest_pair *out) {
     out->point_a = mat3_mul_vec3(f->world, f->a->first);
-    vec3 d = vec3_add(f->offset, vec3_sub(mat3_mul_vec3(f->world_b, f->b->first), out->point_a));
-    vec3 n = vec3_unit(d);
-    if (!(vec3_norm_squared(n) > 0.5)) n = (vec3){1, 0, 0};
-    out->difference = d;
-    out->normal = n;
-    out->gap = vec3_dot(n, d);
+    out->difference = vec3_add(f->offset, vec3_sub(mat3_mul_vec3(f->world_b, f->b->first), out->point_a));
+    closed_points found = closed_find_points(out->difference);
+    out->normal = found.normal;
+    out->gap = found.gap;
 }
 
-// ---- a box and a segment, or a point, in the box's body frame about its centre
+// ---- a box and a segment, or a point, in the world's axes from the box's centre
 
-// A segment y + s e in units of the box's half axes: t_i = from[i] + s way[i].
+// A segment y + s e, and a box of half axes `axis`; in units of these, t_i = from[i] + s way[i].
 typedef struct in_box {
-    vec3 y, e;
+    vec3 y, e, axis[3];
     double from[3], way[3], square[3]; ///< square: of the half axis' length
+    double rise[3];                    ///< way; 0 where the segment is along the faces, to rounding
 } in_box;
 
 static double find_excess(double t) { return t - clamp(t); }
 
-// Half the derivative by s of the squared distance.
-static double find_slope(const in_box *q, double s) {
+// Half the derivative by s of the squared distance, without the part of axis `except`, if that is one.
+static double find_slope(const in_box *q, double s, int except) {
     double sum = 0;
-    for (int i = 0; i < 3; i++) sum += q->square[i] * q->way[i] * find_excess(q->from[i] + s * q->way[i]);
+    for (int i = 0; i < 3; i++)
+        sum += i == except ? 0 : q->square[i] * q->rise[i] * find_excess(q->from[i] + s * q->way[i]);
     return sum;
 }
 
-// The parameter of the segment's point nearest to the box; of several the first.
+static int is_inside(const in_box *q, double s) {
+    int sum = 1;
+    for (int i = 0; i < 3; i++) sum &= fabs(q->from[i] + s * q->way[i]) < 1;
+    return sum;
+}
+
+// The parameter of the segment's point nearest to the box; of several the middle, but the first where that is inside of
+// the box, since a point on a face is one of fewer vertices, and as good a common point. low to high: the slope is
+// negative at low and positive at high; first to last: where it was found to be zero.
 static double find_nearest(const in_box *q) {
-    double low = -1, high = 1, at_low = find_slope(q, low), at_high = find_slope(q, high);
-    if (at_low >= 0) return low;
-    if (at_high <= 0) return high;
+    double low = -1, high = 1, at_low = find_slope(q, low, 3), at_high = find_slope(q, high, 3);
+    if (at_low > 0) return low;
+    if (at_high < 0) return high;
+    double first = at_low < 0 ? INFINITY : low, last = at_low < 0 ? -INFINITY : low;
+    if (!(at_high > 0)) {
+        first = min2(first, high);
+        last = high;
+    }
     for (int k = 0; k < 6; k++) {
         int i = k >> 1;
-        double s = ((k & 1 ? 1 : -1) - q->from[i]) / q->way[i];
+        double s = ((k & 1 ? 1 : -1) - q->from[i]) / q->rise[i];
         // Not so where the segment is along the faces.
         if (!(s > low && s < high)) continue;
-        double slope = find_slope(q, s);
-        if (slope < 0)
+        double slope = find_slope(q, s, i);
+        if (slope < 0) {
             low = s, at_low = slope;
-        else
+        } else if (slope > 0) {
             high = s, at_high = slope;
+        } else {
+            first = min2(first, s);
+            last = max2(last, s);
+        }
+    }
+    if (first <= last) {
+        double middle = 0.5 * (first + last);
+        return is_inside(q, middle) ? first : middle;
     }
     double s = low + (high - low) * (-at_low / (at_high - at_low));
     return min2(high, max2(low, s));
@@ -150,45 +178,47 @@ static void set_in_box(const pair_frame *f, int is_box_a, in_box *q) {
     const ovoid_shape *box = is_box_a ? f->a : f->b, *thin = is_box_a ? f->b : f->a;
     const mat3 *turn = is_box_a ? &f->world : &f->world_b, *turn_thin = is_box_a ? &f->world_b : &f->world;
     vec3 middle = get_middle(thin);
-    vec3 d = is_box_a ? frame_world_difference(f, box->box.center, middle)
-                      : vec3_neg(frame_world_difference(f, middle, box->box.center));
-    q->y = mat3_mul_transposed_vec3(*turn, d);
-    q->e = thin->vertex_count == 1 ? (vec3){0, 0, 0}
-                                   : mat3_mul_transposed_vec3(*turn, mat3_mul_vec3(*turn_thin, get_half(thin)));
+    q->y = is_box_a ? frame_world_difference(f, box->box.center, middle)
+                    : vec3_neg(frame_world_difference(f, middle, box->box.center));
+    q->e = thin->vertex_count == 1 ? (vec3){0, 0, 0} : mat3_mul_vec3(*turn_thin, get_half(thin));
+    double least = 0x1p-92 * vec3_norm_squared(q->e);
     for (int i = 0; i < 3; i++) {
-        vec3 axis = box->box.axis[i];
-        q->square[i] = vec3_norm_squared(axis);
-        q->from[i] = vec3_dot(axis, q->y) / q->square[i];
-        q->way[i] = vec3_dot(axis, q->e) / q->square[i];
+        vec3 axis = mat3_mul_vec3(*turn, box->box.axis[i]);
+        double square = vec3_norm_squared(axis), along = vec3_dot(axis, q->e), scale = 1 / square;
+        q->axis[i] = axis;
+        q->square[i] = square;
+        q->from[i] = vec3_dot(axis, q->y) * scale;
+        q->way[i] = along * scale;
+        q->rise[i] = along * along > least * square ? q->way[i] : 0;
     }
 }
 
 // The gap of the segment from the box along m.
-static double find_box_gap(const in_box *q, const parallelepiped *box, vec3 m) {
+static double find_box_gap(const in_box *q, vec3 m) {
     double gap = vec3_dot(m, q->y) - fabs(vec3_dot(m, q->e));
-    for (int i = 0; i < 3; i++) gap -= fabs(vec3_dot(m, box->axis[i]));
+    for (int i = 0; i < 3; i++) gap -= fabs(vec3_dot(m, q->axis[i]));
     return gap;
 }
 
 // Of a segment that enters the box: the normal of the face behind which it is the least.
-static vec3 find_face(const in_box *q, const parallelepiped *box) {
+static vec3 find_face(const in_box *q) {
     double best = -INFINITY;
     vec3 n = {1, 0, 0};
     for (int i = 0; i < 3; i++) {
         double gap = (fabs(q->from[i]) - fabs(q->way[i]) - 1) * sqrt(q->square[i]);
         if (!(gap > best)) continue;
         best = gap;
-        n = q->from[i] < 0 ? vec3_neg(box->axis[i]) : box->axis[i];
+        n = q->from[i] < 0 ? vec3_neg(q->axis[i]) : q->axis[i];
     }
     return vec3_unit(n);
 }
 
 // The unit normal toward the segment's point, which is off the box by w, beyond the faces of the axes in `beyond`.
-static vec3 find_box_normal(const in_box *q, const parallelepiped *box, vec3 w, unsigned beyond, int is_inside) {
+static vec3 find_box_normal(const in_box *q, vec3 w, unsigned beyond, int is_inside) {
     vec3 n = w;
-    if (beyond == 0) return find_face(q, box);
+    if (beyond == 0) return find_face(q);
     if (is_inside && (beyond == 3 || beyond == 5 || beyond == 6)) {
-        vec3 edge = box->axis[beyond == 3 ? 2 : beyond == 5 ? 1 : 0], across = vec3_cross(q->e, edge);
+        vec3 edge = q->axis[beyond == 3 ? 2 : beyond == 5 ? 1 : 0], across = vec3_cross(q->e, edge);
         if (vec3_norm_squared(across) > 1e-20 * (vec3_norm_squared(q->e) * vec3_norm_squared(edge)))
             n = vec3_dot(across, w) < 0 ? vec3_neg(across) : across;
     }
@@ -196,30 +226,30 @@ static vec3 find_box_normal(const in_box *q, const parallelepiped *box, vec3 w, 
 }
 
 static void find_in_box(const pair_frame *f, int is_box_a, nearest_pair *out) {
-    const parallelepiped *box = is_box_a ? &f->a->box : &f->b->box;
     const ovoid_shape *thin = is_box_a ? f->b : f->a;
     double *of_box = is_box_a ? out->a : out->b, *of_thin = is_box_a ? out->b : out->a;
     in_box q;
     set_in_box(f, is_box_a, &q);
     double s = thin->vertex_count == 1 ? 0 : find_nearest(&q);
+    // w: the sum of what is beyond the faces, which has digits for a direction; off: the points' difference.
     unsigned beyond = 0;
-    vec3 w = {0, 0, 0};
+    vec3 w = {0, 0, 0}, on_box = {0, 0, 0};
     for (int i = 0; i < 3; i++) {
         double t = q.from[i] + s * q.way[i], excess = find_excess(t);
         of_box[i] = t - excess;
-        w = vec3_add_scaled(w, box->axis[i], excess);
+        w = vec3_add_scaled(w, q.axis[i], excess);
+        on_box = vec3_add_scaled(on_box, q.axis[i], of_box[i]);
         beyond |= (unsigned)(fabs(excess) > 0) << i;
     }
     of_thin[0] = s;
-    vec3 m = find_box_normal(&q, box, w, beyond, thin->vertex_count == 2 && fabs(s) < 1);
-    const mat3 *turn = is_box_a ? &f->world : &f->world_b;
-    vec3 n = mat3_mul_vec3(*turn, m), from_box = mat3_mul_vec3(*turn, w);
-    out->gap = find_box_gap(&q, box, m);
+    vec3 on_thin = vec3_add_scaled(q.y, q.e, s), off = vec3_sub(on_thin, on_box);
+    vec3 n = find_box_normal(&q, w, beyond, thin->vertex_count == 2 && fabs(s) < 1);
+    out->gap = find_box_gap(&q, n);
     out->normal = is_box_a ? n : vec3_neg(n);
-    out->difference = is_box_a ? from_box : vec3_neg(from_box);
-    vec3 on_thin = vec3_add_scaled(get_middle(thin), get_half(thin), s);
-    out->point_a = is_box_a ? vec3_sub(vec3_add(f->offset, mat3_mul_vec3(f->world_b, on_thin)), from_box)
-                            : mat3_mul_vec3(f->world, on_thin);
+    out->difference = is_box_a ? off : vec3_neg(off);
+    vec3 center = is_box_a ? mat3_mul_vec3(f->world, f->a->box.center)
+                           : vec3_add(f->offset, mat3_mul_vec3(f->world_b, f->b->box.center));
+    out->point_a = vec3_add(center, is_box_a ? on_box : on_thin);
 }
 
 // ---- the points as pairs of vertices
@@ -281,47 +311,35 @@ static int write_points(const pair_frame *f, const nearest_pair *found, simplex 
 
 // ---- the answer
 
-// The squares of squares of lengths are in the range of doubles.
-static int is_moderate(const pair_frame *f) { return f->size > 0x1p-200 && f->size < 0x1p200; }
-
-// 1 if the bounds answer the query; a depth whose sign is known is as good as a distance.
-static int is_answered(const query_goal *goal, double lower, double upper) {
-    if (!goal->wants_depth) return query_goal_is_met(goal, lower, upper);
-    if (lower > goal->far) return 1;
-    return (lower > 0 || upper < 0) && upper - lower <= goal->tolerance;
-}
-
 // Radii go along the difference, or where they overlap along the normal (pair/proof.c).
-static void set_witness(const pair_frame *f, const nearest_pair *found, double distance, small_end *end) {
-    double radii = f->a->radius + f->b->radius;
-    vec3 n = distance > radii ? vec3_scale(found->difference, 1 / distance) : found->normal;
+static closed_cores find_cores(const pair_frame *f, const nearest_pair *found, double distance) {
+    int is_apart = distance > f->a->radius + f->b->radius;
+    vec3 n = is_apart ? vec3_scale(found->difference, 1 / distance) : found->normal;
     vec3 a = vec3_add(f->world_origin, found->point_a);
-    end->has_witness = 1;
-    end->point_a = vec3_add_scaled(a, n, f->a->radius);
-    end->point_b = vec3_add_scaled(vec3_add(a, found->difference), n, -f->b->radius);
+    return (closed_cores){a, vec3_add(a, found->difference), n};
 }
 
 int closed_run(const placed_query *query, small_end *end) {
     const pair_frame *f = query->frame;
     nearest_pair found;
-    if (!is_moderate(f)) return 0;
+    if (!closed_is_moderate(f)) return 0;
     if (f->a->vertex_count == 8 || f->b->vertex_count == 8)
         find_in_box(f, f->a->vertex_count == 8, &found);
     else if (f->a->vertex_count + f->b->vertex_count == 2)
         find_points(f, &found);
     else
         find_segments(f, &found);
-    double claim = CLOSED_CLAIM * f->size + 3 * f->hidden;
+    double claim = reject_get_claim(f);
     double distance = vec3_norm(found.difference);
     end->lower = found.gap - f->lower_radii - claim;
     end->upper = distance - f->upper_radii + claim;
-    if (!is_answered(query->goal, end->lower, end->upper) || !write_points(f, &found, &end->points)) return 0;
-    // No zero of a direction is negative.
-    end->normal = (vec3){found.normal.x + 0.0, found.normal.y + 0.0, found.normal.z + 0.0};
+    if (!closed_is_answered(query->goal, end->lower, end->upper) || !write_points(f, &found, &end->points)) return 0;
+    end->normal = closed_clear_signs(found.normal);
     end->inner = (vec3){0, 0, 0};
     end->kind = OVOID_PROOF_POINTS;
     end->stage = OVOID_STAGE_SUPPORT;
     end->iterations = 0;
-    set_witness(f, &found, distance, end);
+    closed_cores cores = find_cores(f, &found, distance);
+    closed_set_witness(f, &cores, end);
     return 1;
 }

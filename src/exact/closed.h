@@ -1,13 +1,11 @@
 // Points, segments and boxes among one another, in closed form: with their radii, spheres, capsules and rounded boxes.
 // No search, no support, and no earlier proof: the same pair has the same answer whatever was asked before.
 //
-// Errors (docs/error-analysis.md): bounds are widened by CLOSED_CLAIM s.
+// Errors (docs/error-analysis.md): as in reject.h, FRAME_REJECT.
 #ifndef OVOID_EXACT_CLOSED_H
 #define OVOID_EXACT_CLOSED_H
 
 #include "exact/small.h"
-
-#define CLOSED_CLAIM (640 * 0x1p-53)
 
 /// 1 for a point, a segment, or a body of eight vertices, which may be a box.
 static inline int closed_may_take(const ovoid_shape *s) {
@@ -18,6 +16,44 @@ static inline int closed_may_take(const ovoid_shape *s) {
 static inline int closed_fits(const ovoid_shape *a, const ovoid_shape *b) {
     int is_thin = (a->vertex_count <= 2) | (b->vertex_count <= 2);
     return is_thin && !(a->has_allowance | b->has_allowance) && closed_may_take(a) && closed_may_take(b);
+}
+
+/// Two points d apart, A's to B's: their distance, the unit normal, and the gap along it. Any normal is as good as
+/// another where they are one.
+typedef struct closed_points {
+    vec3 normal;
+    double gap, distance;
+} closed_points;
+static inline closed_points closed_find_points(vec3 d) {
+    double square = vec3_norm_squared(d), distance = sqrt(square);
+    vec3 n = square > 1e-250 && square < 1e250 ? vec3_scale(d, 1 / distance) : vec3_unit(d);
+    if (!(vec3_max_abs(n) > 0)) n = (vec3){1, 0, 0};
+    return (closed_points){n, vec3_dot(n, d), distance};
+}
+
+/// The squares of squares of lengths are in the range of doubles.
+static inline int closed_is_moderate(const pair_frame *f) { return f->size > 0x1p-200 && f->size < 0x1p200; }
+
+/// 1 if the bounds answer the query; a depth whose sign is known is as good as a distance.
+static inline int closed_is_answered(const query_goal *goal, double lower, double upper) {
+    if (!goal->wants_depth) return query_goal_is_met(goal, lower, upper);
+    if (lower > goal->far) return 1;
+    return (lower > 0 || upper < 0) && upper - lower <= goal->tolerance;
+}
+
+/// No zero of a direction or a point is negative: its sign would depend on the rotations.
+static inline vec3 closed_clear_signs(vec3 v) { return (vec3){v.x + 0.0, v.y + 0.0, v.z + 0.0}; }
+
+/// The points of the cores, in the world, and the unit vector along which the radii go.
+typedef struct closed_cores {
+    vec3 a, b, n;
+} closed_cores;
+
+/// Sets the witness.
+static inline void closed_set_witness(const pair_frame *f, const closed_cores *cores, small_end *end) {
+    end->has_witness = 1;
+    end->point_a = closed_clear_signs(vec3_add_scaled(cores->a, cores->n, f->a->radius));
+    end->point_b = closed_clear_signs(vec3_add_scaled(cores->b, cores->n, -f->b->radius));
 }
 
 /// The answer to the query, of a pair that fits: 1. 0: the sign is within rounding, or the depth of a box that a point

@@ -26,16 +26,19 @@ ovoid_answer rejection_make_answer(const rejection *g, const pair_frame *f, cons
     double upper = distance - f->upper_radii + reject_get_claim(f);
     // The radii go along the difference of the points, which is longer than both, as the lower bound is above zero.
     double share_a = f->a->radius / distance, share_b = f->b->radius / distance;
+    // No zero is negative: of two spheres its sign would depend on their rotations.
+    const vec3 zero = {0, 0, 0}, normal = vec3_add(g->normal, zero);
     // One expression, which gcc 12 builds in the result's place; it would copy a variable.
     return (ovoid_answer){.status = OVOID_SEPARATED,
                           .stage = g->stage,
                           .limit = upper - g->lower <= goal->tolerance ? OVOID_LIMIT_NONE : goal->beyond,
                           .lower = g->lower,
                           .upper = upper,
-                          .point_a = vec3_add(f->world_origin, vec3_add_scaled(a, d, share_a)),
-                          .point_b = vec3_add(f->world_origin, vec3_add_scaled(vec3_add(a, d), d, -share_b)),
-                          .normal = g->normal,
-                          .proof = {.normal = g->normal,
+                          .point_a = vec3_add(vec3_add(f->world_origin, vec3_add_scaled(a, d, share_a)), zero),
+                          .point_b =
+                              vec3_add(vec3_add(f->world_origin, vec3_add_scaled(vec3_add(a, d), d, -share_b)), zero),
+                          .normal = normal,
+                          .proof = {.normal = normal,
                                     .kind = OVOID_PROOF_POINTS,
                                     .count = 1,
                                     .a = {g->a},

@@ -12,6 +12,7 @@
 #include "pair/reject.h"
 #include "pair/stages.h"
 #include "query/begin.h"
+#include "query/spheres.h"
 
 ovoid_answer answer_make_refused(ovoid_limit limit) {
     return (ovoid_answer){.limit = limit, .lower = -INFINITY, .upper = INFINITY};
@@ -127,13 +128,6 @@ void answer_write(search *s, ovoid_answer *out) {
     witness_points w = witness_compute_points(f, &out->proof);
     out->point_a = frame_point_to_world(f, w.a);
     out->point_b = frame_point_to_world(f, w.b);
-}
-
-ovoid_verdict answer_make_small_verdict(const small_end *end, const query_goal *goal) {
-    ovoid_status status = find_status(end->lower, end->upper, goal);
-    final_bracket b = {end->lower, end->upper, goal->tolerance, 0, status, end->kind};
-    ovoid_limit limit = bracket_is_narrow(&b, goal) ? OVOID_LIMIT_NONE : bracket_find_limit(&b, goal, OVOID_LIMIT_NONE);
-    return (ovoid_verdict){status, end->stage, limit, end->iterations, end->lower, end->upper};
 }
 
 // The witness points of a pair of small bodies, world.
@@ -425,7 +419,7 @@ COMPILER_NOINLINE static ovoid_answer search_by_value(const ovoid_pair *pair, co
     return out;
 }
 
-COMPILER_NOINLINE static ovoid_answer find_by_value(const ovoid_pair *pair, const query_request *request) {
+ovoid_answer answer_find_by_value(const ovoid_pair *pair, const query_request *request) {
     query_start s;
     switch (begin(pair, request, &s)) {
     case BEGIN_REFUSED: return answer_make_refused(s.refused);
@@ -438,5 +432,5 @@ COMPILER_NOINLINE static ovoid_answer find_by_value(const ovoid_pair *pair, cons
 // All arithmetic is inside the call and cannot be moved out of it, so the answer needs no environment_hide. The
 // environment is restored after the answer has been made.
 ovoid_answer answer_find(const ovoid_pair *pair, const query_request *request) {
-    ENVIRONMENT_RETURN_CALL(find_by_value(pair, request));
+    ENVIRONMENT_RETURN_CALL(spheres_fit(pair) ? spheres_find(pair, request) : answer_find_by_value(pair, request));
 }

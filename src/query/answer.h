@@ -2,6 +2,7 @@
 #ifndef OVOID_QUERY_ANSWER_H
 #define OVOID_QUERY_ANSWER_H
 
+#include "base/compiler.h"
 #include "exact/small.h"
 #include "query/goal.h"
 
@@ -14,7 +15,12 @@ ovoid_verdict answer_make_verdict(search *s);
 ovoid_answer answer_make_small(const small_end *end, const pair_frame *frame, const query_goal *goal);
 ovoid_witness answer_make_small_witness(const small_end *end, const pair_frame *frame);
 ovoid_proof answer_make_small_proof(const small_end *end);
-ovoid_verdict answer_make_small_verdict(const small_end *end, const query_goal *goal);
+static inline ovoid_verdict answer_make_small_verdict(const small_end *end, const query_goal *goal) {
+    ovoid_status status = bracket_find_status(end->lower, end->upper, goal->tolerance - goal->allowance);
+    final_bracket b = {end->lower, end->upper, goal->tolerance, 0, status, end->kind};
+    ovoid_limit limit = bracket_is_narrow(&b, goal) ? OVOID_LIMIT_NONE : bracket_find_limit(&b, goal, OVOID_LIMIT_NONE);
+    return (ovoid_verdict){status, end->stage, limit, end->iterations, end->lower, end->upper};
+}
 
 /// The exact methods, from the bounds and the simplex that the stages before them left, until the query is answered or
 /// no method makes progress.
@@ -39,6 +45,10 @@ typedef struct query_request {
 
 /// The whole pipeline for one query.
 ovoid_answer answer_find(const ovoid_pair *pair, const query_request *request);
+
+/// answer_find for callers that have set the default floating-point environment. Not inlined, so that the answer is
+/// made in the caller's place.
+COMPILER_NOINLINE ovoid_answer answer_find_by_value(const ovoid_pair *pair, const query_request *request);
 
 /// A query that its beginning left to the search.
 typedef struct open_query {

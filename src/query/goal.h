@@ -63,7 +63,10 @@ typedef struct final_bracket {
 
 /// 1 if the bracket is as narrow as the tolerance. A common point shows no depth, unless the depth is within the
 /// tolerance.
-int bracket_is_narrow(const final_bracket *b, const query_goal *goal);
+static inline int bracket_is_narrow(const final_bracket *b, const query_goal *goal) {
+    int is_common = goal->wants_depth && b->kind == OVOID_PROOF_HULL && b->lower < -b->tolerance;
+    return b->upper - b->lower <= b->tolerance && !is_common;
+}
 
 /// 1 if the sign, or the margin of the goal, is left open by the bodies' allowances: no search would find it.
 int bracket_is_left_open(const final_bracket *b, const query_goal *goal);
@@ -79,6 +82,13 @@ static inline int answer_is_improvable(const ovoid_answer *answer) {
 }
 
 /// Why a bracket that is not narrow is wide. trouble: what kept the search from narrowing it, or NONE.
-ovoid_limit bracket_find_limit(const final_bracket *b, const query_goal *goal, ovoid_limit trouble);
+static inline ovoid_limit bracket_find_limit(const final_bracket *b, const query_goal *goal, ovoid_limit trouble) {
+    ovoid_limit wide = trouble != OVOID_LIMIT_NONE ? trouble : OVOID_LIMIT_PRECISION;
+    if (b->status == OVOID_UNDECIDED) return wide;
+    if (b->lower > goal->far) return goal->beyond;
+    // A distance or a depth was the goal, and its bracket is wide.
+    int is_wanted = goal->wants_bracket && (b->status == OVOID_SEPARATED || goal->wants_depth);
+    return is_wanted && b->upper > goal->near ? wide : OVOID_LIMIT_ANSWERED;
+}
 
 #endif

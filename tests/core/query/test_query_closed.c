@@ -3,6 +3,7 @@
 // sections in long double, with the rotations in long double too. Tolerance 1e-12 of sizes of about 5, some thousand
 // roundings. Each answer is put before ovoid_answer_verify, and must be one without a search.
 #include "ovoid/ovoid.h"
+#include "ovoid/prepared.h"
 
 #include "check.h"
 
@@ -118,6 +119,119 @@ static void test_inside(void) {
     ovoid_shape_destroy(box);
 }
 
+// ---- the same bits alone, prepared and in a batch
+
+static ovoid_answer ask_question(const ovoid_pair *pair, int question) {
+    return question == 0   ? ovoid_collide(pair, NULL, NULL)
+           : question == 1 ? ovoid_distance(pair, NULL, NULL)
+                           : ovoid_within(pair, 0.5, NULL, NULL);
+}
+
+static void check_same(const ovoid_pair *pair, int question) {
+    ovoid_answer alone = ask_question(pair, question), prepared, several[4];
+    const ovoid_posed_shape bodies[2] = {{pair->shape_a, pair->pose_a}, {pair->shape_b, pair->pose_b}};
+    const ovoid_couple couples[4] = {{0, 1}, {0, 1}, {0, 1}, {0, 1}};
+    ovoid_prepared_shape a, b;
+    ovoid_prepared_shape_make(&bodies[0], &a);
+    ovoid_prepared_shape_make(&bodies[1], &b);
+    const ovoid_prepared_pair both = {&a, &b};
+    const ovoid_evidence out = {.answer = &prepared};
+    const ovoid_batch batch = {
+        .bodies = bodies, .body_count = 2, .couples = couples, .couple_count = 4, .answers = several};
+    if (question == 0) (void)ovoid_prepared_collide(both, NULL, &out), (void)ovoid_collide_batch(&batch, NULL);
+    if (question == 1) (void)ovoid_prepared_distance(both, NULL, &out), (void)ovoid_distance_batch(&batch, NULL);
+    if (question == 2) (void)ovoid_prepared_within(both, 0.5, NULL, &out), (void)ovoid_within_batch(&batch, 0.5, NULL);
+    CHECK(memcmp(&alone, &prepared, sizeof alone) == 0);
+    CHECK(memcmp(&alone, &several[3], sizeof alone) == 0);
+    ovoid_error error = {0};
+    if (!CHECK(ovoid_answer_verify(pair, &alone, NULL, &error) == OVOID_OK)) printf("%s\n", error.message);
+}
+
+// Spheres take a way of their own where nothing of them is prepared. Places on a grid, with zeros of both signs: they
+// touch, are one in the other or concentric, and components of differences are zero, whose signs the rotations must not
+// set.
+static void test_same_bits(void) {
+    uint64_t r = 23;
+    const double aside[3] = {0.25, -0.5, 0};
+    const ovoid_shape_options rounded = {.radius = 0.25};
+    ovoid_shape *shapes[5] = {ovoid_shape_create_sphere(0.5, NULL, NULL), ovoid_shape_create_sphere(1, NULL, NULL),
+                              ovoid_shape_create_sphere(0, NULL, NULL),
+                              ovoid_shape_create_capsule(0.25, 0.5, NULL, NULL),
+                              ovoid_shape_create_from_points(aside, 1, &rounded, NULL)};
+    const double grid[5] = {-0.0, 0.0, 0.5, -1.5, 2};
+    for (int i = 0; i < 6000; i++) {
+        check_seed = (uint64_t)i;
+        double at[6];
+        for (int k = 0; k < 6; k++) at[k] = grid[(size_t)random_uniform(&r, 0, 4.999)];
+        ovoid_quat q = random_turn(&r), p = i % 2 ? random_turn(&r) : (ovoid_quat){-1, -0.0, 0, 0};
+        if (i % 7 == 0) p = (ovoid_quat){1e-200, 0, 3e-200, 0};
+        ovoid_pair pair = {shapes[i % 5], shapes[i / 5 % 5], {{at[0], at[1], at[2]}, q}, {{at[3], at[4], at[5]}, p}};
+        for (int question = 0; question < 3; question++) check_same(&pair, question);
+    }
+    for (int i = 0; i < 5; i++) ovoid_shape_destroy(shapes[i]);
+}
+
+// What is refused of any pair is refused of spheres, by the same reason.
+static void test_refused(void) {
+    ovoid_shape *ball = ovoid_shape_create_sphere(0.5, NULL, NULL);
+    const ovoid_pose still = {{0, 0, 0}, upright};
+    ovoid_pose bad[5] = {still, still, still, still, still};
+    bad[0].position.x = NAN;
+    bad[1].position.y = 2 * OVOID_LENGTH_MAX;
+    bad[2].rotation.w = 0;
+    bad[3].rotation.z = INFINITY;
+    bad[4].position.z = -INFINITY;
+    for (int i = 0; i < 5; i++) {
+        ovoid_pair a = {ball, ball, bad[i], still}, b = {ball, ball, still, bad[i]};
+        CHECK_EQ((int)ovoid_distance(&a, NULL, NULL).limit, (int)OVOID_LIMIT_POSE_A);
+        CHECK_EQ((int)ovoid_distance(&b, NULL, NULL).limit, (int)OVOID_LIMIT_POSE_B);
+    }
+    const ovoid_options wrong = {.absolute_tolerance = -1}, capped = {.cap = 0.25};
+    ovoid_pair pair = {ball, ball, still, {{3, 0, 0}, upright}};
+    CHECK_EQ((int)ovoid_distance(&pair, &wrong, NULL).limit, (int)OVOID_LIMIT_OPTIONS);
+    CHECK_EQ((int)ovoid_within(&pair, NAN, NULL, NULL).limit, (int)OVOID_LIMIT_OPTIONS);
+    CHECK_EQ((int)ovoid_distance(&pair, &capped, NULL).stage, (int)OVOID_STAGE_SPHERE);
+    ovoid_cover cover = {.point_count = 3, .triangle_count = 3};
+    CHECK_EQ((int)ovoid_depth(&pair, NULL, NULL, &cover).status, (int)OVOID_SEPARATED);
+    CHECK_EQ((int)cover.point_count, 0);
+    ovoid_shape_destroy(ball);
+}
+
+// ---- the middle of what is nearest
+
+static void check_middle(const ovoid_shape *a, const ovoid_shape *b, ovoid_pose b_in_a, ovoid_vec3 on_a) {
+    uint64_t r = 29;
+    for (int i = 0; i < 12; i++) {
+        ovoid_pose move = {random_place(&r), random_turn(&r)};
+        ovoid_pair pair = {a, b, move, ovoid_pose_compute_product(&move, &b_in_a)};
+        if (i % 2) pair = (ovoid_pair){pair.shape_b, pair.shape_a, pair.pose_b, pair.pose_a};
+        ovoid_answer answer = ask(&pair, 0, 1);
+        ovoid_vec3 p = i % 2 ? answer.point_b : answer.point_a, q = ovoid_pose_compute_point(&move, on_a);
+        CHECK_NEAR(p.x, q.x, 1e-12);
+        CHECK_NEAR(p.y, q.y, 1e-12);
+        CHECK_NEAR(p.z, q.z, 1e-12);
+    }
+}
+
+// Where the nearest points are not unique, those in the middle of the common length.
+static void test_middle(void) {
+    ovoid_shape *pill = ovoid_shape_create_capsule(0.5, 2, NULL, NULL),
+                *small = ovoid_shape_create_capsule(0.5, 1, NULL, NULL),
+                *box = ovoid_shape_create_box((ovoid_vec3){1, 2, 3}, NULL, NULL);
+    const ovoid_quat over = {0, 0, 1, 0}, lying = {1, 1, 0, 0};
+    check_middle(pill, small, (ovoid_pose){{3, 0, 0.25}, upright}, (ovoid_vec3){0.5, 0, 0.25});
+    check_middle(pill, small, (ovoid_pose){{3, 0, 2}, upright}, (ovoid_vec3){0.5, 0, 1.5});
+    check_middle(pill, small, (ovoid_pose){{3, 0, -2}, over}, (ovoid_vec3){0.5, 0, -1.5});
+    check_middle(pill, small, (ovoid_pose){{3, 0, 3}, upright}, (ovoid_vec3){0.5, 0, 2});
+    check_middle(box, pill, (ovoid_pose){{3, 0, 0.25}, upright}, (ovoid_vec3){1, 0, 0.25});
+    check_middle(box, pill, (ovoid_pose){{3, 0, 2}, over}, (ovoid_vec3){1, 0, 1.5});
+    check_middle(box, pill, (ovoid_pose){{3, 1, -2}, lying}, (ovoid_vec3){1, 0.5, -2});
+    check_middle(box, pill, (ovoid_pose){{0, 4, 5.5}, lying}, (ovoid_vec3){0, 2, 3});
+    ovoid_shape_destroy(pill);
+    ovoid_shape_destroy(small);
+    ovoid_shape_destroy(box);
+}
+
 // ---- slanted boxes
 
 // A parallelepiped that is no box has no closed form: coordinates along its axes would be cut off as if these were at
@@ -223,6 +337,9 @@ static void test_random(void) {
 int main(void) {
     test_known();
     test_inside();
+    test_same_bits();
+    test_refused();
+    test_middle();
     test_slanted();
     test_random();
     return check_end();
