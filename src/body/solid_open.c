@@ -3,7 +3,7 @@
 
 #include <string.h>
 
-enum { WAITING_ROOM = 1280, HEAP_MOST = 1024, PATCH = 16 };
+enum { WAITING_ROOM = 1280, HEAP_MOST = 1024 };
 _Static_assert(WAITING_ROOM > 2 * (BOX8 - 1) * SOLID_DEPTH_MAX + 1, "the deepest trees leave room for a heap");
 
 // The children of a node that are not left out, farthest first.
@@ -28,10 +28,7 @@ typedef struct opened_node {
 // The bounds of the children of a solid's node, in lanes.
 static void bound_boxes(const body_search *state, const opened_node *o, double lower[BOX8]) {
     const ovoid_solid *s = o->side ? state->b.solid : state->a.solid;
-    const node_frame *own = &s->frames[o->node];
-    // Long and flat bodies are parted by an axis across one of each; their small patches seldom are.
-    int across = s->nodes[o->node].end - s->nodes[o->node].first > PATCH ? 3 : 1;
-    const framed_node framed = {o->side, &own->axes, solid_scale_box(s, own->low, own->high), across, &o->rest};
+    const framed_node framed = {o->side, &s->frames[o->node].axes, &o->rest};
     solid8_other other = tree_frame_turn(&state->frame, &framed, solids_get_normal(state));
     other.unit = s->unit;
     state->solids->kernels->boxes(&s->turned[o->node], &other, lower);

@@ -41,7 +41,6 @@ typedef struct box_beside {
     vec3 d;               // from its centre to the other's
     const mat3 *rotation; // to the other's frame
     const mat3 *absolute; // the sizes of the rotation's entries
-    int axes;             // how many of each are tried
 } box_beside;
 
 // The direction across an axis of each box along which the gap is largest (S. Gottschalk, M. C. Lin, D. Manocha,
@@ -51,12 +50,12 @@ static vec3 find_across(const box_beside *boxes) {
     const vec3 size[3] = {boxes->absolute->r0, boxes->absolute->r1, boxes->absolute->r2};
     vec3 best = {1, 0, 0};
     double most = -INFINITY;
-    for (int i = 0; i < boxes->axes; i++)
-        for (int j = 0; j < boxes->axes; j++) {
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) {
             // Axis i of the frame and row j of the rotation.
             int k = (i + 1) % 3, l = (i + 2) % 3, m = (j + 1) % 3, n = (j + 2) % 3;
             double u = vec3_get(row[j], k), v = vec3_get(row[j], l), square = u * u + v * v;
-            if (!(square > 1e-6)) continue;
+            if (!(square > SOLID8_PARALLEL)) continue;
             double at = vec3_get(boxes->d, l) * u - vec3_get(boxes->d, k) * v;
             double reach = vec3_get(boxes->own, l) * fabs(u) + vec3_get(boxes->own, k) * fabs(v) +
                            vec3_get(boxes->other, m) * vec3_get(size[n], i) +
@@ -85,7 +84,7 @@ box_gap tree_frame_find_gap(const tree_frame *f, const turned_box *a, const turn
     if (next.lower > best.lower) best = next;
     int is_given = vec3_norm_squared(normal) > 0;
     vec3 tried[2] = {is_given ? mat3_mul_vec3(a->axes, normal)
-                              : find_across(&(box_beside){half_a, half_b, d, &to_b, &absolute, 3}),
+                              : find_across(&(box_beside){half_a, half_b, d, &to_b, &absolute}),
                      vec3_unit(d)};
     for (int i = 0; i < 2; i++) {
         vec3 n = tried[i];
@@ -115,16 +114,15 @@ solid8_other tree_frame_turn(const tree_frame *f, const framed_node *node, vec3 
     vec3 center =
         mat3_mul_vec3(*node->axes, node->side ? mat3_mul_vec3(f->to_b, vec3_sub(rest->box.center, f->between))
                                               : vec3_add(f->between, mat3_mul_vec3(f->to_a, rest->box.center)));
-    vec3 tried = node->side ? vec3_neg(mat3_mul_vec3(f->to_b, normal)) : normal;
-    tried = vec3_norm_squared(normal) > 0
-                ? mat3_mul_vec3(*node->axes, tried)
-                : find_across(&(box_beside){node->own.half, half, vec3_sub(center, node->own.center), &rotation, &all,
-                                            node->across});
+    int is_given = vec3_norm_squared(normal) > 0;
+    vec3 tried = mat3_mul_vec3(*node->axes, node->side ? vec3_neg(mat3_mul_vec3(f->to_b, normal)) : normal);
     return (solid8_other){.center = center,
                           .turned = mat3_mul_transposed_vec3(all, half),
                           .half = half,
                           .rotation = rotation,
                           .absolute = all,
                           .normal = tried,
-                          .reach = find_reach(half, mat3_mul_vec3(rotation, tried))};
+                          .reach = is_given ? find_reach(half, mat3_mul_vec3(rotation, tried)) : INFINITY,
+                          .across = !is_given,
+                          .least = f->claim};
 }

@@ -9,6 +9,8 @@
 // - the axes of a box are a rotation but for 12 u in the operator norm, and points along them are off by 4 u S: a
 //   length along one axis, the turn between two boxes' axes, a centre there and back, and the extent of the other box
 //   along a turned direction are together off by 100 u S;
+// - a gap across an axis of each box is measured times the length of their product, at most 1, by the same numbers: off
+//   by no more. It counts only above the claim, so the gap itself is above 0, and no less than the product;
 // - a gap of two triangles along a unit direction is off by 100 u S, turning the direction to the world moves it by
 //   42 u S, and whoever measures it again there is off by 148 u S.
 // A bound of boxes is off by all of these but that of triangles, one of triangles by the first, its own and the turn:
@@ -65,11 +67,10 @@ box_gap tree_frame_find_gap(const tree_frame *f, const turned_box *a, const turn
 typedef struct framed_node {
     int side;
     const mat3 *axes;
-    tree_box own; ///< its box along its axes
-    int across;   ///< how many axes of each box are tried across one another where no normal is known, 1 to 3
     const turned_box *rest;
 } framed_node;
-/// The other body's box as the kernel wants it; the unit of the node's boxes is left to the caller.
+/// The other body's box as the kernel wants it; the unit of the node's boxes is left to the caller. Where no normal is
+/// known, as of a yes or no before bodies touch, axes across one of each box are tried instead.
 solid8_other tree_frame_turn(const tree_frame *f, const framed_node *node, vec3 normal);
 
 /// The bound by the boxes of both roots, lowered by the claim, and its direction in the world: what parts the bodies.

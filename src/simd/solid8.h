@@ -6,6 +6,9 @@
 #include "linear/mat3.h"
 #include "simd/box8.h"
 
+/// Axes u and v with |u x v|^2 up to this are nearly parallel: no direction across both is tried.
+#define SOLID8_PARALLEL 1e-6
+
 /// A box, or the body in it, beside the boxes of a node. Lengths in the user's unit; the node's frame is that of its
 /// tree.
 typedef struct solid8_other {
@@ -14,8 +17,10 @@ typedef struct solid8_other {
     vec3 half;     ///< its own half sizes, along its own axes
     mat3 rotation; ///< from the node's frame to its own
     mat3 absolute; ///< the sizes of the rotation's entries
-    vec3 normal;   ///< a unit direction from the node to it, in the node's frame
-    double reach;  ///< how far it reaches from its centre along that
+    vec3 normal;   ///< a unit direction from the node to it, in the node's frame; zero: none
+    double reach;  ///< how far it reaches from its centre along that; infinity: none
+    int across;    ///< 1: directions across an axis of each are tried too
+    double least;  ///< of these only gaps above it count, what rounding can do at least
     double unit;   ///< of the node's boxes
 } solid8_other;
 
@@ -43,7 +48,8 @@ typedef struct solid8_gaps {
 /// Kernels of one instruction set; all give the same bits.
 typedef struct solid8_kernels {
     /// For each box of the node: the largest gap along a direction, among the six axes, the lines between the nearest
-    /// points of boxes along either's axes, the line of the centres, and the normal given.
+    /// points of boxes along either's axes, the line of the centres, and the normal given; and |u x v| times the gap
+    /// across an axis u of the node and v of the other box.
     void (*boxes)(const box8 *node, const solid8_other *other, double lower[BOX8]);
     void (*triangles)(const solid8_triangle *one, const solid8_triangles *eight, solid8_gaps *out);
 } solid8_kernels;

@@ -16,7 +16,7 @@ static mat3 make_rotation(uint64_t *s) {
 
 static void check_bits(const double *a, const double *b, size_t count) { CHECK(!memcmp(a, b, count * sizeof *a)); }
 
-static long open_lanes, closed_lanes;
+static long open_lanes, closed_lanes, across_lanes;
 
 static void check_triangles(uint64_t *s, const solid8_kernels *twin, const solid8_kernels *kernels) {
     solid8_triangle one = {.rotation = make_rotation(s),
@@ -50,6 +50,8 @@ static void check_triangles(uint64_t *s, const solid8_kernels *twin, const solid
 
 static void check_boxes(uint64_t *s, const solid8_kernels *twin, const solid8_kernels *kernels) {
     solid8_other other = {.center = make_point(s, 3), .half = {0.3, 0.2, 0.5}, .rotation = make_rotation(s), .unit = 1};
+    // Axes that are parallel have none across them.
+    if (random_next(s) % 4 == 0) other.rotation = (mat3){{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     const mat3 r = other.rotation;
     other.absolute = (mat3){{fabs(r.r0.x), fabs(r.r0.y), fabs(r.r0.z)},
                             {fabs(r.r1.x), fabs(r.r1.y), fabs(r.r1.z)},
@@ -57,6 +59,9 @@ static void check_boxes(uint64_t *s, const solid8_kernels *twin, const solid8_ke
     other.turned = mat3_mul_transposed_vec3(other.absolute, other.half);
     other.normal = vec3_unit(make_point(s, 1));
     other.reach = random_uniform(s, 0.2, 1);
+    other.across = random_next(s) % 2;
+    other.least = random_uniform(s, 0, 0.1);
+    if (other.across) other.normal = (vec3){0, 0, 0}, other.reach = INFINITY;
     box8 node = {0};
     for (uint32_t lane = 0; lane < BOX8; lane++) {
         box b = box_make_empty();
@@ -68,6 +73,14 @@ static void check_boxes(uint64_t *s, const solid8_kernels *twin, const solid8_ke
     twin->boxes(&node, &other, a);
     kernels->boxes(&node, &other, b);
     check_bits(a, b, BOX8);
+    int has_across = other.across;
+    other.across = 0;
+    twin->boxes(&node, &other, b);
+    for (int lane = 0; lane < BOX8; lane++) {
+        CHECK(a[lane] >= b[lane]);
+        if (a[lane] > b[lane]) CHECK(has_across && a[lane] > other.least);
+        across_lanes += a[lane] > b[lane];
+    }
 }
 
 int main(void) {
@@ -81,5 +94,6 @@ int main(void) {
         }
     }
     CHECK(open_lanes > 1000 && closed_lanes > 1000);
+    CHECK(across_lanes > 100);
     return check_end();
 }

@@ -143,7 +143,7 @@ static void check_bounds(const body_tree *trees, const tree_frame *frame, int si
     const turned_box rest = body_tree_get_turned_box(other, ref);
     vec3 normal = vec3_unit(random_vec3(seed, random_next(seed) % 2));
     const node_frame *axes = &s->frames[node];
-    const framed_node framed = {side, &axes->axes, solid_scale_box(s, axes->low, axes->high), 3, &rest};
+    const framed_node framed = {side, &axes->axes, &rest};
     solid8_other turned = tree_frame_turn(frame, &framed, normal);
     turned.unit = s->unit;
     double lower[BOX8];
