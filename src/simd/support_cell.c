@@ -70,24 +70,28 @@ AVX2 static simd_extreme find_in_cell_avx2(const simd_cell *first, const simd_ce
     return best;
 }
 
+/// Four points, by their products with the four corners, that a limit beats.
+AVX2 static inline __m256d find_beaten4(const __m256d v[4], const __m256d limit[4]) {
+    __m256d a = _mm256_and_pd(_mm256_cmp_pd(v[0], limit[0], _CMP_LT_OQ), _mm256_cmp_pd(v[1], limit[1], _CMP_LT_OQ));
+    __m256d b = _mm256_and_pd(_mm256_cmp_pd(v[2], limit[2], _CMP_LT_OQ), _mm256_cmp_pd(v[3], limit[3], _CMP_LT_OQ));
+    return _mm256_and_pd(a, b);
+}
+
+// Eight points at a time share the limits.
 AVX2 static void find_unbeaten_avx2(const simd_cull *by, const simd_points *points, uint8_t *bits) {
     const double *x = points->x, *y = points->y, *z = points->z;
     vectors4 d[4];
     for (int k = 0; k < 4; k++) d[k] = vectors4_spread(vec3_at(by->corners[k], 0));
-    for (uint32_t i = 0; i < points->padded_count; i += 4) {
-        __m256d v[4], beaten = _mm256_setzero_pd();
-        vectors4 p = vectors4_load(x + i, y + i, z + i);
-        for (int k = 0; k < 4; k++) v[k] = vectors4_dot(p, d[k]);
-        for (uint32_t w = 0; w < by->limit_count; w++) {
-            const double *limit = by->limits[w];
-            __m256d a = _mm256_and_pd(_mm256_cmp_pd(v[0], _mm256_set1_pd(limit[0]), _CMP_LT_OQ),
-                                      _mm256_cmp_pd(v[1], _mm256_set1_pd(limit[1]), _CMP_LT_OQ));
-            __m256d b = _mm256_and_pd(_mm256_cmp_pd(v[2], _mm256_set1_pd(limit[2]), _CMP_LT_OQ),
-                                      _mm256_cmp_pd(v[3], _mm256_set1_pd(limit[3]), _CMP_LT_OQ));
-            beaten = _mm256_or_pd(beaten, _mm256_and_pd(a, b));
+    for (uint32_t i = 0; i < points->padded_count; i += 8) {
+        __m256d v[4], w[4], limit[4], first = _mm256_setzero_pd(), second = _mm256_setzero_pd();
+        vectors4 p = vectors4_load(x + i, y + i, z + i), q = vectors4_load(x + i + 4, y + i + 4, z + i + 4);
+        for (int k = 0; k < 4; k++) v[k] = vectors4_dot(p, d[k]), w[k] = vectors4_dot(q, d[k]);
+        for (uint32_t n = 0; n < by->limit_count; n++) {
+            for (int k = 0; k < 4; k++) limit[k] = _mm256_set1_pd(by->limits[n][k]);
+            first = _mm256_or_pd(first, find_beaten4(v, limit));
+            second = _mm256_or_pd(second, find_beaten4(w, limit));
         }
-        unsigned kept = ~(unsigned)_mm256_movemask_pd(beaten) & 15;
-        bits[i / 8] = (uint8_t)(i % 8 ? bits[i / 8] | kept << 4 : kept);
+        bits[i / 8] = (uint8_t) ~((unsigned)_mm256_movemask_pd(first) | (unsigned)_mm256_movemask_pd(second) << 4);
     }
 }
 
