@@ -30,7 +30,7 @@
 
 #include <string.h>
 
-enum { SAMPLES = 9, SHORT = 32, PAIRS_MAX = 96, NESTED_MOST = 4, K_MOST = 128, LEVELS = 14 };
+enum { SAMPLES = 9, SHORT = 32, PAIRS_MAX = 96, NESTED_MOST = 4, K_MOST = 128, LEVELS = 14, WHOLE = 4 };
 
 /// Vertices that may be extreme, padded to a multiple of 8 by the first.
 typedef struct list {
@@ -48,22 +48,25 @@ typedef struct builder {
     sym3 inverse;
     double reach;        ///< the largest length of a vertex
     list levels[LEVELS]; ///< room for the lists of a cell and of those around it
+    /// Of squares with longer lists: the vertices that are extreme at nine directions, row by row.
+    uint32_t winners[LEVELS][SAMPLES];
     uint8_t *bits;
 } builder;
 
 static uint32_t padded(uint32_t count) { return (count + 7) / 8 * 8; }
 
-static void pad(list *l) {
-    for (uint32_t i = l->count; i < padded(l->count); i++) {
-        l->x[i] = l->x[0], l->y[i] = l->y[0], l->z[i] = l->z[0];
-        l->index[i] = l->index[0];
+static void pad(const list *l) {
+    const list p = *l;
+    for (uint32_t i = p.count, end = padded(p.count); i < end; i++) {
+        p.x[i] = p.x[0], p.y[i] = p.y[0], p.z[i] = p.z[0];
+        p.index[i] = p.index[0];
     }
 }
 
 /// A square of a cube's face.
 typedef struct square {
-    uint32_t face;
-    double a, b, side; ///< from (a, b) to (a + side, b + side)
+    uint32_t face, quarter; ///< quarter: of the square around it; WHOLE: the face
+    double a, b, side;      ///< from (a, b) to (a + side, b + side)
 } square;
 
 /// The points that may beat others in the cone of a square, with their products with its corners.
@@ -101,14 +104,17 @@ static void enter(contest *c, const list *l, uint32_t i) {
 
 /// Copies the points whose bit is set; *to may be the list itself.
 static void keep(const uint8_t *all, const list *from, list *to) {
-    uint32_t kept = 0;
-    for (uint32_t block = 0; block < padded(from->count) / 8; block++)
-        for (unsigned bits = all[block]; bits; bits &= bits - 1) {
+    uint32_t kept = 0, count = from->count;
+    const list f = *from, t = *to;
+    for (uint32_t block = 0; 8 * block < count; block++) {
+        unsigned bits = all[block];
+        if (count - 8 * block < 8) bits &= (1u << (count - 8 * block)) - 1;
+        for (; bits; bits &= bits - 1, kept++) {
             uint32_t i = 8 * block + (uint32_t)__builtin_ctz(bits);
-            if (i >= from->count) break;
-            to->x[kept] = from->x[i], to->y[kept] = from->y[i], to->z[kept] = from->z[i];
-            to->index[kept++] = from->index[i];
+            t.x[kept] = f.x[i], t.y[kept] = f.y[i], t.z[kept] = f.z[i];
+            t.index[kept] = f.index[i];
         }
+    }
     to->count = kept;
     pad(to);
 }
@@ -123,22 +129,32 @@ static void cull(const builder *b, const contest *c, const list *from, list *to)
     keep(b->bits, from, to);
 }
 
-/// Adds the extreme point at a direction of the cell, unless it is there already.
-static void enter_winner(contest *c, const list *from, vec3 n, uint32_t *winners) {
-    simd_points points = get_points(from);
-    uint32_t w = simd_find_support(&points, n).index, slot = 0;
-    while (slot < c->count && winners[slot] != w) slot++;
-    if (slot < c->count) return;
-    winners[slot] = w;
-    enter(c, from, w);
+/// Finds the vertices that are extreme at nine directions of the square: its corners, its centre and the middles of its
+/// sides. The corners are among the nine directions of the square around it, whose list is longer.
+static void find_winners(builder *b, const square *s, int level) {
+    uint32_t *own = b->winners[level];
+    simd_points points = get_points(&b->levels[level]);
+    for (uint32_t row = 0; row < 3; row++)
+        for (uint32_t column = 0; column < 3; column++) {
+            if (s->quarter != WHOLE && row != 1 && column != 1) {
+                own[3 * row + column] =
+                    b->winners[level - 1][3 * ((s->quarter >> 1) + row / 2) + (s->quarter & 1) + column / 2];
+                continue;
+            }
+            vec3 n = direction_at(b, s, 0.5 * row, 0.5 * column);
+            own[3 * row + column] = b->levels[level].index[simd_find_support(&points, n).index];
+        }
 }
 
-/// Adds the extreme points at the cell's corners, its centre and the middles of its sides.
-static void enter_winners(const builder *b, contest *c, const list *from) {
-    static const double at[SAMPLES][2] = {{0, 0},   {0, 1},   {1, 0},   {1, 1},  {0.5, 0.5},
-                                          {0, 0.5}, {0.5, 0}, {1, 0.5}, {0.5, 1}};
-    uint32_t winners[SAMPLES];
-    for (int i = 0; i < SAMPLES; i++) enter_winner(c, from, direction_at(b, &c->s, at[i][0], at[i][1]), winners);
+/// Adds the winners, each once.
+static void enter_winners(builder *b, contest *c, int level) {
+    const uint32_t *own = b->winners[level];
+    find_winners(b, &c->s, level);
+    for (uint32_t i = 0; i < SAMPLES; i++) {
+        uint32_t first = 0;
+        while (own[first] != own[i]) first++;
+        if (first == i) enter(c, &b->levels[0], own[i]);
+    }
 }
 
 /// Copies the points that no other point of the list beats.
@@ -150,18 +166,20 @@ static void cull_by_pairs(const builder *b, contest *c, const list *from, list *
 
 /// Copies the points that the extreme points at nine directions of the cell do not beat; in a short list all are
 /// tested.
-static void cull_by_samples(const builder *b, contest *c, const list *from, list *to) {
+static void cull_by_samples(builder *b, contest *c, int level) {
+    const list *from = &b->levels[level];
+    list *to = &b->levels[level + 1];
     if (from->count <= SHORT) {
         cull_by_pairs(b, c, from, to);
         return;
     }
-    enter_winners(b, c, from);
+    enter_winners(b, c, level);
     cull(b, c, from, to);
 }
 
 static square quarter(const square *s, uint32_t i) {
     double side = 0.5 * s->side;
-    return (square){s->face, s->a + (i >> 1) * side, s->b + (i & 1) * side, side};
+    return (square){s->face, i, s->a + (i >> 1) * side, s->b + (i & 1) * side, side};
 }
 
 /// Reserves consecutive cleared blocks; 0 if there are too many.
@@ -197,7 +215,7 @@ static int fill_cell(builder *b, const square *s, uint32_t at, int level, int ne
     contest c;
     list *l = &b->levels[level + 1];
     contest_make(b, s, &c);
-    cull_by_samples(b, &c, &b->levels[level], l);
+    cull_by_samples(b, &c, level);
     if (b->levels[level].count > SHORT && l->count > SIMD_CELL && l->count <= PAIRS_MAX) cull_by_pairs(b, &c, l, l);
     if (l->count <= SIMD_CELL || nested == NESTED_MOST || b->used > b->divided_most) return fill_list(b, at, l);
     uint32_t next;
@@ -218,7 +236,7 @@ static int fill_grid(builder *b, const square *s, uint32_t row, uint32_t column,
     if (1u << level == k) return fill_cell(b, s, cube_cell(s->face, row, column, k), level, 0);
     contest c;
     contest_make(b, s, &c);
-    cull_by_samples(b, &c, &b->levels[level], &b->levels[level + 1]);
+    cull_by_samples(b, &c, level);
     for (uint32_t i = 0; i < 4; i++) {
         square inner = quarter(s, i);
         if (!fill_grid(b, &inner, 2 * row + (i >> 1), 2 * column + (i & 1), level + 1)) return 0;
@@ -232,7 +250,7 @@ static int fill_all(builder *b) {
     b->used = 0;
     if (!reserve(b, 6 * k * k, &grid)) return 0;
     for (uint32_t face = 0; face < 6; face++) {
-        square s = {face, -1, -1, 2};
+        square s = {face, WHOLE, -1, -1, 2};
         if (!fill_grid(b, &s, 0, 0, 0)) return 0;
     }
     return 1;
