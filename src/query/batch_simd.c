@@ -1,9 +1,9 @@
 // Most couples of a batch are decided by their enclosing spheres or ellipsoids, which cost the same for every couple:
 // so a lane group of eight couples is taken at once, without a branch. Couples that the spheres leave open are packed
 // into full lane groups before they go on to the ellipsoids, and those that the supports along the ellipsoids'
-// direction leave open go on to the exact search one by one. A couple that is in any way unusual (a far
-// origin, a quaternion to be scaled, a refused pose) is queried alone, from the start; so is one with an earlier proof
-// that the spheres leave open.
+// direction leave open go on to the exact search: small ones in lanes again, others one by one. A couple that is in any
+// way unusual (a far origin, a quaternion to be scaled, a refused pose) is queried alone, from the start; so is one
+// with an earlier proof that the spheres leave open.
 //
 // No lane depends on the others, so nothing depends on which couples share a group, and a batch may be cut anywhere.
 // Working memory: five lane groups on the stack, 26 KB; they are gone while the couples that they left open are
@@ -112,28 +112,33 @@ typedef struct group_lane {
     unsigned k;
 } group_lane;
 
-// The frame of a lane, as frame_place and frame_relate make it; what frame_relate fills in is valid after the
-// ellipsoids only.
-static pair_frame get_frame(group_lane at) {
+// The frame of a lane, as frame_place makes it. What frame_relate makes is not written.
+static inline void place_frame(group_lane at, pair_frame *f) {
     const pair8 *o = at.e->lanes;
+    const ovoid_posed_shape *a = get_a(at.e, at.k), *b = get_b(at.e, at.k);
     double size = o->size.lane[at.k], hidden = OVOID_LENGTH_MIN;
-    return (pair_frame){get_a(at.e, at.k)->shape,
-                        get_b(at.e, at.k)->shape,
-                        get9(o->world_a, at.k),
-                        get9(o->world_b, at.k),
-                        get_a(at.e, at.k)->pose.position,
-                        get3(o->offset, at.k),
-                        get3(o->between, at.k),
-                        NULL,
-                        NULL,
-                        size,
-                        FRAME_CLAIM * size + 2 * hidden,
-                        FRAME_CHECK * size + hidden,
-                        hidden,
-                        o->radii.lane[at.k],
-                        o->radii.lane[at.k],
-                        get9(o->rotation, at.k),
-                        get3(o->translation, at.k)};
+    f->a = a->shape;
+    f->b = b->shape;
+    f->world = get9(o->world_a, at.k);
+    f->world_b = get9(o->world_b, at.k);
+    f->world_origin = a->pose.position;
+    f->offset = get3(o->offset, at.k);
+    f->between = get3(o->between, at.k);
+    f->turned_a = f->turned_b = NULL;
+    f->size = size;
+    f->claim = FRAME_CLAIM * size + 2 * hidden;
+    f->check = FRAME_CHECK * size + hidden;
+    f->hidden = hidden;
+    f->lower_radii = f->upper_radii = o->radii.lane[at.k];
+}
+
+// The frame of a lane after the ellipsoids, as frame_make makes it.
+static pair_frame get_frame(group_lane at) {
+    pair_frame f;
+    place_frame(at, &f);
+    f.rotation = get9(at.e->lanes->rotation, at.k);
+    f.translation = get3(at.e->lanes->translation, at.k);
+    return f;
 }
 
 static query_goal get_goal(const batch_state *c, group_lane at) {
@@ -157,9 +162,10 @@ static void end_at_spheres(const batch_state *c, group_lane at, unsigned narrow)
         write_bounds(c, at, OVOID_STAGE_SPHERE, narrow);
         return;
     }
-    pair_frame frame = get_frame(at);
+    pair_frame frame;
     query_goal goal = get_goal(c, at);
     rejection rejected;
+    place_frame(at, &frame);
     ovoid_answer own, *out = c->batch->answers ? &c->batch->answers[at.e->index[at.k]] : &own;
     (void)reject_by_spheres(&frame, goal.far, &rejected);
     *out = rejection_make_answer(&rejected, &frame, &goal);
@@ -211,6 +217,35 @@ static void end_at_outer(const batch_state *c, group_lane at, unsigned narrow) {
     end_search(c->batch, c->wants_evidence, at.e->index[at.k], &s);
 }
 
+// Ends a couple of small bodies (small_owner).
+static void end_small(void *self, size_t index, const placed_query *q, const small_end *end) {
+    const batch_state *c = self;
+    const ovoid_batch *to = c->batch;
+    if (!end) {
+        leave_alone(c, index);
+        return;
+    }
+    write_verdict(to, index, answer_make_small_verdict(end, q->goal));
+    if (to->proofs) to->proofs[index] = answer_make_small_proof(end);
+    if (to->witnesses) to->witnesses[index] = answer_make_small_witness(end, q->frame);
+    if (to->answers) to->answers[index] = answer_make_small(end, q->frame, q->goal);
+}
+
+// The search of a small couple that the ellipsoids did not decide, along their direction.
+static void search_small(const batch_state *c, group_lane at) {
+    pair_frame frame;
+    query_goal goal = get_goal(c, at);
+    const placed_query query = {&frame, &goal, NULL, 0};
+    place_frame(at, &frame);
+    vec3 start = mat3_mul_vec3(frame.world, get3(at.e->lanes->n, at.k));
+    small_pool_add_from(c->small, at.e->index[at.k], &query, start);
+}
+
+// 1 for a small couple of a yes or no.
+static int is_small_sign(const batch_state *c, group_lane at) {
+    return c->goal.far < INFINITY && small_fits(&c->goal, get_a(at.e, at.k)->shape, get_b(at.e, at.k)->shape, 0);
+}
+
 // The supports left it open: the exact search goes on from their corner, later.
 static void leave_open(const batch_state *c, group_lane at, uint32_t a, uint32_t b) {
     const pair8 *o = at.e->lanes;
@@ -240,7 +275,10 @@ static void take_supports(search *s, const open_couple *couple, simplex *start) 
 static void end_at_support(const batch_state *c, group_lane at, uint32_t a, uint32_t b) {
     double lower = at.e->lanes->lower.lane[at.k], upper = at.e->lanes->upper.lane[at.k];
     query_goal goal = get_goal(c, at);
-    if (!query_goal_is_met(&goal, lower, upper)) {
+    int is_met = query_goal_is_met(&goal, lower, upper);
+    if (!is_met && is_small_sign(c, at)) {
+        search_small(c, at);
+    } else if (!is_met) {
         leave_open(c, at, a, b);
     } else if (goal.wants_bracket && at.e->lanes->radii.lane[at.k] > 0) {
         // If radii overlap, the single query takes a second look (stage_support).
@@ -317,6 +355,24 @@ static pair8_ellipsoids find_ellipsoids(const lane_group *e) {
     return rows;
 }
 
+// How deep the outer ellipsoids overlap, of the sum of the spheres' radii, where the supports along their direction
+// seldom separate the bodies. The search of small bodies then begins at once (docs/query.md).
+#define OUTER_DEPTH 0.2
+
+// Begins the search of the small couples among the lanes `open` for which a look at the supports does not pay. Their
+// mask.
+static unsigned search_deep(const batch_state *c, const lane_group *e, unsigned open) {
+    unsigned deep = 0;
+    for (unsigned rest = open; rest; rest &= rest - 1) {
+        unsigned k = compiler_count_low_zeros(rest);
+        const group_lane at = {e, k};
+        if (!(e->lanes->lower.lane[k] < -OUTER_DEPTH * e->lanes->reach.lane[k]) || !is_small_sign(c, at)) continue;
+        deep |= 1u << k;
+        search_small(c, at);
+    }
+    return deep;
+}
+
 // Ends the lanes `some` of a group after the ellipsoids.
 static void end_group(const batch_state *c, lane_group *e, unsigned some, const pair8_found *found) {
     for (unsigned rest = some; rest; rest &= rest - 1) {
@@ -329,6 +385,7 @@ static void end_group(const batch_state *c, lane_group *e, unsigned some, const 
             end_at_outer(c, (group_lane){e, k}, found->narrow);
     }
     unsigned open = some & ~(found->odd | found->inner | found->apart);
+    open &= ~search_deep(c, e, open);
     if (open) meet(c, e, open);
 }
 
@@ -437,34 +494,23 @@ COMPILER_NOINLINE static unsigned find_warm(const ovoid_batch *batch, const lane
     return warm;
 }
 
-// Ends a couple of small bodies (small_owner).
-static void end_small(void *self, size_t index, const placed_query *q, const small_end *end) {
-    const batch_state *c = self;
-    const ovoid_batch *to = c->batch;
-    if (!end) {
-        leave_alone(c, index);
-        return;
-    }
-    write_verdict(to, index, answer_make_small_verdict(end, q->goal));
-    if (to->proofs) to->proofs[index] = answer_make_small_proof(end);
-    if (to->witnesses) to->witnesses[index] = answer_make_small_witness(end, q->frame);
-    if (to->answers) to->answers[index] = answer_make_small(end, q->frame, q->goal);
-}
-
-// Answers those of the lanes `open` that have a closed form, and searches those that are small. The mask of both.
+// Answers those of the lanes `open` that have a closed form, and searches the small ones from the line of centres where
+// a distance is asked for, which needs no ellipsoids. The mask of both.
 static unsigned add_small(batch_state *c, const lane_group *e, unsigned open) {
     unsigned small = 0;
+    int is_distance = c->goal.far == INFINITY;
     for (unsigned rest = open; rest; rest &= rest - 1) {
         unsigned k = compiler_count_low_zeros(rest);
         const ovoid_shape *a = get_a(e, k)->shape, *b = get_b(e, k)->shape;
         double sphere_gap = e->lanes->lower.lane[k];
         int is_closed = closed_fits(a, b);
-        if (!is_closed && !small_takes(&c->goal, a, b, sphere_gap)) continue;
+        if (!is_closed && !(is_distance && small_fits(&c->goal, a, b, sphere_gap))) continue;
         small |= 1u << k;
-        pair_frame frame = get_frame((group_lane){e, k});
+        pair_frame frame;
         query_goal goal = get_goal(c, (group_lane){e, k});
         const placed_query query = {&frame, &goal, NULL, sphere_gap};
         small_end end;
+        place_frame((group_lane){e, k}, &frame);
         if (is_closed)
             end_small(c, e->index[k], &query, closed_run(&query, &end) ? &end : NULL);
         else
@@ -480,10 +526,9 @@ static void take_group(batch_state *c, size_t first, unsigned count, lane_group 
     unsigned odd = find_places(c, first, count, e), all = (1u << count) - 1;
     pair8_found found = c->kernels->spheres(&e->at, &c->numbers, e->lanes);
     odd |= found.odd;
-    // Lanes that start from the line of centres.
+    // Distances of bodies far apart start from the line of centres.
     for (unsigned k = 0; k < PAIR8; k++)
-        e->lanes->line.lane[k] =
-            query_goal_takes_line(&c->goal, get_a(e, k)->shape, get_b(e, k)->shape, e->lanes->lower.lane[k]);
+        e->lanes->line.lane[k] = c->goal.far == INFINITY && e->lanes->lower.lane[k] > e->lanes->reach.lane[k];
     unsigned apart = found.apart & ~odd & all, open = all & ~(odd | apart);
     unsigned warm = c->batch->proofs ? find_warm(c->batch, e, open) : 0;
     open &= ~warm;
@@ -491,12 +536,12 @@ static void take_group(batch_state *c, size_t first, unsigned count, lane_group 
         leave_alone(c, first + compiler_count_low_zeros(rest));
     for (unsigned rest = apart; rest; rest &= rest - 1)
         end_at_spheres(c, (group_lane){e, compiler_count_low_zeros(rest)}, found.narrow);
+    open &= ~add_small(c, e, open);
     for (unsigned rest = open; rest; rest &= rest - 1) {
         unsigned k = compiler_count_low_zeros(rest);
         fetch_ellipsoids((const void *)e->at.shape_a[k]);
         fetch_ellipsoids((const void *)e->at.shape_b[k]);
     }
-    open &= ~add_small(c, e, open);
     if (open == PAIR8_ALL && e != own)
         c->waiting_count += PAIR8;
     else

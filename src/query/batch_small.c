@@ -28,9 +28,9 @@ static void end_lanes(const small_pool *p, unsigned group, unsigned lanes, small
         f.hidden = OVOID_LENGTH_MIN;
         f.lower_radii = g->lower_radii.lane[k];
         f.upper_radii = g->upper_radii.lane[k];
-        small_gjk_result r = {.end = how};
+        small_gjk_result r;
         small_end end;
-        if (how != SMALL_GJK_OPEN) gjk8_get_result(g, k, how, &r);
+        gjk8_get_result(g, k, how, &r);
         const placed_query q = {.frame = &c->frame, .goal = &goal};
         p->owner.finish(p->owner.self, c->index, &q, small_finish(&f, &goal, &r, &end) ? &end : NULL);
     }
@@ -53,33 +53,48 @@ static unsigned find_group(small_pool *p) {
     }
 }
 
-// 1 where a place in the lanes costs more than it saves: the first supports end most searches of bodies far apart, and
-// most of yes or no whose spheres do not overlap by a fifth.
-static int is_short(const placed_query *q) {
-    return q->sphere_gap > (q->goal->wants_bracket ? 1 : -0.2) * (q->frame->a->reach + q->frame->b->reach);
+// 1 where a place in the lanes costs more than it saves: the first supports end most searches of bodies far apart.
+static int is_short(const placed_query *q) { return q->sphere_gap > q->frame->a->reach + q->frame->b->reach; }
+
+// Searches a couple by itself.
+static void run_alone(small_pool *p, size_t index, const placed_query *q, const small_gjk_query *gjk) {
+    small_gjk_result r;
+    small_end end;
+    simd_run_small_gjk(gjk, &r);
+    p->owner.finish(p->owner.self, index, q, small_finish(q->frame, q->goal, &r, &end) ? &end : NULL);
 }
 
-void small_pool_add(small_pool *p, size_t index, const placed_query *q) {
-    small_gjk_query gjk;
-    small_end end;
-    int is_over = small_begin(q, &gjk, &end);
-    if (is_over >= 0) {
-        p->owner.finish(p->owner.self, index, q, is_over ? &end : NULL);
-        return;
-    }
-    if (!p->has_lanes || is_short(q)) {
-        small_gjk_result r;
-        simd_run_small_gjk(&gjk, &r);
-        p->owner.finish(p->owner.self, index, q, small_finish(q->frame, q->goal, &r, &end) ? &end : NULL);
-        return;
-    }
+static void begin_in_lane(small_pool *p, size_t index, const placed_query *q, const small_gjk_query *gjk) {
     unsigned group = find_group(p), k = compiler_count_low_zeros(~p->groups[group].active);
     small_couple *c = &p->couples[PAIR8 * group + k];
     c->index = index;
     c->size = q->frame->size;
     c->tolerance = q->goal->tolerance;
     if (p->owner.keeps_frames) c->frame = *q->frame;
-    p->kernels->begin(&p->groups[group], k, &gjk);
+    p->kernels->begin(&p->groups[group], k, gjk);
+}
+
+void small_pool_add(small_pool *p, size_t index, const placed_query *q) {
+    small_gjk_query gjk;
+    small_end end;
+    int is_over = small_begin(q, &gjk, &end);
+    if (is_over >= 0)
+        p->owner.finish(p->owner.self, index, q, is_over ? &end : NULL);
+    else if (!p->has_lanes || is_short(q))
+        run_alone(p, index, q, &gjk);
+    else
+        begin_in_lane(p, index, q, &gjk);
+}
+
+void small_pool_add_from(small_pool *p, size_t index, const placed_query *q, vec3 start) {
+    small_gjk_query gjk = small_make_query(q->frame, q->goal);
+    gjk.start[0] = start.x;
+    gjk.start[1] = start.y;
+    gjk.start[2] = start.z;
+    if (p->has_lanes)
+        begin_in_lane(p, index, q, &gjk);
+    else
+        run_alone(p, index, q, &gjk);
 }
 
 void small_pool_finish(small_pool *p) {

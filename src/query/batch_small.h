@@ -36,8 +36,11 @@ typedef struct small_pool {
 /// count: of the couples that will be added, at most.
 void small_pool_make(small_pool *pool, const query_goal *goal, small_owner owner, size_t count);
 
-/// Begins the search of a couple for which small_takes is 1; others may end meanwhile.
+/// Begins the search of a couple for which small_fits is 1, from the line of centres; others may end meanwhile.
 void small_pool_add(small_pool *pool, size_t index, const placed_query *query);
+
+/// The same from a unit direction of the world, for a couple whose inner ellipsoids have no common point.
+void small_pool_add_from(small_pool *pool, size_t index, const placed_query *query, vec3 start);
 
 /// Goes on until all have ended.
 void small_pool_finish(small_pool *pool);

@@ -1,8 +1,8 @@
-// A lane group: eight pairs through the first stages of a query (poses, enclosing spheres, ellipsoids, supports). Each
-// lane gets the bits that the single query computes (pair/frame.c, reject.c, stages.c: the same operations in the same
-// order), whatever the instruction set. Lanes that need more than the common case (a quaternion that has to be scaled,
-// squares that over- or underflow, a matrix that is not positive definite) are reported, not computed: the caller
-// answers them by the single query.
+// A lane group: eight pairs through the first stages of a query (poses, enclosing spheres, ellipsoids, supports). A
+// lane has the same bits whatever the instruction set and the other lanes. The operations are those of the single query
+// (pair/frame.c, reject.c, stages.c), but the ellipsoids' direction is improved once and not twice. Lanes that need
+// more than the common case (a quaternion that has to be scaled, squares that over- or underflow, a matrix that is not
+// positive definite) are reported, not computed: the caller answers them by the single query.
 //
 // Cost, a pair, one core at 2.8 GHz, AVX-512 (AVX2, scalar): spheres 10 ns (18, 40), ellipsoids 31 ns (46, 120),
 // supports 1.3 ns.

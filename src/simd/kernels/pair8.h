@@ -1,6 +1,5 @@
-// The kernels of pair8.h, written once over lanes; scalar.c, avx2.c and avx512.c include this. Every
-// step has the operations of the single query in their order: a change there is a change here, and
-// tests/core/query/test_query_batch.c sees the difference.
+// The kernels of pair8.h, written once over lanes; scalar.c, avx2.c and avx512.c include this. The error bounds of the
+// single query (pair/frame.h, reject.h) hold for the lanes, since the steps have its operations in their order.
 #include "simd/kernels/lane_columns.h"
 
 // ---- columns
@@ -270,8 +269,8 @@ LANES_INLINE lane compute_spread(lane6 q, lane3 n) {
     return lane_max(lane3_dot(n, lane6_mul3(q, n)), lane_set(0)) + lane_set(256 * 0x1p-53) * lane6_trace(q);
 }
 
-// ellipsoids_find_direction in two steps: first the line of centres (or find_line in answer.c), then one round of it
-// (improve_direction). The mask loses the lanes that are scaled there, or leave its loop early.
+// ellipsoids_find_direction with one improvement, in two steps: first the line of centres (or find_line in answer.c),
+// then one round of it (improve_direction). The mask loses the lanes that are scaled there, or leave its loop early.
 LANES_INLINE void start_direction(ellipsoid_work *w, int at) {
     pair8 *o = w->o;
     related f = get_related(o, at);
@@ -353,9 +352,9 @@ LANES_TARGET static void run_ellipsoids(pair8_group *groups, unsigned count, con
         w[i].query = query;
         start_ellipsoids(&groups[i].from, &w[i]);
     }
-    for (int round = 0; round < 3; round++)
+    for (int round = 0; round < 2; round++)
         for (unsigned i = 0; i < count; i++)
-            for (int at = 0; at < PAIR8 && w[i].is_searching; at += LANES) improve_direction(&w[i], round == 2, at);
+            for (int at = 0; at < PAIR8 && w[i].is_searching; at += LANES) improve_direction(&w[i], round == 1, at);
     for (unsigned i = 0; i < count; i++) {
         groups[i].found = (pair8_found){0, 0, 0, 0};
         for (int at = 0; at < PAIR8; at += LANES) add_found(&groups[i].found, compute_outer(&w[i], at), at);
