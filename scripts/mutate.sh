@@ -29,7 +29,7 @@ tests_of() {
     prepared) echo "test_prepared test_environment" ;;
     growth) echo "test_simd_epa8 test_judge_capacity $query" ;;
     boxes) echo "test_simd_box_axes test_query_boxes $query" ;;
-    closed) echo "test_query_closed test_query_batch test_prepared test_allowance test_query_boxes $query" ;;
+    closed) echo "test_query_closed test_judge_closed test_query_batch test_prepared test_allowance test_query_boxes $query" ;;
     exact) echo "test_linear test_hull $query" ;;
     hull) echo "test_linear test_hull test_measures test_shape $query" ;;
     shape) echo "test_measures test_shape test_shape_triangles test_shape_file $query" ;;

@@ -15,7 +15,7 @@
 // Where many points are nearest, as of parallel segments or of a segment along a face, those in the middle are taken.
 //
 // Of bodies whose cores overlap the radii alone prove the overlap. The normal is then that of the face which the core
-// is the least behind; of a point in a box that is the depth, for which another proof is needed (exact/boxes.h).
+// is the least behind; of a point in a box that is the depth, for which another proof is needed (exact/inside.h).
 #include "exact/closed.h"
 
 // Nearest points: their parameters, in the world's axes where they are from A's body frame and their difference, B's

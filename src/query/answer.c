@@ -7,6 +7,7 @@
 #include "exact/boxes.h"
 #include "exact/epa.h"
 #include "exact/gjk.h"
+#include "exact/inside.h"
 #include "exact/refine.h"
 #include "pair/proof.h"
 #include "pair/reject.h"
@@ -243,7 +244,9 @@ static void run_stages(search *s, double sphere_gap, const ovoid_proof *earlier,
 // unless the cores are known to be apart.
 static void run_exact(search *s, simplex *start, ovoid_cover *cover) {
     int cores_apart = s->lower + s->frame->lower_radii > 0;
-    if (s->goal.wants_depth && !cores_apart && (boxes_take_depth(s, cover) || epa_run(s, start, 1, cover))) return;
+    if (s->goal.wants_depth && !cores_apart &&
+        (boxes_take_depth(s, cover) || inside_take_depth(s, cover) || epa_run(s, start, 1, cover)))
+        return;
     gjk_end end = gjk_run(s, start);
     if (end == GJK_ANSWERED) return;
     if (end == GJK_ITERATIONS) s->limit = OVOID_LIMIT_ITERATIONS;

@@ -56,13 +56,20 @@ static void check_known(const ovoid_shape *a, const ovoid_shape *b, ovoid_pose b
     }
 }
 
-/// The depth, whichever way it is found.
+/// The depth of a core that is inside, in closed form.
 static void check_depth(const ovoid_shape *a, const ovoid_shape *b, ovoid_pose b_in_a, double d) {
-    ovoid_pair pair = {a, b, {{0, 0, 0}, upright}, b_in_a}, turned = {b, a, b_in_a, {{0, 0, 0}, upright}};
-    for (int i = 0; i < 2; i++) {
-        ovoid_answer answer = ask(i ? &turned : &pair, 1, 0);
+    uint64_t r = 31;
+    for (int i = 0; i < 12; i++) {
+        ovoid_pose move = i > 1 ? (ovoid_pose){random_place(&r), random_turn(&r)} : (ovoid_pose){{0, 0, 0}, upright};
+        ovoid_pair pair = {a, b, move, ovoid_pose_compute_product(&move, &b_in_a)};
+        if (i % 2) pair = (ovoid_pair){pair.shape_b, pair.shape_a, pair.pose_b, pair.pose_a};
+        ovoid_answer answer = ask(&pair, 1, 1);
         CHECK_NEAR(answer.lower, d, 1e-12);
         CHECK_NEAR(answer.upper, d, 1e-12);
+        ovoid_vec3 n = answer.normal, p = answer.point_a, q = answer.point_b;
+        CHECK_NEAR(q.x - p.x, d * n.x, 1e-12);
+        CHECK_NEAR(q.y - p.y, d * n.y, 1e-12);
+        CHECK_NEAR(q.z - p.z, d * n.z, 1e-12);
     }
 }
 
@@ -102,18 +109,28 @@ static void test_known(void) {
     ovoid_shape_destroy(dot);
 }
 
-// The depth of a ball or a pill whose core is in a box: the least way to a face. A common point of the cores does not
-// answer that.
+// The depth of a ball whose centre is in a box, and of a pill along one of its edges: the least way to a face. A common
+// point of the cores does not answer that.
 static void test_inside(void) {
     ovoid_shape *ball = ovoid_shape_create_sphere(0.5, NULL, NULL),
                 *pill = ovoid_shape_create_capsule(0.5, 0.5, NULL, NULL),
                 *box = ovoid_shape_create_box((ovoid_vec3){1, 2, 3}, NULL, NULL);
-    const ovoid_quat lying = {1, 1, 0, 0};
-    check_depth(box, ball, (ovoid_pose){{0.5, 0.75, -1}, lying}, -1);
+    const ovoid_quat lying = {1, 1, 0, 0}, over = {0, 1, 0, 0}, slanted = {1, 0.25, 0.125, 0};
+    check_depth(box, ball, (ovoid_pose){{0.5, 0.75, -1}, slanted}, -1);
     check_depth(box, ball, (ovoid_pose){{-0.25, 1.75, 1}, lying}, -0.75);
+    check_depth(box, ball, (ovoid_pose){{0.25, -1, -2.5}, lying}, -1);
     check_depth(box, ball, (ovoid_pose){{0, 0, 0}, lying}, -1.5);
     check_depth(box, pill, (ovoid_pose){{0.25, 0.5, 1}, upright}, -1.25);
-    check_depth(box, pill, (ovoid_pose){{0.25, 1.5, 1}, lying}, -1.25);
+    check_depth(box, pill, (ovoid_pose){{-0.25, 0.5, 1}, over}, -1.25);
+    check_depth(box, pill, (ovoid_pose){{0.25, 1.875, 1}, lying}, -1.125);
+    check_depth(box, pill, (ovoid_pose){{0.25, -1.875, -1}, lying}, -1.125);
+    check_depth(box, pill, (ovoid_pose){{0.25, 0, 3}, over}, -1);
+    check_depth(box, pill, (ovoid_pose){{0.25, 0, -3}, upright}, -1);
+    // Another direction: by the search for all pairs.
+    ovoid_pair pair = {box, pill, {{0, 0, 0}, upright}, {{0.25, 0.5, 0}, {2, 0, 1, 0}}};
+    ovoid_answer answer = ask(&pair, 1, 0);
+    CHECK_NEAR(answer.lower, -1.65, 1e-8);
+    CHECK_NEAR(answer.upper, -1.65, 1e-8);
     ovoid_shape_destroy(ball);
     ovoid_shape_destroy(pill);
     ovoid_shape_destroy(box);
