@@ -193,7 +193,7 @@ static void check_program(void) {
             for (int j = 0; j < 9; j++) c[k] += row[k][j] * d[j];
         }
         qp q;
-        q.count = 0;
+        qp_clear(&q);
         double worst = 1;
         for (int step = 0; step < 200 && worst > 1e-9 && q.count < QP_SIZE; step++) {
             for (int j = 0; j < QP_WIDTH; j++) sum[j] = 0;
