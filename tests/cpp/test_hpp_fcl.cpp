@@ -175,6 +175,26 @@ static void test_beside_fcl() {
     CHECK_LE(200, compared);
 }
 
+/// The contact of two spheres is where FCL has it, to some roundings; within one another too.
+static void test_spheres() {
+    random_poses poses(7);
+    const Sphered a(0.6), b(0.25);
+    const CollisionRequestd one(1, true);
+    long hits = 0;
+    for (int n = 0; n < 60; n++) {
+        const Transform3d s = poses.make<double>(0.3), t = poses.make<double>(0.3);
+        CollisionResultd ours, theirs;
+        CHECK_EQ(ovoid::fcl::collide<double>(&a, s, &b, t, one, ours), fcl::collide<double>(&a, s, &b, t, one, theirs));
+        if (!ours.isCollision()) continue;
+        hits++;
+        const Contactd &c = ours.getContact(0), &d = theirs.getContact(0);
+        CHECK_NEAR((c.pos - d.pos).norm(), 0, 1e-12);
+        CHECK_NEAR((c.normal - d.normal).norm(), 0, 1e-12);
+        CHECK_NEAR(c.penetration_depth, d.penetration_depth, 1e-12);
+    }
+    CHECK_LE(20, hits);
+}
+
 /// Every pair of triangles that touch is listed, and no other; a mesh within another has no contact, and its distance
 /// is that of the surfaces.
 static void test_meshes() {
@@ -408,6 +428,7 @@ int main() {
     std::cerr.rdbuf(nullptr); // FCL's warnings
     test_shapes();
     test_beside_fcl();
+    test_spheres();
     test_meshes();
     test_planes();
     test_left_to_fcl();

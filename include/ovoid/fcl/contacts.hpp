@@ -25,8 +25,16 @@ inline bool is_hit(const ovoid_answer &answer) {
     return answer.status != OVOID_SEPARATED;
 }
 inline double middle(const ovoid_answer &answer) { return (answer.lower + answer.upper) / 2; }
-inline ovoid_vec3 between(const ovoid_vec3 &a, const ovoid_vec3 &b) {
-    return {(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2};
+/// The point at this part of the way from a to b.
+inline ovoid_vec3 between(const ovoid_vec3 &a, const ovoid_vec3 &b, double part) {
+    return {a.x + part * (b.x - a.x), a.y + part * (b.y - a.y), a.z + part * (b.z - a.z)};
+}
+/// Where a contact is between the two deepest points: in the middle; of two spheres, as in FCL, by their radii.
+template <class S> double get_part(const geometry<S> *o1, const geometry<S> *o2) {
+    if (o1->getNodeType() != ::fcl::GEOM_SPHERE || o2->getNodeType() != ::fcl::GEOM_SPHERE) return 0.5;
+    const double a = static_cast<const ::fcl::Sphere<S> *>(o1)->radius,
+                 b = static_cast<const ::fcl::Sphere<S> *>(o2)->radius;
+    return a + b > 0 ? a / (a + b) : 0.5;
 }
 
 /// Two bodies at their poses.
@@ -109,7 +117,8 @@ template <class S> class contact_list {
     void add(int i, int j) { result_->addContact(::fcl::Contact<S>(o1_, o2_, i, j)); }
     /// A contact with details. FCL's depths are not negative.
     void add(int i, int j, const ovoid_manifold_point &at, const ovoid_vec3 &normal) {
-        result_->addContact(::fcl::Contact<S>(o1_, o2_, i, j, from_vec3<S>(between(at.point_a, at.point_b)),
+        result_->addContact(::fcl::Contact<S>(o1_, o2_, i, j,
+                                              from_vec3<S>(between(at.point_a, at.point_b, get_part(o1_, o2_))),
                                               from_vec3<S>(normal), static_cast<S>(std::max(0.0, -at.separation))));
     }
 
