@@ -27,11 +27,13 @@ template <class S> bool note(object_of<S> *a, object_of<S> *b, void *data) {
     to.pairs.emplace_back(a, b);
     return to.pairs.size() >= to.most;
 }
-/// The distance of boxes stands for that of the objects: the manager does not know what the callback measures.
+/// A number that is at least the distance of the boxes stands for that of the objects: the manager does not know what
+/// the callback measures. The pair with the nearest boxes is seldom the one with the least number.
 template <class S> bool measure(object_of<S> *a, object_of<S> *b, void *data, S &least) {
     auto &to = *static_cast<record<S> *>(data);
     to.pairs.emplace_back(a, b);
-    least = to.least = std::min(to.least, a->getAABB().distance(b->getAABB()) + S(0.01));
+    least = to.least = std::min(to.least, a->getAABB().distance(b->getAABB()) +
+                                              S(0.2) * (a->getTranslation() - b->getTranslation()).norm());
     return to.pairs.size() >= to.most;
 }
 
@@ -92,7 +94,8 @@ void compare(ovoid::fcl::BroadPhaseManager<S> &ours, NaiveCollisionManager<S> &t
     ours.distance(&e, measure<S>);
     theirs.distance(&f, measure<S>);
     CHECK_EQ(e.least, f.least);
-    CHECK_LE(e.pairs.size(), f.pairs.size() + 1);
+    const auto asked = sorted<S>(e.pairs); // no pair twice
+    CHECK(std::adjacent_find(asked.begin(), asked.end()) == asked.end());
     ours.distance(other, &g, measure<S>);
     theirs.distance(other, &h, measure<S>);
     CHECK_EQ(g.least, h.least);
