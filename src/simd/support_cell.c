@@ -2,6 +2,8 @@
 // the lowest index among equal values wins: entries are ascending, and a later one has to be greater.
 #include "simd/support_cell.h"
 
+#include <stddef.h>
+
 static inline simd_extreme take(const simd_cell *c, unsigned lane, double value) {
     return (simd_extreme){value + 0.0, c->x[lane], c->y[lane], c->z[lane], c->index[lane]};
 }
@@ -25,7 +27,7 @@ simd_extreme simd_find_in_cell_scalar(const simd_cell *first, const simd_cell *m
     return best;
 }
 
-void simd_find_unbeaten_scalar(const simd_cull *by, const simd_points *points, uint8_t *bits) {
+static void find_unbeaten_scalar(const simd_cull *by, const simd_points *points, uint8_t *bits) {
     const double *x = points->x, *y = points->y, *z = points->z;
     for (uint32_t i = 0; i < points->padded_count; i++) {
         double v[4];
@@ -129,7 +131,13 @@ void simd_find_unbeaten(const simd_cull *by, const simd_points *points, uint8_t 
     else if (__builtin_cpu_supports("avx2"))
         find_unbeaten_avx2(by, points, bits);
     else
-        simd_find_unbeaten_scalar(by, points, bits);
+        find_unbeaten_scalar(by, points, bits);
+}
+
+simd_unbeaten_function *simd_get_unbeaten(simd_isa isa) {
+    if (isa == SIMD_AVX512) return __builtin_cpu_supports("avx512f") ? find_unbeaten_avx512 : NULL;
+    if (isa == SIMD_AVX2) return __builtin_cpu_supports("avx2") ? find_unbeaten_avx2 : NULL;
+    return isa == SIMD_SCALAR ? find_unbeaten_scalar : NULL;
 }
 
 #else
@@ -139,7 +147,9 @@ simd_extreme simd_find_in_cell(const simd_cell *first, const simd_cell *more, ui
 }
 
 void simd_find_unbeaten(const simd_cull *by, const simd_points *points, uint8_t *bits) {
-    simd_find_unbeaten_scalar(by, points, bits);
+    find_unbeaten_scalar(by, points, bits);
 }
+
+simd_unbeaten_function *simd_get_unbeaten(simd_isa isa) { return isa == SIMD_SCALAR ? find_unbeaten_scalar : NULL; }
 
 #endif

@@ -38,6 +38,9 @@ typedef struct simd_cull {
 
 /// Sets one bit for each of the points, padding too: 1 where the point is not beaten.
 void simd_find_unbeaten(const simd_cull *by, const simd_points *points, uint8_t *bits);
-void simd_find_unbeaten_scalar(const simd_cull *by, const simd_points *points, uint8_t *bits);
+typedef void simd_unbeaten_function(const simd_cull *by, const simd_points *points, uint8_t *bits);
+
+/// That of one instruction set, for tests: NULL where this machine or build lacks it.
+simd_unbeaten_function *simd_get_unbeaten(simd_isa isa);
 
 #endif

@@ -200,8 +200,13 @@ static void check_kernels(uint64_t *state) {
         simd_cull by = {(const double(*)[3])corners, (const double(*)[4])limits, (uint32_t)i % 6};
         uint32_t count = 8 * (1 + (uint32_t)(random_next(state) % 20));
         simd_points points = {x, y, z, count};
+        simd_get_unbeaten(SIMD_SCALAR)(&by, &points, b);
+        for (int isa = 0; isa < SIMD_ISA_COUNT; isa++) {
+            simd_unbeaten_function *find = simd_get_unbeaten((simd_isa)isa);
+            if (find) find(&by, &points, a);
+            if (find) CHECK(memcmp(a, b, count / 8) == 0);
+        }
         simd_find_unbeaten(&by, &points, a);
-        simd_find_unbeaten_scalar(&by, &points, b);
         CHECK(memcmp(a, b, count / 8) == 0);
     }
 }
