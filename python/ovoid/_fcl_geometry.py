@@ -350,6 +350,7 @@ class CollisionObject:
             raise ValueError("an object needs a geometry")
         self._geometry = geom
         self._transform = Transform(tf) if tf is not None else Transform()
+        self._kept_box: tuple[Shape | Solid | None, tuple[Array, Array]] | None = None
 
     def getObjectType(self) -> int:
         """One of OBJECT_TYPE."""
@@ -366,6 +367,7 @@ class CollisionObject:
     def setTranslation(self, vec: Any) -> None:
         """Sets the translation."""
         self._transform.setTranslation(vec)
+        self._kept_box = None
 
     def getRotation(self) -> Array:
         """The rotation, 3x3."""
@@ -374,6 +376,7 @@ class CollisionObject:
     def setRotation(self, mat: Any) -> None:
         """Sets the rotation, 3x3."""
         self._transform.setRotation(mat)
+        self._kept_box = None
 
     def getQuatRotation(self) -> Array:
         """The rotation as w, x, y, z."""
@@ -382,6 +385,7 @@ class CollisionObject:
     def setQuatRotation(self, q: Any) -> None:
         """Sets the rotation by w, x, y, z."""
         self._transform.setQuatRotation(q)
+        self._kept_box = None
 
     def getTransform(self) -> Transform:
         """A copy of the transform."""
@@ -390,6 +394,7 @@ class CollisionObject:
     def setTransform(self, tf: Transform) -> None:
         """Sets the transform."""
         self._transform = Transform(tf)
+        self._kept_box = None
 
     def isOccupied(self) -> bool:
         """Every object is."""
@@ -404,6 +409,13 @@ class CollisionObject:
         return False
 
     def _aabb(self) -> tuple[Array, Array]:
+        """The box in the world. It is kept until the transform or the body changes: managers ask again at each update."""
+        if self._kept_box is None or self._kept_box[0] is not self._geometry._body:
+            box = self._compute_box()
+            self._kept_box = self._geometry._body, box
+        return self._kept_box[1]
+
+    def _compute_box(self) -> tuple[Array, Array]:
         low, high = self._geometry._box()
         if not np.all(np.isfinite(low)):
             return low, high

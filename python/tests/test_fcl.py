@@ -4,6 +4,7 @@ pairs of them; managers against all pairs of objects. trimesh.collision runs on 
 import itertools
 import sys
 import unittest
+import unittest.mock
 
 from common import main, needs_numpy, numpy as np
 
@@ -200,6 +201,38 @@ class Fcl(unittest.TestCase):
         data = fcl.CollisionData()
         lonely.collide(data, fcl.defaultCollisionCallback)
         self.assertFalse(data.result.is_collision)
+
+    def test_boxes(self):
+        """Every change of an object moves its box at the next update, and nothing else computes a box anew."""
+        fcl = self.fcl
+        bar, wall = fcl.Box(4, 1, 1), self.at(fcl.Box(1, 1, 1), 0, 2, 0)
+        moving = self.at(bar, 0, 0, 0)
+        manager = fcl.DynamicAABBTreeCollisionManager()
+        manager.registerObjects([moving, wall, *(self.at(fcl.Sphere(0.1), 9 + i, 0, 0) for i in range(50))])
+        upright = np.array([[0.0, -1, 0], [1, 0, 0], [0, 0, 1]])
+
+        def resize():
+            bar.side = np.array([1.0, 4, 1])
+
+        changes = [
+            (lambda: moving.setRotation(upright), True),
+            (lambda: moving.setTranslation(np.array([0.0, -3, 0])), False),
+            (lambda: moving.setTransform(fcl.Transform(np.array([0.0, 1, 0]))), True),
+            (lambda: moving.setTransform(fcl.Transform()), False),
+            (lambda: moving.setQuatRotation(np.array([0.5**0.5, 0, 0, 0.5**0.5])), True),
+            (lambda: moving.setQuatRotation(np.array([1.0, 0, 0, 0])), False),
+            (resize, True),
+        ]
+        computed = []
+        compute = fcl.CollisionObject._compute_box
+        with unittest.mock.patch.object(fcl.CollisionObject, "_compute_box", lambda o: computed.append(o) or compute(o)):
+            for change, is_hit in changes:
+                change()
+                manager.update()
+                data = fcl.CollisionData()
+                manager.collide(data, fcl.defaultCollisionCallback)
+                self.assertEqual(data.result.is_collision, is_hit)
+        self.assertEqual(computed, [moving] * len(changes))
 
     def test_refusals(self):
         fcl = self.fcl
