@@ -67,7 +67,7 @@ template <class S> posed<S> pose_of(const ::fcl::CollisionObject<S> *o) {
 
 /// Fills the couple; false if FCL has to answer. What is in it stays until this thread's next call.
 template <class S> bool make_couple(const posed<S> &a, const posed<S> &b, body_couple &couple) {
-    if (!to_pose<S>(a.pose, couple.pose_a) || !to_pose<S>(b.pose, couple.pose_b)) return false;
+    if (!to_pose<S>(a.of, a.pose, couple.pose_a) || !to_pose<S>(b.of, b.pose, couple.pose_b)) return false;
     table &mine = table::get();
     mine.begin();
     couple.a = mine.find<S>(a.of, a.owner);

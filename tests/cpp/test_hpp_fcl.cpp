@@ -195,6 +195,46 @@ static void test_spheres() {
     CHECK_LE(20, hits);
 }
 
+/// The rotation of a sphere changes no bit of an answer, whatever the matrix is.
+static void test_turned_spheres() {
+    random_poses poses(8);
+    const Sphered a(0.6), ball(0.25);
+    const Boxd box(0.9, 0.8, 0.7);
+    const Capsuled capsule(0.3, 0.8);
+    const CollisionGeometryd *others[] = {&ball, &box, &capsule};
+    const CollisionRequestd one(1, true);
+    Transform3d sheared = Transform3d::Identity();
+    sheared.linear()(0, 1) = 0.5;
+    const long left = counting_fcl::calls;
+    for (int n = 0; n < 30; n++) {
+        const Transform3d s = poses.make<double>(0.5), t = poses.make<double>(0.5);
+        const Transform3d place(Eigen::Translation3d(s.translation()));
+        for (const auto *other : others) {
+            CollisionResultd plain;
+            DistanceResultd far;
+            ovoid::fcl::collide<double>(&a, place, other, t, one, plain);
+            ovoid::fcl::distance<double>(other, t, &a, place, DistanceRequestd(true), far);
+            for (const Transform3d &turned : {s, place * sheared}) {
+                CollisionResultd contacts;
+                DistanceResultd nearest;
+                ovoid::fcl::collide<double>(&a, turned, other, t, one, contacts);
+                ovoid::fcl::distance<double>(other, t, &a, turned, DistanceRequestd(true), nearest);
+                CHECK_EQ(contacts.numContacts(), plain.numContacts());
+                CHECK(nearest.min_distance == far.min_distance && nearest.nearest_points[0] == far.nearest_points[0]);
+                if (!plain.isCollision()) continue;
+                const Contactd &c = contacts.getContact(0), &d = plain.getContact(0);
+                CHECK(c.pos == d.pos && c.normal == d.normal && c.penetration_depth == d.penetration_depth);
+            }
+        }
+    }
+    CHECK_EQ(counting_fcl::calls, left);
+    Transform3d nowhere = Transform3d::Identity();
+    nowhere.translation()[1] = NAN;
+    ovoid_pose pose;
+    CHECK(!ovoid::fcl::detail::to_pose<double>(&a, nowhere, pose));
+    CHECK(!ovoid::fcl::detail::to_pose<double>(&box, sheared, pose));
+}
+
 /// Every pair of triangles that touch is listed, and no other; a mesh within another has no contact, and its distance
 /// is that of the surfaces.
 static void test_meshes() {
@@ -429,6 +469,7 @@ int main() {
     test_shapes();
     test_beside_fcl();
     test_spheres();
+    test_turned_spheres();
     test_meshes();
     test_planes();
     test_left_to_fcl();

@@ -66,6 +66,14 @@ template <class S> bool to_pose(const ::fcl::Transform3<S> &t, ovoid_pose &pose)
     return ovoid_pose_make_matrix(rows, pose.position, &pose, nullptr) == OVOID_OK;
 }
 
+/// The pose of a geometry. A sphere looks the same from all sides, so its rotation is not read.
+template <class S>
+bool to_pose(const ::fcl::CollisionGeometry<S> *of, const ::fcl::Transform3<S> &t, ovoid_pose &pose) {
+    if (of->getNodeType() != ::fcl::GEOM_SPHERE) return to_pose<S>(t, pose);
+    pose = {to_vec3<S>(t.translation()), {1, 0, 0, 0}};
+    return is_position(pose.position);
+}
+
 /// The transform of a pose.
 template <class S>::fcl::Transform3<S> from_pose(const ovoid_pose &pose) {
     double rows[9];
