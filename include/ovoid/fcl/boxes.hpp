@@ -51,6 +51,17 @@ struct box_range {
     box_range upper() const { return {node + 2 * half(), first + half(), end}; }
 };
 
+/// Of two ranges that are not both leaves: is the first one halved? Else the second is.
+inline bool is_first_halved(const box_range &x, const box_range &y) {
+    return y.is_leaf() || (!x.is_leaf() && x.end - x.first >= y.end - y.first);
+}
+
+/// The pairs of two leaves of one range by search.visit, both of whose trees are the same, until it returns true.
+template <class Search> bool visit_own(const Search &search, const box_range &x) {
+    return !x.is_leaf() &&
+           (visit_own(search, x.lower()) || visit_own(search, x.upper()) || search.visit(x.lower(), x.upper()));
+}
+
 /// The number of boxes of a tree of so many leaves.
 inline std::size_t count_boxes(std::size_t leaves) { return leaves > 0 ? 2 * leaves - 1 : 0; }
 
@@ -72,13 +83,8 @@ template <class Test, class Take> class pair_search {
     bool visit(const box_range &x, const box_range &y) const {
         if (!may_meet_(a_[x.node], b_[y.node])) return false;
         if (x.is_leaf() && y.is_leaf()) return take_(x.first, y.first);
-        if (y.is_leaf() || (!x.is_leaf() && x.end - x.first >= y.end - y.first))
-            return visit(x.lower(), y) || visit(x.upper(), y);
+        if (is_first_halved(x, y)) return visit(x.lower(), y) || visit(x.upper(), y);
         return visit(x, y.lower()) || visit(x, y.upper());
-    }
-    /// The pairs of two leaves of one range; both trees are the same.
-    bool visit_own(const box_range &x) const {
-        return !x.is_leaf() && (visit_own(x.lower()) || visit_own(x.upper()) || visit(x.lower(), x.upper()));
     }
 
   private:
@@ -95,16 +101,12 @@ template <class Take> class near_search {
         : a_(a), b_(b), bound2_(bound2), take_(take) {}
 
     bool visit(const box_range &x, const box_range &y) const { return gap2(x, y) < bound2_ && visit_near(x, y); }
-    bool visit_own(const box_range &x) const {
-        return !x.is_leaf() && (visit_own(x.lower()) || visit_own(x.upper()) || visit(x.lower(), x.upper()));
-    }
 
   private:
     double gap2(const box_range &x, const box_range &y) const { return compute_gap2(a_[x.node], b_[y.node]); }
     bool visit_near(const box_range &x, const box_range &y) const {
         if (x.is_leaf() && y.is_leaf()) return take_(x.first, y.first);
-        if (y.is_leaf() || (!x.is_leaf() && x.end - x.first >= y.end - y.first))
-            return visit_both(x.lower(), y, x.upper(), y);
+        if (is_first_halved(x, y)) return visit_both(x.lower(), y, x.upper(), y);
         return visit_both(x, y.lower(), x, y.upper());
     }
     bool visit_both(const box_range &x, const box_range &y, const box_range &z, const box_range &w) const {

@@ -110,7 +110,7 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
             return objects_[i] && objects_[j] && callback(objects_[i], objects_[j], data);
         };
         if (leaves_ > 0 &&
-            detail::pair_search(boxes_.data(), boxes_.data(), detail::overlap_test(), take).visit_own(root()))
+            detail::visit_own(detail::pair_search(boxes_.data(), boxes_.data(), detail::overlap_test(), take), root()))
             return;
         for (std::size_t k = leaves_; k < objects_.size(); k++)
             if (objects_[k] && find_overlaps(box_at(k), k, [&](std::size_t i) { return take(i, k); })) return;
@@ -310,12 +310,12 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
             least2 = detail::compute_gap2(leaf_box(i), leaf_box(j)), first = i, second = j;
             return least2 == 0;
         };
-        detail::near_search(boxes_.data(), boxes_.data(), least2, seek).visit_own(root());
+        detail::visit_own(detail::near_search(boxes_.data(), boxes_.data(), least2, seek), root());
         if (first != second && found.take(objects_[first], objects_[second])) return true;
         const auto take = [&](std::size_t i, std::size_t j) {
             return (i != first || j != second) && found.take(objects_[i], objects_[j]);
         };
-        return detail::near_search(boxes_.data(), boxes_.data(), found.bound2(), take).visit_own(root());
+        return detail::visit_own(detail::near_search(boxes_.data(), boxes_.data(), found.bound2(), take), root());
     }
     const ovoid_box &leaf_box(std::size_t i) const {
         detail::box_range at = root();
