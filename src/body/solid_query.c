@@ -104,7 +104,8 @@ static ovoid_limit search_from(body_search *state, const ovoid_body_pair *pair, 
     int is_seen = goal->far < INFINITY && first_look(state, goal, NULL);
     if (!is_seen) {
         begin_frame(state);
-        is_seen = goal->far < INFINITY && first_look(state, goal, &state->solids->roots);
+        // The balls' look is not made again where the boxes cannot say more.
+        is_seen = state->solids->roots.lower > goal->far && first_look(state, goal, &state->solids->roots);
     }
     if (is_seen) {
         take_deciding(state->out);
