@@ -89,17 +89,10 @@ static int find_foot(const pair_frame *f, const box_axes_query *q, uint32_t pair
     // The foot is the face's middle + s u + t v.
     double s = vec3_dot(vec3_cross(to, v), n) * scale, t = vec3_dot(vec3_cross(u, to), n) * scale;
     if (!(fabs(s) <= 1 && fabs(t) <= 1)) return 0;
-    // The foot's triangle is the half of the face that it lies in: that of the corner `low`, or of the opposite one.
-    int is_high = s + t > 0;
-    uint32_t from = is_high ? face | 1u << i | 1u << j : face;
-    double along_u = (is_high ? 1 - s : 1 + s) / 2, along_v = (is_high ? 1 - t : 1 + t) / 2;
+    uint32_t from = face_set_weights(s, t, found) ? face | 1u << i | 1u << j : face;
     found->p[0] = get_corner(f, q, from);
     found->p[1] = get_corner(f, q, from ^ 1u << i);
     found->p[2] = get_corner(f, q, from ^ 1u << j);
-    found->weight[0] = max2(0, 1 - along_u - along_v);
-    found->weight[1] = along_u;
-    found->weight[2] = along_v;
-    found->count = 3;
     vec3 off = vec3_neg(foot);
     for (int k = 0; k < 3; k++) off = vec3_add_scaled(off, found->p[k].w, found->weight[k]);
     return vec3_norm(off) <= f->claim;
@@ -182,7 +175,7 @@ int boxes_take_depth(search *s, ovoid_cover *cover) {
     evidence foot;
     if (!find_foot(f, &q, pair, find_face(&axes, pair, !is_along), vec3_scale(normal, -axes.height[pair]), &foot))
         return 0;
-    if (cover && !(s->goal.has_cover && !(upper < s->goal.covered)) && !build_cover(f, &q, &axes, pair, depth, cover)) {
+    if (search_wants_cover(s, cover, upper) && !build_cover(f, &q, &axes, pair, depth, cover)) {
         cover->point_count = cover->triangle_count = 0;
         return 0;
     }

@@ -28,15 +28,6 @@ typedef struct nearest_pair {
 
 static double clamp(double t) { return max2(-1, min2(1, t)); }
 
-// A segment from -axis to axis about its middle.
-static vec3 get_middle(const ovoid_shape *s) {
-    return s->vertex_count == 1 ? s->first : vec3_scale(vec3_add(s->first, vec3_at(shape_vertices(s), 1)), 0.5);
-}
-static vec3 get_half(const ovoid_shape *s) {
-    if (s->vertex_count == 1) return (vec3){0, 0, 0};
-    return vec3_scale(vec3_sub(vec3_at(shape_vertices(s), 1), s->first), 0.5);
-}
-
 // ---- two segments, or points
 
 // The parameter on one of two parallel segments of the middle of what lies beside the other one, which reaches from
@@ -90,9 +81,9 @@ static vec3 find_segments_normal(vec3 w, vec3 u, vec3 v, int is_inside_u, int is
 }
 
 static void find_segments(const pair_frame *f, nearest_pair *out) {
-    vec3 middle = mat3_mul_vec3(f->world, get_middle(f->a));
-    vec3 d = vec3_add(f->offset, vec3_sub(mat3_mul_vec3(f->world_b, get_middle(f->b)), middle));
-    vec3 u = mat3_mul_vec3(f->world, get_half(f->a)), v = mat3_mul_vec3(f->world_b, get_half(f->b));
+    vec3 middle = mat3_mul_vec3(f->world, closed_get_middle(f->a));
+    vec3 d = vec3_add(f->offset, vec3_sub(mat3_mul_vec3(f->world_b, closed_get_middle(f->b)), middle));
+    vec3 u = mat3_mul_vec3(f->world, closed_get_half(f->a)), v = mat3_mul_vec3(f->world_b, closed_get_half(f->b));
     double s, t;
     find_parameters(d, u, v, &s, &t);
     vec3 w = vec3_add_scaled(vec3_add_scaled(d, v, t), u, -s);
@@ -177,10 +168,10 @@ static double find_nearest(const in_box *q) {
 static void set_in_box(const pair_frame *f, int is_box_a, in_box *q) {
     const ovoid_shape *box = is_box_a ? f->a : f->b, *thin = is_box_a ? f->b : f->a;
     const mat3 *turn = is_box_a ? &f->world : &f->world_b, *turn_thin = is_box_a ? &f->world_b : &f->world;
-    vec3 middle = get_middle(thin);
+    vec3 middle = closed_get_middle(thin);
     q->y = is_box_a ? frame_world_difference(f, box->box.center, middle)
                     : vec3_neg(frame_world_difference(f, middle, box->box.center));
-    q->e = thin->vertex_count == 1 ? (vec3){0, 0, 0} : mat3_mul_vec3(*turn_thin, get_half(thin));
+    q->e = thin->vertex_count == 1 ? (vec3){0, 0, 0} : mat3_mul_vec3(*turn_thin, closed_get_half(thin));
     double least = 0x1p-92 * vec3_norm_squared(q->e);
     for (int i = 0; i < 3; i++) {
         vec3 axis = mat3_mul_vec3(*turn, box->box.axis[i]);
@@ -329,16 +320,10 @@ int closed_run(const placed_query *query, small_end *end) {
         find_points(f, &found);
     else
         find_segments(f, &found);
-    double claim = reject_get_claim(f);
     double distance = vec3_norm(found.difference);
-    end->lower = found.gap - f->lower_radii - claim;
-    end->upper = distance - f->upper_radii + claim;
-    if (!closed_is_answered(query->goal, end->lower, end->upper) || !write_points(f, &found, &end->points)) return 0;
-    end->normal = closed_clear_signs(found.normal);
+    if (!closed_set_bounds(query, found.gap, distance, end) || !write_points(f, &found, &end->points)) return 0;
+    end->normal = vec3_clear_signs(found.normal);
     end->inner = (vec3){0, 0, 0};
-    end->kind = OVOID_PROOF_POINTS;
-    end->stage = OVOID_STAGE_SUPPORT;
-    end->iterations = 0;
     closed_cores cores = find_cores(f, &found, distance);
     closed_set_witness(f, &cores, end);
     return 1;

@@ -18,6 +18,15 @@ static inline int closed_fits(const ovoid_shape *a, const ovoid_shape *b) {
     return is_thin && !(a->has_allowance | b->has_allowance) && closed_may_take(a) && closed_may_take(b);
 }
 
+/// Of a point or a segment: its middle, and half of it, from there to vertex 1; of a point zero.
+static inline vec3 closed_get_middle(const ovoid_shape *s) {
+    return s->vertex_count == 1 ? s->first : vec3_scale(vec3_add(s->first, vec3_at(shape_vertices(s), 1)), 0.5);
+}
+static inline vec3 closed_get_half(const ovoid_shape *s) {
+    if (s->vertex_count == 1) return (vec3){0, 0, 0};
+    return vec3_scale(vec3_sub(vec3_at(shape_vertices(s), 1), s->first), 0.5);
+}
+
 /// Two points d apart, A's to B's: their distance, the unit normal, and the gap along it. Any normal is as good as
 /// another where they are one.
 typedef struct closed_points {
@@ -41,19 +50,29 @@ static inline int closed_is_answered(const query_goal *goal, double lower, doubl
     return (lower > 0 || upper < 0) && upper - lower <= goal->tolerance;
 }
 
-/// No zero of a direction or a point is negative: its sign would depend on the rotations.
-static inline vec3 closed_clear_signs(vec3 v) { return (vec3){v.x + 0.0, v.y + 0.0, v.z + 0.0}; }
+/// Sets the bounds, from the gap and the distance of the cores, and what all closed forms have in common. 1 if the
+/// bounds answer the query.
+static inline int closed_set_bounds(const placed_query *query, double gap, double distance, small_end *end) {
+    const pair_frame *f = query->frame;
+    double claim = reject_get_claim(f);
+    end->lower = gap - f->lower_radii - claim;
+    end->upper = distance - f->upper_radii + claim;
+    end->kind = OVOID_PROOF_POINTS;
+    end->stage = OVOID_STAGE_SUPPORT;
+    end->iterations = 0;
+    return closed_is_answered(query->goal, end->lower, end->upper);
+}
 
 /// The points of the cores, in the world, and the unit vector along which the radii go.
 typedef struct closed_cores {
     vec3 a, b, n;
 } closed_cores;
 
-/// Sets the witness.
+/// Sets the witness. No zero is negative: its sign would depend on the rotations.
 static inline void closed_set_witness(const pair_frame *f, const closed_cores *cores, small_end *end) {
     end->has_witness = 1;
-    end->point_a = closed_clear_signs(vec3_add_scaled(cores->a, cores->n, f->a->radius));
-    end->point_b = closed_clear_signs(vec3_add_scaled(cores->b, cores->n, -f->b->radius));
+    end->point_a = vec3_clear_signs(vec3_add_scaled(cores->a, cores->n, f->a->radius));
+    end->point_b = vec3_clear_signs(vec3_add_scaled(cores->b, cores->n, -f->b->radius));
 }
 
 /// The answer to the query, of a pair that fits: 1. 0: the sign is within rounding, or the depth of a box that a point

@@ -252,7 +252,7 @@ static void take_cover(growth *g) {
     s->stage = OVOID_STAGE_EPA;
     s->kind = OVOID_PROOF_COVER;
     s->witness = find_witness(g);
-    if (!cover || (s->goal.has_cover && !(s->upper < s->goal.covered))) return;
+    if (!search_wants_cover(s, cover, s->upper)) return;
     cover->point_count = e->points;
     cover->triangle_count = all.triangle_count;
     memcpy(cover->a, e->a, e->points * sizeof *e->a);

@@ -9,6 +9,8 @@
 // must have the origin behind it beyond rounding, whether a cover is wanted or not, so that the answer is the same.
 #include "exact/inside.h"
 
+#include "exact/boxes.h"
+#include "exact/closed.h"
 #include "pair/cover.h"
 
 enum { CORNERS = 8, TRIANGLES = 12 };
@@ -39,9 +41,7 @@ static int make_difference(const pair_frame *f, difference_box *d) {
     const ovoid_shape *box = is_box_a ? f->a : f->b, *thin = is_box_a ? f->b : f->a;
     if (!(box->vertex_count == 8 && box->box.is_right && thin->vertex_count <= 2)) return 0;
     if (!(f->size > 0x1p-100 && f->size < 0x1p100)) return 0;
-    vec3 low = thin->first, high = thin->vertex_count == 2 ? vec3_at(shape_vertices(thin), 1) : low;
-    vec3 middle = vec3_scale(vec3_add(low, high), 0.5), e = vec3_scale(vec3_sub(high, low), 0.5);
-    vec3 center = box->box.center;
+    vec3 middle = closed_get_middle(thin), e = closed_get_half(thin), center = box->box.center;
     d->frame = f;
     d->is_box_a = is_box_a;
     d->center = is_box_a ? vec3_sub(frame_b(f, middle), center) : vec3_sub(frame_b(f, center), middle);
@@ -106,16 +106,11 @@ static evidence find_foot(const difference_box *d, const nearest_face *face) {
     double s = -vec3_dot(d->center, d->axis[j]) / vec3_norm_squared(d->axis[j]),
            t = -vec3_dot(d->center, d->axis[k]) / vec3_norm_squared(d->axis[k]);
     unsigned low = vec3_dot(face->normal, d->axis[i]) < 0 ? 1u << i : 0, all = 1u << j | 1u << k;
-    int is_high = s + t > 0;
-    unsigned from = is_high ? low | all : low;
-    double along_j = max2(0, (is_high ? 1 - s : 1 + s) / 2), along_k = max2(0, (is_high ? 1 - t : 1 + t) / 2);
-    evidence foot = {.count = 3};
+    evidence foot;
+    unsigned from = face_set_weights(s, t, &foot) ? low | all : low;
     foot.p[0] = get_corner(d, from);
     foot.p[1] = get_corner(d, from ^ 1u << j);
     foot.p[2] = get_corner(d, from ^ 1u << k);
-    foot.weight[0] = max2(0, 1 - along_j - along_k);
-    foot.weight[1] = along_j;
-    foot.weight[2] = along_k;
     return foot;
 }
 
@@ -144,6 +139,6 @@ int inside_take_depth(search *s, ovoid_cover *cover) {
     s->stage = OVOID_STAGE_SUPPORT;
     s->kind = OVOID_PROOF_COVER;
     s->witness = find_foot(&d, &face);
-    if (cover && !(s->goal.has_cover && !(upper < s->goal.covered))) write_cover(&d, cover);
+    if (search_wants_cover(s, cover, upper)) write_cover(&d, cover);
     return 1;
 }

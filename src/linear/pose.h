@@ -4,8 +4,15 @@
 
 #include "ovoid/linear.h"
 
+#include <math.h>
+
 /// ovoid_pose_validate, for callers that have set up the floating-point environment.
 ovoid_code pose_validate(const ovoid_pose *pose);
+
+/// 1 for a position that pose_validate takes; NaN fails every comparison.
+static inline int position_is_valid(ovoid_vec3 p) {
+    return (fabs(p.x) <= OVOID_LENGTH_MAX) & (fabs(p.y) <= OVOID_LENGTH_MAX) & (fabs(p.z) <= OVOID_LENGTH_MAX);
+}
 
 /// ovoid_pose_compute_product, for callers that have set up the floating-point environment. With u = 2^-53: a component
 /// of q p is a sum of four products, off by 4 u times the sum of their sizes, which is at most |q||p| (Cauchy,

@@ -30,6 +30,8 @@ static inline double vec3_get(vec3 v, int axis) { return axis == 0 ? v.x : axis 
 static inline vec3 vec3_add(vec3 a, vec3 b) { return (vec3){a.x + b.x, a.y + b.y, a.z + b.z}; }
 static inline vec3 vec3_sub(vec3 a, vec3 b) { return (vec3){a.x - b.x, a.y - b.y, a.z - b.z}; }
 static inline vec3 vec3_neg(vec3 a) { return (vec3){-a.x, -a.y, -a.z}; }
+/// a with zeros that are positive.
+static inline vec3 vec3_clear_signs(vec3 a) { return (vec3){a.x + 0.0, a.y + 0.0, a.z + 0.0}; }
 static inline vec3 vec3_scale(vec3 a, double s) { return (vec3){a.x * s, a.y * s, a.z * s}; }
 /// a + s b
 static inline vec3 vec3_add_scaled(vec3 a, vec3 b, double s) {

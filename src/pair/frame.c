@@ -42,11 +42,6 @@ static double place_origins(pair_frame *f, const ovoid_pair *pair) {
                       vec3_max_abs(f->b->origin));
 }
 
-// pose_validate for a position; NaN fails every comparison.
-static int is_place(vec3 p) {
-    return (fabs(p.x) <= OVOID_LENGTH_MAX) & (fabs(p.y) <= OVOID_LENGTH_MAX) & (fabs(p.z) <= OVOID_LENGTH_MAX);
-}
-
 // Sets both rotations to the world, with the operations of quat_to_mat3, and the difference of the spheres' centres. 0:
 // a quaternion needs scaling, and nothing is set.
 static int place_plain(pair_frame *f, ovoid_quat a, ovoid_quat b) {
@@ -83,7 +78,7 @@ ovoid_limit frame_place(const ovoid_pair *pair, pair_frame *f) {
     f->offset = vec3_sub(b->position, a->position);
     f->turned_a = f->turned_b = NULL;
     f->hidden = OVOID_LENGTH_MIN;
-    int is_plain = is_place(a->position) & is_place(b->position);
+    int is_plain = position_is_valid(a->position) & position_is_valid(b->position);
     if (f->a->has_origin | f->b->has_origin) {
         if (pose_validate(a) != OVOID_OK) return OVOID_LIMIT_POSE_A;
         if (pose_validate(b) != OVOID_OK) return OVOID_LIMIT_POSE_B;

@@ -27,16 +27,16 @@ ovoid_answer rejection_make_answer(const rejection *g, const pair_frame *f, cons
     // The radii go along the difference of the points, which is longer than both, as the lower bound is above zero.
     double share_a = f->a->radius / distance, share_b = f->b->radius / distance;
     // No zero is negative: of two spheres its sign would depend on their rotations.
-    const vec3 zero = {0, 0, 0}, normal = vec3_add(g->normal, zero);
+    const vec3 normal = vec3_clear_signs(g->normal);
     // One expression, which gcc 12 builds in the result's place; it would copy a variable.
     return (ovoid_answer){.status = OVOID_SEPARATED,
                           .stage = g->stage,
                           .limit = upper - g->lower <= goal->tolerance ? OVOID_LIMIT_NONE : goal->beyond,
                           .lower = g->lower,
                           .upper = upper,
-                          .point_a = vec3_add(vec3_add(f->world_origin, vec3_add_scaled(a, d, share_a)), zero),
+                          .point_a = vec3_clear_signs(vec3_add(f->world_origin, vec3_add_scaled(a, d, share_a))),
                           .point_b =
-                              vec3_add(vec3_add(f->world_origin, vec3_add_scaled(vec3_add(a, d), d, -share_b)), zero),
+                              vec3_clear_signs(vec3_add(f->world_origin, vec3_add_scaled(vec3_add(a, d), d, -share_b))),
                           .normal = normal,
                           .proof = {.normal = normal,
                                     .kind = OVOID_PROOF_POINTS,

@@ -77,6 +77,11 @@ static inline int query_goal_is_met(const query_goal *goal, double lower, double
     return upper <= goal->near || upper < 0 || (goal->wants_bracket && upper - lower <= goal->tolerance);
 }
 
+/// 1 if a cover that proves `upper` is to be written: the caller's is wanted, and proves less if it is to be kept.
+static inline int search_wants_cover(const search *s, const ovoid_cover *cover, double upper) {
+    return cover && !(s->goal.has_cover && !(upper < s->goal.covered));
+}
+
 /// 1 if the bounds answer the query.
 int search_is_done(const search *s);
 

@@ -131,11 +131,6 @@ void answer_write(search *s, ovoid_answer *out) {
     out->point_b = frame_point_to_world(f, w.b);
 }
 
-// The witness points of a pair of small bodies, world.
-typedef struct small_points {
-    vec3 a, b;
-} small_points;
-
 // Rounding radii move the witness points along their difference, or where the radii overlap along the normal, as in
 // witness_compute_points.
 static inline void add_radii(const small_end *end, const pair_frame *f, vec3 *a, vec3 *b) {
@@ -180,33 +175,12 @@ ovoid_witness answer_make_small_witness(const small_end *end, const pair_frame *
     return (ovoid_witness){p.a, p.b, end->normal};
 }
 
-// The initialiser of a proof. Within one expression gcc 12 builds it in the place of what it is for; it would copy a
-// variable, or what a function returns.
-#define SMALL_PROOF(x)                                                                                                 \
-    {                                                                                                                  \
-        .normal = (x)->normal, .kind = (x)->kind, .count = (uint32_t)(x)->points.count,                                \
-        .a = {(x)->points.p[0].a, (x)->points.p[1].a, (x)->points.p[2].a, (x)->points.p[3].a},                         \
-        .b = {(x)->points.p[0].b, (x)->points.p[1].b, (x)->points.p[2].b, (x)->points.p[3].b},                         \
-        .weight_a = {(x)->points.weight[0], (x)->points.weight[1], (x)->points.weight[2], (x)->points.weight[3]},      \
-        .weight_b = {(x)->points.weight[0], (x)->points.weight[1], (x)->points.weight[2], (x)->points.weight[3]},      \
-        .inner_a = (x)->inner,                                                                                         \
-    }
-
 ovoid_proof answer_make_small_proof(const small_end *end) { return (ovoid_proof)SMALL_PROOF(end); }
 
 ovoid_answer answer_make_small(const small_end *end, const pair_frame *f, const query_goal *goal) {
     ovoid_verdict verdict = answer_make_small_verdict(end, goal);
     small_points p = find_small_points(end, f);
-    return (ovoid_answer){.status = verdict.status,
-                          .stage = verdict.stage,
-                          .limit = verdict.limit,
-                          .iterations = verdict.iterations,
-                          .lower = verdict.lower,
-                          .upper = verdict.upper,
-                          .point_a = p.a,
-                          .point_b = p.b,
-                          .normal = end->normal,
-                          .proof = SMALL_PROOF(end)};
+    return (ovoid_answer)SMALL_ANSWER(end, verdict, p);
 }
 
 static int may_overlap(const search *s) {

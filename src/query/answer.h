@@ -11,6 +11,30 @@ void answer_write(search *s, ovoid_answer *out);
 /// The answer of a search that has ended, without points and proof.
 ovoid_verdict answer_make_verdict(search *s);
 
+/// The witness points of a pair of small bodies, world.
+typedef struct small_points {
+    vec3 a, b;
+} small_points;
+
+/// The initialisers of a proof and of an answer. Within one expression gcc 12 builds it in the place of what it is for;
+/// it would copy a variable, or what a function returns.
+#define SMALL_PROOF(x)                                                                                                 \
+    {                                                                                                                  \
+        .normal = (x)->normal, .kind = (x)->kind, .count = (uint32_t)(x)->points.count,                                \
+        .a = {(x)->points.p[0].a, (x)->points.p[1].a, (x)->points.p[2].a, (x)->points.p[3].a},                         \
+        .b = {(x)->points.p[0].b, (x)->points.p[1].b, (x)->points.p[2].b, (x)->points.p[3].b},                         \
+        .weight_a = {(x)->points.weight[0], (x)->points.weight[1], (x)->points.weight[2], (x)->points.weight[3]},      \
+        .weight_b = {(x)->points.weight[0], (x)->points.weight[1], (x)->points.weight[2], (x)->points.weight[3]},      \
+        .inner_a = (x)->inner,                                                                                         \
+    }
+
+#define SMALL_ANSWER(x, verdict, points)                                                                               \
+    {                                                                                                                  \
+        .status = (verdict).status, .stage = (verdict).stage, .limit = (verdict).limit,                                \
+        .iterations = (verdict).iterations, .lower = (verdict).lower, .upper = (verdict).upper, .point_a = (points).a, \
+        .point_b = (points).b, .normal = (x)->normal, .proof = SMALL_PROOF(x),                                         \
+    }
+
 /// The answer of a search of small bodies, with points and proof or without. Its frame needs only frame_place.
 ovoid_answer answer_make_small(const small_end *end, const pair_frame *frame, const query_goal *goal);
 ovoid_witness answer_make_small_witness(const small_end *end, const pair_frame *frame);

@@ -3,16 +3,13 @@
 #include "query/spheres.h"
 
 #include "exact/closed.h"
+#include "linear/pose.h"
 #include "linear/rotation.h"
 #include "query/begin.h"
 
-static int is_place(vec3 p) {
-    return (fabs(p.x) <= OVOID_LENGTH_MAX) & (fabs(p.y) <= OVOID_LENGTH_MAX) & (fabs(p.z) <= OVOID_LENGTH_MAX);
-}
-
 // 1 for a pose that is valid, whose quaternion needs no scaling.
 static int is_plain(const ovoid_pose *pose) {
-    return is_place(pose->position) & quat_is_plain(quat_norm_squared(pose->rotation));
+    return position_is_valid(pose->position) & quat_is_plain(quat_norm_squared(pose->rotation));
 }
 
 // What frame_place sets, but for the rotations.
@@ -39,27 +36,16 @@ ovoid_answer spheres_find(const ovoid_pair *pair, const query_request *request) 
     if (reject_by_spheres(&f, goal.far, &found)) return answer_find_by_value(pair, request);
     if (!closed_is_moderate(&f)) return answer_find_by_value(pair, request);
     closed_points points = closed_find_points(f.offset);
-    double claim = reject_get_claim(&f);
-    end.lower = points.gap - f.lower_radii - claim;
-    end.upper = points.distance - f.upper_radii + claim;
-    if (!closed_is_answered(&goal, end.lower, end.upper)) return answer_find_by_value(pair, request);
-    end.kind = OVOID_PROOF_POINTS;
-    end.stage = OVOID_STAGE_SUPPORT;
-    end.iterations = 0;
+    const placed_query query = {&f, &goal, NULL, found.lower};
+    if (!closed_set_bounds(&query, points.gap, points.distance, &end)) return answer_find_by_value(pair, request);
     // The difference's direction is the normal.
     vec3 a = f.world_origin, b = vec3_add(a, f.offset);
     closed_set_witness(&f, &(closed_cores){a, b, points.normal}, &end);
     if (request->cover && !goal.has_cover) request->cover->point_count = request->cover->triangle_count = 0;
     ovoid_verdict verdict = answer_make_small_verdict(&end, &goal);
-    vec3 normal = closed_clear_signs(points.normal);
-    return (ovoid_answer){
-        .status = verdict.status,
-        .stage = verdict.stage,
-        .limit = verdict.limit,
-        .lower = end.lower,
-        .upper = end.upper,
-        .point_a = end.point_a,
-        .point_b = end.point_b,
-        .normal = normal,
-        .proof = {.normal = normal, .kind = OVOID_PROOF_POINTS, .count = 1, .weight_a = {1}, .weight_b = {1}}};
+    end.normal = vec3_clear_signs(points.normal);
+    end.points = (simplex){.count = 1, .weight = {1}};
+    end.inner = (vec3){0, 0, 0};
+    const small_points witness = {end.point_a, end.point_b};
+    return (ovoid_answer)SMALL_ANSWER(&end, verdict, witness);
 }
