@@ -32,7 +32,7 @@ typedef enum ovoid_status {
 typedef enum ovoid_stage {
     OVOID_STAGE_NONE = 0,
     OVOID_STAGE_PROOF,   /**< the earlier proof handed in */
-    OVOID_STAGE_SPHERE,  /**< the earlier proof that the caller passed */
+    OVOID_STAGE_SPHERE,  /**< enclosing spheres */
     OVOID_STAGE_OUTER,   /**< outer ellipsoids */
     OVOID_STAGE_SUPPORT, /**< the polyhedra's supports along the ellipsoids' direction, or the closed form of points,
                             segments and boxes */

@@ -32,19 +32,13 @@ void solids_exclude_boxes(body_search *state, const waiting_pair *w) {
 
 // ---- pairs that may touch
 
-static vec3 find_normal(const body_tree *tree, uint32_t place) {
-    vec3 c = solid_get_corner(tree->solid, place, 0);
-    vec3 n = vec3_cross(vec3_sub(solid_get_corner(tree->solid, place, 1), c),
-                        vec3_sub(solid_get_corner(tree->solid, place, 2), c));
-    return vec3_unit(tree->solid->report.volume < 0 ? vec3_neg(n) : n);
-}
-
 // Of two triangles only where both bodies are on one side of them.
 static void note_flush(body_search *state, uint32_t a, uint32_t b, double lower) {
     flush_pairs *all = &state->solids->flush;
     if (lower > state->frame.claim || all->count == sizeof all->pair / sizeof *all->pair) return;
     if (state->a.solid && state->b.solid) {
-        vec3 n = find_normal(&state->a, a), m = mat3_mul_vec3(state->frame.to_a, find_normal(&state->b, b));
+        vec3 n = solid_compute_facet_normal(state->a.solid, a);
+        vec3 m = mat3_mul_vec3(state->frame.to_a, solid_compute_facet_normal(state->b.solid, b));
         if (!(vec3_dot(n, m) > 0.5) || !(vec3_max_abs(vec3_cross(n, m)) <= 1e-6)) return;
     }
     all->pair[all->count].a = a;

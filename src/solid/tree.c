@@ -1,7 +1,6 @@
 // The tree of boxes over a solid's triangles, built top down. A range of triangles is cut in two, and the part with the
 // largest surface cut again, until there are eight or none of them has more than eight; those are the children of a
 // node (I. Wald, C. Benthin, S. Boulos, Getting rid of packets, 2008). A cut is the best of sixteen places along each
-// node (I. Wald, C. Benthin, S. Boulos, Getting rid of packets, 2008). A cut is the best of sixteen places along each
 // axis by the surface area heuristic (I. Wald, On fast construction of SAH-based bounding volume hierarchies, 2007),
 // moved to a multiple of eight triangles, so that all but one or two nodes of triangles are full. Each side gets at
 // least a quarter, so no path is longer than 64. Quickselect puts the triangles there (C. A. R. Hoare, Algorithm 65:
