@@ -188,6 +188,18 @@ listener &get_listener() {
     static listener all;
     return all;
 }
+/// While it lives, std::cerr writes to the listener. The streams are flushed after the listener has been destroyed, so
+/// std::cerr gets its own buffer back.
+class listening {
+  public:
+    listening() : own_(std::cerr.rdbuf(&get_listener())) {}
+    ~listening() { std::cerr.rdbuf(own_); }
+    listening(const listening &) = delete;
+    listening &operator=(const listening &) = delete;
+
+  private:
+    std::streambuf *own_;
+};
 /// FCL's answer, or false where it has none.
 template <class Call> bool is_answered(Call call) {
     get_listener().has_heard = false;
@@ -414,7 +426,7 @@ int main(int argc, char **argv) {
             return std::strcmp(argv[i], "--help") != 0;
         }
     }
-    std::cerr.rdbuf(&get_listener());
+    const listening to_stderr;
     const auto all = make_geometries();
     std::mt19937 engine(1);
     std::printf("of %d calls a pair those that differ, and of these what the proof refutes: yes or no (FCL's, ours); "
