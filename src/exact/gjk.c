@@ -13,6 +13,8 @@
 #include "exact/probe.h"
 #include "simd/corner.h"
 
+enum { IDLE_STEPS = 8 };
+
 // The simplex of the fast run: corners in lanes, those whose bit in `valid` is set.
 typedef struct gjk_state {
     corner_lanes at;
@@ -208,9 +210,13 @@ static gjk_end run_fast(search *s, const prober *by, simplex *points) {
         take_upper(s, points);
         return GJK_ANSWERED;
     }
-    for (; state == STEP_ON && s->iterations < s->goal.iterations; s->iterations++) {
+    double least = INFINITY;
+    for (int idle = 0; state == STEP_ON && s->iterations < s->goal.iterations; s->iterations++) {
         double scale = 1 / sqrt(to.square), distance = to.height * scale;
         if (distance <= s->frame->claim) break;
+        // Near the nearest point, steps that gain by rounding alone may go around in a circle.
+        if (!(distance < least) && ++idle > IDLE_STEPS) break;
+        least = min2(least, distance);
         // The lower bound: the gap along the direction to the nearest point.
         frame_support p = probe_measure(by, to.n);
         double lower = take_gap(s, &to, scale, p.gap, &n);

@@ -342,6 +342,27 @@ static void check_touching(void) {
     ovoid_shape_destroy(a);
 }
 
+/// The nearest points of the cores are found to rounding, and from there GJK's steps gained by rounding alone: a circle
+/// that ended at the limit of 1000 steps, before the sign was proven.
+static void check_circle(void) {
+    ovoid_shape *a = ovoid_shape_create_sphere(0.075948878912939832, NULL, NULL),
+                *b = box(1, 0.5, 0.25, 5.3156186006697581);
+    ovoid_pose pose_a = {{-10.429997156437592, -1.745039445573209, -9.1517790524097649},
+                         {-1.295339604391492, 0.90981691866001413, 0.11033891707636009, 0.22495589661187662}};
+    ovoid_pose pose_b = {{-15.725284918365119, -1.2750186980638853, -11.733326962801447},
+                         {-1.0409829165060678, -0.41448177621171978, 0.074753833182894844, 1.1411804285861245}};
+    ovoid_pair p = {a, b, pose_a, pose_b};
+    ovoid_answer x[3] = {ovoid_collide(&p, NULL, NULL), ovoid_distance(&p, NULL, NULL),
+                         ovoid_within(&p, 0, NULL, NULL)};
+    for (int i = 0; i < 3; i++) {
+        CHECK_EQ(x[i].status, OVOID_OVERLAPPING);
+        CHECK(x[i].iterations < 32);
+        CHECK(holds(&p, &x[i], NULL));
+    }
+    ovoid_shape_destroy(a);
+    ovoid_shape_destroy(b);
+}
+
 /// The reading of a bracket against a margin, at the ends of the doubles.
 static void check_reading(void) {
     static const double values[] = {-INFINITY, -1e300, -1, -5e-324, -0.0, 0.0, 5e-324, 1e-310, 1, 2, 1e300, INFINITY};
@@ -369,5 +390,6 @@ int main(void) {
     check_foreign_proofs();
     check_altered();
     check_touching();
+    check_circle();
     return check_end();
 }
