@@ -29,7 +29,11 @@ static inline unsigned compiler_count_low_zeros(uint32_t bits) { return (unsigne
 static inline unsigned compiler_count_low_zeros_64(uint64_t bits) { return (unsigned)__builtin_ctzll(bits); }
 static inline unsigned compiler_count_high_zeros(uint32_t bits) { return (unsigned)__builtin_clz(bits); }
 
-/// Prefetches the memory at an address.
-static inline void compiler_prefetch(const void *at) { __builtin_prefetch(at); }
+/// Prefetches the memory at an address. The empty asm statement keeps it: gcc 12 takes a function that only prefetches
+/// for one without effects, and removes the calls of it.
+static inline void compiler_prefetch(const void *at) {
+    __builtin_prefetch(at);
+    __asm__ volatile("");
+}
 
 #endif

@@ -40,6 +40,16 @@ static void decide(ovoid_world *w, uint32_t chunks, ovoid_contacts *found) {
 
 // ---- writing
 
+// How many pairs ahead what a contact reads is prefetched.
+enum { AHEAD = 12 };
+
+static void prefetch_contact(const ovoid_world *w, const world_pair *p) {
+    if (!(p->flags & PAIR_CONTACT)) return;
+    pair_cache_prefetch(&w->pair_cache[p->slot]);
+    compiler_prefetch(&w->bodies[p->a].user);
+    compiler_prefetch(&w->bodies[p->b].user);
+}
+
 static void write_chunks(void *work, uint32_t first, uint32_t end, uint32_t worker) {
     ovoid_world *w = work;
     (void)worker;
@@ -47,6 +57,7 @@ static void write_chunks(void *work, uint32_t first, uint32_t end, uint32_t work
         size_t at = w->chunks[c].contacts;
         for (uint32_t i = 0, count = step_get_chunk_size(w, c); i < count; i++) {
             const world_pair *p = &w->pairs[(size_t)c * CHUNK + i];
+            if (i + AHEAD < count) prefetch_contact(w, p + AHEAD);
             if (!(p->flags & PAIR_CONTACT)) continue;
             w->contacts[at] = pair_make_contact(w, p);
             if (world_has_witnesses(w)) w->contact_witnesses[at] = w->witnesses[p->slot];

@@ -9,6 +9,7 @@
 #ifndef OVOID_WORLD_STATE_H
 #define OVOID_WORLD_STATE_H
 
+#include "base/compiler.h"
 #include "ovoid/world_manifolds.h"
 #include "world/body_bounds.h"
 #include "world/ignored.h"
@@ -83,6 +84,13 @@ typedef struct pair_cache {
     uint8_t status, stage, limit, proof; ///< ovoid_status, ovoid_stage, ovoid_limit, ovoid_proof_kind
     uint8_t count;                       ///< entries of the proof
 } pair_cache;
+
+/// Prefetches a cached answer: two or three cache lines.
+static inline void pair_cache_prefetch(const pair_cache *cache) {
+    compiler_prefetch(cache);
+    compiler_prefetch((const char *)cache + 64);
+    compiler_prefetch((const char *)(cache + 1) - 1);
+}
 
 /// The keys of new pairs that one worker found.
 typedef struct gathered {

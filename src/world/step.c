@@ -2,7 +2,6 @@
 // does not matter which worker updates it.
 #include "world/step.h"
 
-#include "base/compiler.h"
 #include "base/error.h"
 #include "query/goal.h"
 
@@ -22,13 +21,12 @@ int step_is_answered(const ovoid_world *w, world_pair *p) {
 enum { AHEAD = 6, SHAPES_AHEAD = 2, SHAPE_LINES = 8 };
 
 static void prefetch_bodies(const ovoid_world *w, const world_pair *p) {
-    const char *a = (const char *)&w->bodies[p->a], *b = (const char *)&w->bodies[p->b],
-               *k = (const char *)&w->pair_cache[p->slot];
-    for (int line = 0; line < 2; line++) {
+    const char *a = (const char *)&w->bodies[p->a], *b = (const char *)&w->bodies[p->b];
+    for (int line = 0; line < 3; line++) {
         compiler_prefetch(a + 64 * line);
         compiler_prefetch(b + 64 * line);
-        compiler_prefetch(k + 64 * line);
     }
+    pair_cache_prefetch(&w->pair_cache[p->slot]);
 }
 
 static void prefetch_shapes(const ovoid_world *w, const world_pair *p) {

@@ -44,7 +44,7 @@ expect intrinsics src/query/a.c '#include <immintrin.h>\n' '1: intrinsics are fo
 expect intrinsics_below bench/a.c '#include <x86intrin.h>\n' '1: intrinsics are for src/simd only: x86intrin.h'
 expect intrinsics_home src/simd/a.c '#include <immintrin.h>\n__attribute__((target("avx2"))) int f(void);\n' ''
 expect target src/shape/a.c '__attribute__((target("avx2"))) int f(void);\n' '1: per-ISA code is for src/simd only'
-expect assembly src/query/a.c '\n__asm__ volatile("nop");\n' '2: inline assembly is for src/base/environment.h only'
+expect assembly src/query/a.c '\n__asm__ volatile("nop");\n' '2: inline assembly is for src/base/environment.h and compiler.h only'
 expect assembly_home src/base/environment.h '__asm__ volatile("nop");\n' ''
 expect qhull src/shape/a.c '#include <libqhull_r/libqhull_r.h>\n' '1: libqhull_r is for tests only'
 expect jansson src/query/a.c '#include <jansson.h>\n' '1: jansson is for src/io only'
