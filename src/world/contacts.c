@@ -6,10 +6,14 @@
 
 // ---- deciding
 
+// How many pairs ahead the place of the second body is prefetched. The list is sorted by the first one.
+enum { PLACES_AHEAD = 16 };
+
 static void decide_chunk(ovoid_world *w, world_pair *pairs, uint32_t count, chunk *out) {
     uint16_t open[CHUNK];
     uint32_t open_count = 0;
     for (uint32_t i = 0; i < count; i++) {
+        if (i + PLACES_AHEAD < count) compiler_prefetch(&w->places[pairs[i + PLACES_AHEAD].b]);
         open[open_count] = (uint16_t)i;
         open_count += !step_is_answered(w, &pairs[i]);
     }
@@ -46,6 +50,7 @@ enum { AHEAD = 12 };
 static void prefetch_contact(const ovoid_world *w, const world_pair *p) {
     if (!(p->flags & PAIR_CONTACT)) return;
     pair_cache_prefetch(&w->pair_cache[p->slot]);
+    compiler_prefetch(&w->places[p->b]);
     compiler_prefetch(&w->bodies[p->a].user);
     compiler_prefetch(&w->bodies[p->b].user);
 }

@@ -119,11 +119,23 @@ static int reserve_pairs(ovoid_world *w, size_t count) {
            world_reserve(w, (void **)&w->pair_cache, &w->slot_capacity, w->slot_used, count, sizeof *w->pair_cache);
 }
 
+// Prefetches the leaves of a pair whose boxes drop_pairs will compare. A removed body has none, and is MARK_FRESH.
+static void prefetch_leaves(const ovoid_world *w, const world_pair *p) {
+    unsigned marks = w->marks[p->a] | w->marks[p->b];
+    if (!(marks & MARK_BOX) || marks & MARK_FRESH) return;
+    compiler_prefetch(&w->tree.nodes[w->leaf_of[p->a]]);
+    compiler_prefetch(&w->tree.nodes[w->leaf_of[p->b]]);
+}
+
+// How many pairs ahead leaves are prefetched.
+enum { AHEAD = 12 };
+
 // Removes pairs whose boxes no longer overlap; the rest keeps its order.
 static size_t drop_pairs(ovoid_world *w) {
     size_t to = 0;
     for (size_t from = 0; from < w->pair_count; from++) {
         const world_pair *p = &w->pairs[from];
+        if (from + AHEAD < w->pair_count) prefetch_leaves(w, p + AHEAD);
         unsigned marks = w->marks[p->a] | w->marks[p->b];
         int ends =
             marks & MARK_FRESH || (marks & MARK_BOX && !box_is_overlapping(&w->tree.nodes[w->leaf_of[p->a]].bounds,
