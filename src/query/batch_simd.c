@@ -231,14 +231,15 @@ static void end_small(void *self, size_t index, const placed_query *q, const sma
     if (to->answers) to->answers[index] = answer_make_small(end, q->frame, q->goal);
 }
 
-// The search of a small couple that the ellipsoids did not decide, along their direction.
-static void search_small(const batch_state *c, group_lane at) {
-    pair_frame frame;
+// The search of a small couple that the ellipsoids did not decide, along their direction. first: the supports there, or
+// NULL.
+static void search_small(const batch_state *c, group_lane at, const gjk8_first *first) {
+    pair_frame *frame = small_pool_get_frame(c->small);
     query_goal goal = get_goal(c, at);
-    const placed_query query = {&frame, &goal, NULL, 0};
-    place_frame(at, &frame);
-    vec3 start = mat3_mul_vec3(frame.world, get3(at.e->lanes->n, at.k));
-    small_pool_add_from(c->small, at.e->index[at.k], &query, start);
+    const placed_query query = {frame, &goal, NULL, 0};
+    place_frame(at, frame);
+    const small_start start = {mat3_mul_vec3(frame->world, get3(at.e->lanes->n, at.k)), first};
+    small_pool_add_from(c->small, at.e->index[at.k], &query, &start);
 }
 
 // 1 for a small couple of a yes or no.
@@ -277,7 +278,9 @@ static void end_at_support(const batch_state *c, group_lane at, uint32_t a, uint
     query_goal goal = get_goal(c, at);
     int is_met = query_goal_is_met(&goal, lower, upper);
     if (!is_met && is_small_sign(c, at)) {
-        search_small(c, at);
+        // The gap less FRAME_CLAIM, from which the search takes FRAME_REJECT once more: a lower bound of any direction
+        // that rounds to this one.
+        search_small(c, at, &(gjk8_first){a, b, lower + at.e->lanes->radii.lane[at.k]});
     } else if (!is_met) {
         leave_open(c, at, a, b);
     } else if (goal.wants_bracket && at.e->lanes->radii.lane[at.k] > 0) {
@@ -368,7 +371,7 @@ static unsigned search_deep(const batch_state *c, const lane_group *e, unsigned 
         const group_lane at = {e, k};
         if (!(e->lanes->lower.lane[k] < -OUTER_DEPTH * e->lanes->reach.lane[k]) || !is_small_sign(c, at)) continue;
         deep |= 1u << k;
-        search_small(c, at);
+        search_small(c, at, NULL);
     }
     return deep;
 }
@@ -506,11 +509,11 @@ static unsigned add_small(batch_state *c, const lane_group *e, unsigned open) {
         int is_closed = closed_fits(a, b);
         if (!is_closed && !(is_distance && small_fits(&c->goal, a, b, sphere_gap))) continue;
         small |= 1u << k;
-        pair_frame frame;
+        pair_frame *frame = small_pool_get_frame(c->small);
         query_goal goal = get_goal(c, (group_lane){e, k});
-        const placed_query query = {&frame, &goal, NULL, sphere_gap};
+        const placed_query query = {frame, &goal, NULL, sphere_gap};
         small_end end;
-        place_frame((group_lane){e, k}, &frame);
+        place_frame((group_lane){e, k}, frame);
         if (is_closed)
             end_small(c, e->index[k], &query, closed_run(&query, &end) ? &end : NULL);
         else

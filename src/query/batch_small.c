@@ -12,7 +12,17 @@ void small_pool_make(small_pool *pool, const query_goal *goal, small_owner owner
     pool->goal = goal;
     pool->owner = owner;
     pool->has_lanes = count >= FEW;
-    for (int i = 0; i < SMALL_POOL_GROUPS; i++) pool->groups[i].active = 0;
+    pool->place = 0;
+    for (int i = 0; i < SMALL_POOL_GROUPS; i++) pool->groups[i].active = pool->groups[i].measured = 0;
+}
+
+// small_finish of a lane that ended apart, for a verdict alone: the lanes have its bounds.
+static void finish_apart(const gjk8 *g, unsigned k, small_end *end) {
+    end->lower = g->lower.lane[k];
+    end->upper = g->upper.lane[k];
+    end->iterations = (uint32_t)g->steps.lane[k];
+    end->stage = end->iterations > 0 ? OVOID_STAGE_GJK : OVOID_STAGE_SUPPORT;
+    end->kind = OVOID_PROOF_POINTS;
 }
 
 // Ends the lanes of a mask.
@@ -23,16 +33,22 @@ static void end_lanes(const small_pool *p, unsigned group, unsigned lanes, small
         const small_couple *c = &p->couples[PAIR8 * group + k];
         query_goal goal = *p->goal;
         goal.tolerance = c->tolerance;
-        pair_frame f;
-        f.size = c->size;
-        f.hidden = OVOID_LENGTH_MIN;
-        f.lower_radii = g->lower_radii.lane[k];
-        f.upper_radii = g->upper_radii.lane[k];
+        const placed_query q = {.frame = &c->frame, .goal = &goal};
         small_gjk_result r;
         small_end end;
-        gjk8_get_result(g, k, how, &r);
-        const placed_query q = {.frame = &c->frame, .goal = &goal};
-        p->owner.finish(p->owner.self, c->index, &q, small_finish(&f, &goal, &r, &end) ? &end : NULL);
+        int is_answered = 1;
+        if (how == SMALL_GJK_APART && !p->owner.wants_evidence) {
+            finish_apart(g, k, &end);
+        } else {
+            pair_frame f;
+            f.size = c->size;
+            f.hidden = OVOID_LENGTH_MIN;
+            f.lower_radii = g->lower_radii.lane[k];
+            f.upper_radii = g->upper_radii.lane[k];
+            gjk8_get_result(g, k, how, &r);
+            is_answered = small_finish(&f, &goal, &r, &end);
+        }
+        p->owner.finish(p->owner.self, c->index, &q, is_answered ? &end : NULL);
     }
 }
 
@@ -44,13 +60,18 @@ static void advance(small_pool *p, unsigned group) {
     end_lanes(p, group, e.open, SMALL_GJK_OPEN);
 }
 
-// A group with a place.
-static unsigned find_group(small_pool *p) {
+// A place that no couple has.
+static unsigned find_place(small_pool *p) {
     for (;;) {
         for (unsigned i = 0; i < SMALL_POOL_GROUPS; i++)
-            if (p->groups[i].active != PAIR8_ALL) return i;
+            if (p->groups[i].active != PAIR8_ALL) return PAIR8 * i + compiler_count_low_zeros(~p->groups[i].active);
         for (unsigned i = 0; i < SMALL_POOL_GROUPS; i++) advance(p, i);
     }
+}
+
+pair_frame *small_pool_get_frame(small_pool *p) {
+    p->place = find_place(p);
+    return p->owner.wants_evidence ? &p->couples[p->place].frame : &p->frame;
 }
 
 // 1 where a place in the lanes costs more than it saves: the first supports end most searches of bodies far apart.
@@ -65,13 +86,11 @@ static void run_alone(small_pool *p, size_t index, const placed_query *q, const 
 }
 
 static void begin_in_lane(small_pool *p, size_t index, const placed_query *q, const small_gjk_query *gjk) {
-    unsigned group = find_group(p), k = compiler_count_low_zeros(~p->groups[group].active);
-    small_couple *c = &p->couples[PAIR8 * group + k];
+    small_couple *c = &p->couples[p->place];
     c->index = index;
     c->size = q->frame->size;
     c->tolerance = q->goal->tolerance;
-    if (p->owner.keeps_frames) c->frame = *q->frame;
-    p->kernels->begin(&p->groups[group], k, gjk);
+    p->kernels->begin(&p->groups[p->place / PAIR8], p->place % PAIR8, gjk);
 }
 
 void small_pool_add(small_pool *p, size_t index, const placed_query *q) {
@@ -86,15 +105,13 @@ void small_pool_add(small_pool *p, size_t index, const placed_query *q) {
         begin_in_lane(p, index, q, &gjk);
 }
 
-void small_pool_add_from(small_pool *p, size_t index, const placed_query *q, vec3 start) {
+void small_pool_add_from(small_pool *p, size_t index, const placed_query *q, const small_start *start) {
     small_gjk_query gjk = small_make_query(q->frame, q->goal);
-    gjk.start[0] = start.x;
-    gjk.start[1] = start.y;
-    gjk.start[2] = start.z;
-    if (p->has_lanes)
-        begin_in_lane(p, index, q, &gjk);
-    else
-        run_alone(p, index, q, &gjk);
+    gjk.start[0] = start->direction.x;
+    gjk.start[1] = start->direction.y;
+    gjk.start[2] = start->direction.z;
+    begin_in_lane(p, index, q, &gjk);
+    if (start->first) gjk8_put_first(&p->groups[p->place / PAIR8], p->place % PAIR8, start->first);
 }
 
 void small_pool_finish(small_pool *p) {

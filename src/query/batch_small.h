@@ -12,15 +12,14 @@ enum { SMALL_POOL_GROUPS = 2, SMALL_POOL_PLACES = SMALL_POOL_GROUPS * PAIR8 };
 typedef struct small_couple {
     size_t index;
     double size, tolerance;
-    pair_frame frame; ///< where the pool keeps frames
+    pair_frame frame; ///< as frame_place makes it, where evidence is wanted
 } small_couple;
 
 /// What is done with a couple that ends. query, end: its answer; end NULL: it is unusual, and has to be queried alone.
-/// The query's frame is as frame_place made it, where frames are kept.
 typedef struct small_owner {
     void (*finish)(void *self, size_t index, const placed_query *query, const small_end *end);
     void *self;
-    int keeps_frames;
+    int wants_evidence; ///< else `finish` reads of an end only what a verdict says and the proof's kind, and no frame
 } small_owner;
 
 /// The searches of a batch: all couples have its goal, but for the tolerance.
@@ -31,16 +30,28 @@ typedef struct small_pool {
     int has_lanes; ///< else each couple is searched by itself, which for a few costs less and gives the same bits
     small_couple couples[SMALL_POOL_PLACES];
     gjk8 groups[SMALL_POOL_GROUPS];
+    unsigned place;   ///< of the next couple
+    pair_frame frame; ///< the next couple's, where no evidence is wanted: one that stays in the cache
 } small_pool;
 
 /// count: of the couples that will be added, at most.
 void small_pool_make(small_pool *pool, const query_goal *goal, small_owner owner, size_t count);
 
-/// Begins the search of a couple for which small_fits is 1, from the line of centres; others may end meanwhile.
+/// Where the frame of the next couple is to be made; other couples may end meanwhile.
+pair_frame *small_pool_get_frame(small_pool *pool);
+
+/// Begins the search of a couple for which small_fits is 1, from the line of centres. The query's frame is that of
+/// small_pool_get_frame.
 void small_pool_add(small_pool *pool, size_t index, const placed_query *query);
 
-/// The same from a unit direction of the world, for a couple whose inner ellipsoids have no common point.
-void small_pool_add_from(small_pool *pool, size_t index, const placed_query *query, vec3 start);
+/// The first direction of a search, unit, world, and its supports where they are known, else NULL.
+typedef struct small_start {
+    vec3 direction;
+    const gjk8_first *first;
+} small_start;
+
+/// small_pool_add from a given direction, for a couple whose inner ellipsoids have no common point.
+void small_pool_add_from(small_pool *pool, size_t index, const placed_query *query, const small_start *start);
 
 /// Goes on until all have ended.
 void small_pool_finish(small_pool *pool);

@@ -11,6 +11,16 @@ static void take_corner(const gjk8_corner *c, unsigned k, int i, small_gjk_resul
     r->valid |= 1u << i;
 }
 
+void gjk8_put_first(gjk8 *g, unsigned k, const gjk8_first *first) {
+    const small_gjk_body *a = &g->bodies[k].a, *b = &g->bodies[k].b;
+    g->fresh.x.lane[k] = b->x[first->b] - a->x[first->a];
+    g->fresh.y.lane[k] = b->y[first->b] - a->y[first->a];
+    g->fresh.z.lane[k] = b->z[first->b] - a->z[first->a];
+    g->fresh.id.lane[k] = first->a + SMALL_GJK_POINTS * first->b;
+    g->gap.lane[k] = first->gap;
+    g->measured |= 1u << k;
+}
+
 void gjk8_get_result(const gjk8 *g, unsigned k, small_gjk_end end, small_gjk_result *r) {
     int is_inside = end == SMALL_GJK_INSIDE;
     const lane_column *n = is_inside ? g->start : g->n;

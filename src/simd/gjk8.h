@@ -18,12 +18,14 @@ typedef struct gjk8 {
     lane_column is_valid[3];   ///< of the old corners
     lane_column n[3];          ///< the heading,
     lane_column height, square, gap;
-    lane_column is_first, steps;                                  ///< is_first: nothing has been measured yet
+    lane_column is_first, steps;                                  ///< is_first: the simplex has no corner yet
     lane_column start[3], start_square, start_gap;                ///< the first direction
     lane_column claim, lower_radii, upper_radii, tolerance, most; ///< of the query; most: its iterations
+    lane_column lower, upper; ///< the bounds of lanes that ended apart: along the heading; of the latest support
     double far, near;
     int wants_bracket;
     unsigned active;        ///< lanes that are at work
+    unsigned measured;      ///< those of them whose latest support is known already
     uint32_t blocks[PAIR8]; ///< points of the larger body, in eights
     small_gjk_bodies bodies[PAIR8];
 } gjk8;
@@ -41,6 +43,15 @@ typedef struct gjk8_kernels {
     /// gjk8_get_result finds theirs.
     gjk8_ends (*advance)(gjk8 *g);
 } gjk8_kernels;
+
+/// The supports of both bodies along the first direction, where they are known when a search begins.
+typedef struct gjk8_first {
+    uint32_t a, b;
+    double gap; ///< along the direction, times its length
+} gjk8_first;
+
+/// Hands the first support to the search that has begun in lane k.
+void gjk8_put_first(gjk8 *g, unsigned k, const gjk8_first *first);
 
 /// What the search in lane k ended with.
 void gjk8_get_result(const gjk8 *g, unsigned k, small_gjk_end end, small_gjk_result *result);

@@ -166,6 +166,8 @@ LANES_INLINE lane_tests test_lanes(gjk8 *g, int at, lane_mask first, lane length
     lane_mask near = lane_and(goes, is_answered_at(g, at, lower, upper));
     near = lane_and(near, lane_not(lane_or(apart, lane_and(first, is_round))));
     put_some(&g->start_gap, at, first, gap);
+    put(&g->lower, at, lower);
+    put(&g->upper, at, length_of_w - get(&g->upper_radii, at) + claim);
     goes = lane_and(goes, lane_not(lane_or(apart, near)));
     return (lane_tests){lane_or(apart, lane_and(near, first)), lane_and(near, lane_not(first)), goes};
 }
@@ -202,7 +204,9 @@ LANES_INLINE gjk8_ends advance_lanes(gjk8 *g, int at) {
 
 LANES_TARGET static gjk8_ends run_advance(gjk8 *g) {
     gjk8_ends all = {0, 0, 0, 0};
-    for (unsigned rest = g->active; rest; rest &= rest - 1) measure_lane(g, (unsigned)__builtin_ctz(rest));
+    for (unsigned rest = g->active & ~g->measured; rest; rest &= rest - 1)
+        measure_lane(g, (unsigned)__builtin_ctz(rest));
+    g->measured = 0;
     for (int at = 0; at < PAIR8; at += LANES) {
         gjk8_ends some = advance_lanes(g, at);
         all.apart |= some.apart & g->active;
