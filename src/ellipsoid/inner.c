@@ -10,6 +10,7 @@
 // halfspaces lies in the body; the proofs are in double-double. A flat polygon is solved as a prism over it, whose
 // largest ellipsoid is the polygon's, times the height. Cost: some five steps on up to 64 halfspaces, and some ten
 // passes over facets and vertices.
+#include "ellipsoid/box_fit.h"
 #include "ellipsoid/certificate.h"
 #include "ellipsoid/contain.h"
 #include "ellipsoid/design.h"
@@ -298,6 +299,7 @@ static ovoid_code fit_carefully(const ovoid_polytope *p, const ovoid_allocator *
 static ovoid_code compute(const ovoid_polytope *p, const fit_options *options, ovoid_fit *fit) {
     ovoid_allocator memory = allocator_make(options->allocator);
     double gap = options->gap > 0 ? options->gap : 1e-6;
+    if (box_fit_inner(p, gap, fit)) return OVOID_OK;
     if (p->rank == 3) {
         ovoid_plane *planes = allocator_allocate(&memory, p->facet_count, sizeof *planes);
         if (!planes) return OVOID_ERROR_MEMORY;

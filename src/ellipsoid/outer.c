@@ -9,6 +9,7 @@
 // Q is stored in six doubles. Rounding it moves a thin axis; for a body thinner than 1e-8 of its length and not along
 // the axes, nothing of the thickness is left. So the check of contain.c is repeated on the stored Q, which is scaled up
 // until the check holds; if it is too flat to be factored, every axis is lengthened a little first.
+#include "ellipsoid/box_fit.h"
 #include "ellipsoid/contain.h"
 #include "ellipsoid/design.h"
 #include "ellipsoid/factor.h"
@@ -187,6 +188,7 @@ ovoid_code ellipsoid_fit_outer(const ovoid_polytope *polytope, const fit_options
         *fit = (ovoid_fit){.ellipsoid.center = vec3_at(polytope->vertices, 0), .converged = 1};
         return OVOID_OK;
     }
+    if (box_fit_outer(polytope, gap, fit)) return OVOID_OK;
     ovoid_allocator memory = allocator_make(options->allocator);
     double *local = allocator_allocate(&memory, count, 3 * sizeof(double));
     if (!local) return OVOID_ERROR_MEMORY;

@@ -1,10 +1,11 @@
 // From points to a polytope: points.h makes them distinct, quickhull.h finds the extreme ones and then the hull of
-// these alone, so that triangles, facets and adjacency depend only on the vertices. Bodies whose thickness is only
-// rounding get a lower rank, but keep every extreme point.
+// these alone, so that triangles, facets and adjacency depend only on the vertices; a box has them in closed form.
+// Bodies whose thickness is only rounding get a lower rank, but keep every extreme point.
 #include "polytope/hull.h"
 
 #include "base/allocator.h"
 #include "base/error.h"
+#include "polytope/centered_box.h"
 #include "polytope/facets.h"
 #include "polytope/points.h"
 #include "polytope/polygon.h"
@@ -242,9 +243,50 @@ static ovoid_code finish(builder *b, size_t count, ovoid_code code) {
     return code;
 }
 
+// ---- boxes in closed form ----
+
+static int allocate_box(hull *polytope, const ovoid_allocator *allocator) {
+    polytope->vertices = allocator_allocate(allocator, BOX_VERTICES, 3 * sizeof *polytope->vertices);
+    polytope->triangles = allocator_allocate(allocator, 1, sizeof centered_box_triangles);
+    polytope->triangle_facets = allocator_allocate(allocator, 1, sizeof centered_box_triangle_facets);
+    polytope->neighbor_starts = allocator_allocate(allocator, 1, sizeof centered_box_neighbor_starts);
+    polytope->neighbors = allocator_allocate(allocator, 1, sizeof centered_box_neighbors);
+    polytope->planes = allocator_allocate(allocator, BOX_FACETS, sizeof *polytope->planes);
+    return polytope->vertices && polytope->triangles && polytope->triangle_facets && polytope->neighbor_starts &&
+           polytope->neighbors && polytope->planes;
+}
+
+static ovoid_code create_box(const builder *b, vec3 half) {
+    hull *polytope = b->hull;
+    if (!allocate_box(polytope, b->allocator)) {
+        hull_destroy(polytope, b->allocator);
+        return error_set(b->error, OVOID_ERROR_MEMORY, -1, "no memory for a hull of %d vertices", BOX_VERTICES);
+    }
+    memcpy(polytope->vertices, b->xyz, BOX_VERTICES * 3 * sizeof *polytope->vertices);
+    memcpy(polytope->triangles, centered_box_triangles, sizeof centered_box_triangles);
+    memcpy(polytope->triangle_facets, centered_box_triangle_facets, sizeof centered_box_triangle_facets);
+    memcpy(polytope->neighbor_starts, centered_box_neighbor_starts, sizeof centered_box_neighbor_starts);
+    memcpy(polytope->neighbors, centered_box_neighbors, sizeof centered_box_neighbors);
+    centered_box_fill_planes(half, polytope->planes);
+    polytope->vertex_count = BOX_VERTICES;
+    polytope->triangle_count = BOX_TRIANGLES;
+    polytope->facet_count = BOX_FACETS;
+    polytope->rank = 3;
+    polytope->report = (ovoid_report){.points = BOX_VERTICES, .vertices = BOX_VERTICES, .rank = 3};
+    return OVOID_OK;
+}
+
+// 1 if the claim is that of the closed form, which needs no proof.
+static int is_box(const surface_claim *claim, vec3 *half) {
+    return claim->triangle_count == BOX_TRIANGLES && centered_box_find(claim->xyz, claim->count, half) &&
+           memcmp(claim->triangles, centered_box_triangles, sizeof centered_box_triangles) == 0;
+}
+
 ovoid_code hull_create(xyz_points given, const ovoid_allocator *allocator, hull *polytope, ovoid_error *error) {
     *polytope = (hull){0};
     builder b = {.xyz = given.xyz, .hull = polytope, .allocator = allocator, .error = error};
+    vec3 half;
+    if (centered_box_find(given.xyz, given.count, &half)) return create_box(&b, half);
     ovoid_code code = points_create(given, allocator, &b.p, error);
     return code ? code : finish(&b, given.count, find_extreme(&b));
 }
@@ -254,6 +296,8 @@ ovoid_code hull_create_proven(const surface_claim *claim, const ovoid_allocator 
     *polytope = (hull){0};
     *flaw = (surface_flaw){"the vertices have no hull", 0, 1};
     builder b = {.xyz = claim->xyz, .hull = polytope, .allocator = allocator};
+    vec3 half;
+    if (is_box(claim, &half)) return create_box(&b, half);
     ovoid_code code = points_create_distinct((xyz_points){claim->xyz, claim->count}, allocator, &b.p, NULL);
     if (code) return code == OVOID_ERROR_MEMORY ? code : OVOID_ERROR_HULL;
     return finish(&b, claim->count, surface_create_proven(claim, &b.p, allocator, &b.s, flaw));

@@ -119,12 +119,27 @@ static double least_radius(sym3 q) {
     return least > 1e-7 ? sqrt(least * trace) * (1 - 1e-7) : 0;
 }
 
+// W of an ellipsoid along the axes, within three roundings. 0 if it is not along them, or not solid.
+static int fill_upright(sym3 q, double w[6]) {
+    int is_along = q.xy == 0 && q.xz == 0 && q.yz == 0;
+    if (!is_along || !(fmin(q.xx, fmin(q.yy, q.zz)) >= 0x1p-1000)) return 0;
+    w[0] = 1 / sqrt(q.xx);
+    w[2] = 1 / sqrt(q.yy);
+    w[5] = 1 / sqrt(q.zz);
+    return 1;
+}
+
 // W from the proven factor, whose units are powers of two: (1 - defect) x' Q^-1 x <= |W x|^2, and 1e-7 is far more than
 // a defect of 1e-12 and the rounding of W x, 8 u times the root of the condition.
 static shape_inner make_inside(sym3 q, uint32_t rank) {
     shape_inner in = {.reach = sqrt(sym3_trace(q)) * (1 + 1e-7)};
     factor f;
-    if (rank < 3 || !factor_make(q, &f) || f.count < 3 || !(f.defect < 1e-12)) return in;
+    if (rank < 3) return in;
+    if (fill_upright(q, in.w)) {
+        in.least = least_radius(q);
+        return in;
+    }
+    if (!factor_make(q, &f) || f.count < 3 || !(f.defect < 1e-12)) return in;
     in.least = least_radius(q);
     for (int i = 0, k = 0; i < 3; i++)
         for (int j = 0; j <= i; j++) in.w[k++] = f.w[i][j] * f.scale[j];

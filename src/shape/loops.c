@@ -5,6 +5,8 @@
 // one vertex come in the order of its list, and a place that moves along each list numbers them without a search.
 #include "shape/loops.h"
 
+#include "polytope/centered_box.h"
+
 #include <string.h>
 
 #define NOTHING UINT32_MAX
@@ -162,6 +164,35 @@ static void fill_thin(tables *t) {
     }
 }
 
+// ---- boxes, whose tables are constants ----
+
+enum { BOX_CORNERS = 4 * BOX_FACETS };
+static const uint32_t box_tails[BOX_NEIGHBORS] = {0, 0, 0, 1, 1, 1, 1, 1, 1, 2, 2, 2, 2, 2, 2, 3, 3, 3,
+                                                  4, 4, 4, 4, 4, 4, 5, 5, 5, 6, 6, 6, 7, 7, 7, 7, 7, 7};
+static const uint32_t box_facets[BOX_NEIGHBORS] = {2, 1, 5, 1, 1, 3, 2, 2, 3, 5, 1, 1, 5, 4, 4, 1, 4, 3,
+                                                   2, 2, 5, 0, 5, 0, 3, 2, 0, 5, 0, 4, 3, 4, 4, 0, 3, 0};
+static const uint32_t box_loop_vertices[BOX_CORNERS] = {4, 5, 7, 6, 0, 2, 3, 1, 0, 1, 5, 4,
+                                                        1, 3, 7, 5, 2, 6, 7, 3, 0, 4, 6, 2};
+static const uint32_t box_loop_edges[BOX_CORNERS] = {21, 26, 29, 22, 1,  11, 5,  0,  0, 7,  21, 2,
+                                                     5,  17, 26, 7,  13, 29, 17, 11, 2, 22, 13, 1};
+
+// 1 for a box whose triangles and facets are those of the closed form; all tables follow from them.
+static int is_box(const ovoid_polytope *p) {
+    vec3 half;
+    return p->triangle_count == BOX_TRIANGLES && p->facet_count == BOX_FACETS &&
+           centered_box_find(p->vertices, p->vertex_count, &half) &&
+           memcmp(p->triangles, centered_box_triangles, sizeof centered_box_triangles) == 0 &&
+           memcmp(p->triangle_facets, centered_box_triangle_facets, sizeof centered_box_triangle_facets) == 0;
+}
+
+static void fill_box(tables *t) {
+    memcpy(t->tails, box_tails, sizeof box_tails);
+    memcpy(t->facets, box_facets, sizeof box_facets);
+    memcpy(t->loop_vertices, box_loop_vertices, sizeof box_loop_vertices);
+    memcpy(t->loop_edges, box_loop_edges, sizeof box_loop_edges);
+    for (uint32_t f = 0; f <= BOX_FACETS; f++) t->starts[f] = 4 * f;
+}
+
 size_t loops_get_room(block_counts counts) {
     return 3 * (size_t)counts.triangles + 2 * ((size_t)counts.neighbors + counts.vertices);
 }
@@ -179,6 +210,10 @@ void loops_fill(ovoid_shape *s, const ovoid_polytope *p, uint32_t *room) {
     t.starts = get_table(s, at->loop_starts);
     t.loop_vertices = get_table(s, at->loop_vertices);
     t.loop_edges = get_table(s, at->loop_edges);
+    if (is_box(p)) {
+        fill_box(&t);
+        return;
+    }
     link_edges(&t);
     if (p->rank < 2)
         fill_thin(&t);

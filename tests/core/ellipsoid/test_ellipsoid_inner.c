@@ -235,7 +235,7 @@ static void check_hard(void) {
 }
 
 static void check_contract(void) {
-    made m = made_box(1, 1, 1);
+    made m = made_simplex();
     ovoid_fit fit;
     long allowed = 0;
     for (; allowed < 9; allowed++) {

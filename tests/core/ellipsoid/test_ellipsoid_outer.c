@@ -224,7 +224,7 @@ static void check_nearly_round(void) {
 }
 
 static void check_contract(void) {
-    made m = made_box(1, 1, 1);
+    made m = made_simplex();
     ovoid_fit fit;
     long allowed = 0;
     fit.volume = 0;
