@@ -199,14 +199,23 @@ static void place_bodies(void *work, uint32_t first, uint32_t end, uint32_t work
     }
 }
 
-// Leaves and their siblings are scattered in the tree: they are prefetched some bodies ahead.
-enum { AHEAD = 24 };
+// Leaves, their siblings and their parents are scattered in the tree: they are prefetched some bodies ahead.
+enum { AHEAD = 24, PARENTS_AHEAD = 12 };
 
-static void fetch_leaf(const ovoid_world *w, uint32_t i) {
-    if (!(w->marks[i] & MARK_LEFT)) return;
-    const tree_node *couple = &w->tree.nodes[w->leaf_of[i] & ~1u];
+static void fetch_couple(const ovoid_world *w, uint32_t node) {
+    const tree_node *couple = &w->tree.nodes[node & ~1u];
     compiler_prefetch(couple);
     compiler_prefetch(couple + 1);
+}
+
+static void fetch_leaf(const ovoid_world *w, uint32_t i) {
+    if (w->marks[i] & MARK_LEFT) fetch_couple(w, w->leaf_of[i]);
+}
+
+static void fetch_parent(const ovoid_world *w, uint32_t i) {
+    if (!(w->marks[i] & MARK_LEFT)) return;
+    uint32_t parent = w->tree.nodes[w->leaf_of[i]].parent;
+    if (parent != NONE) fetch_couple(w, parent);
 }
 
 static void move_by_all(ovoid_world *w, const ovoid_id *ids, const ovoid_pose *poses, uint32_t count) {
@@ -214,6 +223,7 @@ static void move_by_all(ovoid_world *w, const ovoid_id *ids, const ovoid_pose *p
     task_host_run(&w->host, &(task){place_bodies, &all, count, LEAST});
     for (uint32_t k = 0; k < count; k++) {
         if (k + AHEAD < count) fetch_leaf(w, (uint32_t)(ids[k + AHEAD] >> 32));
+        if (k + PARENTS_AHEAD < count) fetch_parent(w, (uint32_t)(ids[k + PARENTS_AHEAD] >> 32));
         uint32_t i = (uint32_t)(ids[k] >> 32);
         if (!(w->marks[i] & MARK_LEFT)) continue;
         w->marks[i] &= (uint8_t)~MARK_LEFT;
