@@ -41,6 +41,7 @@ static double find_beside(double middle, double half) {
 static void find_parameters(vec3 d, vec3 u, vec3 v, double *s, double *t) {
     double uu = vec3_norm_squared(u), vv = vec3_norm_squared(v), uv = vec3_dot(u, v), ud = vec3_dot(u, d),
            vd = vec3_dot(v, d);
+    // The square of a length above zero may be zero.
     if (!(uu > 0)) {
         *s = 0;
         *t = vv > 0 ? clamp(-vd / vv) : 0;
@@ -80,15 +81,19 @@ static vec3 find_segments_normal(vec3 w, vec3 u, vec3 v, int is_inside_u, int is
     return vec3_orthogonal(vec3_unit(is_inside_u ? u : is_inside_v ? v : (vec3){0, 0, 1}));
 }
 
+// The middle of a point or a segment, turned; that of a sphere around its frame's origin needs no turn.
+static vec3 turn_middle(mat3 turn, const ovoid_shape *s) {
+    return closed_is_origin(s) ? (vec3){0, 0, 0} : mat3_mul_vec3(turn, closed_get_middle(s));
+}
+
 static void find_segments(const pair_frame *f, nearest_pair *out) {
-    vec3 middle = mat3_mul_vec3(f->world, closed_get_middle(f->a));
-    vec3 d = vec3_add(f->offset, vec3_sub(mat3_mul_vec3(f->world_b, closed_get_middle(f->b)), middle));
+    vec3 middle = turn_middle(f->world, f->a);
+    vec3 d = vec3_add(f->offset, vec3_sub(turn_middle(f->world_b, f->b), middle));
     vec3 u = mat3_mul_vec3(f->world, closed_get_half(f->a)), v = mat3_mul_vec3(f->world_b, closed_get_half(f->b));
     double s, t;
     find_parameters(d, u, v, &s, &t);
     vec3 w = vec3_add_scaled(vec3_add_scaled(d, v, t), u, -s);
-    int is_inside_u = f->a->vertex_count == 2 && fabs(s) < 1, is_inside_v = f->b->vertex_count == 2 && fabs(t) < 1;
-    vec3 n = find_segments_normal(w, u, v, is_inside_u, is_inside_v);
+    vec3 n = find_segments_normal(w, u, v, fabs(s) < 1, fabs(t) < 1);
     out->a[0] = s;
     out->b[0] = t;
     out->point_a = vec3_add_scaled(middle, u, s);
@@ -97,9 +102,29 @@ static void find_segments(const pair_frame *f, nearest_pair *out) {
     out->normal = n;
 }
 
+// The same operations, without those of the half of a point, which is zero.
+static void find_point_and_segment(const pair_frame *f, int is_point_a, nearest_pair *out) {
+    vec3 middle = turn_middle(f->world, f->a);
+    vec3 d = vec3_add(f->offset, vec3_sub(turn_middle(f->world_b, f->b), middle));
+    vec3 e =
+        is_point_a ? mat3_mul_vec3(f->world_b, closed_get_half(f->b)) : mat3_mul_vec3(f->world, closed_get_half(f->a));
+    double square = vec3_norm_squared(e), along = vec3_dot(e, d);
+    // The square of a length above zero may be zero.
+    double t = square > 0 ? clamp((is_point_a ? -along : along) / square) : 0;
+    vec3 w = vec3_add_scaled(d, e, is_point_a ? t : -t);
+    int is_inside = fabs(t) < 1;
+    vec3 n = vec3_unit(is_inside ? take_off(w, e) : w);
+    if (!(vec3_norm_squared(n) > 0.5)) n = vec3_orthogonal(vec3_unit(is_inside ? e : (vec3){0, 0, 1}));
+    *(is_point_a ? out->b : out->a) = t;
+    out->point_a = is_point_a ? middle : vec3_add_scaled(middle, e, t);
+    out->difference = w;
+    out->gap = vec3_dot(n, d) - fabs(vec3_dot(n, e));
+    out->normal = n;
+}
+
 static void find_points(const pair_frame *f, nearest_pair *out) {
-    out->point_a = mat3_mul_vec3(f->world, f->a->first);
-    out->difference = vec3_add(f->offset, vec3_sub(mat3_mul_vec3(f->world_b, f->b->first), out->point_a));
+    out->point_a = turn_middle(f->world, f->a);
+    out->difference = vec3_add(f->offset, vec3_sub(turn_middle(f->world_b, f->b), out->point_a));
     closed_points found = closed_find_points(out->difference);
     out->normal = found.normal;
     out->gap = found.gap;
@@ -107,9 +132,12 @@ static void find_points(const pair_frame *f, nearest_pair *out) {
 
 // ---- a box and a segment, or a point, in the world's axes from the box's centre
 
-// A segment y + s e, and a box of half axes `axis`; in units of these, t_i = from[i] + s way[i].
+// A segment y + s e, and a box of half axes `axis`; in units of these, t_i = from[i] + s way[i]. Of a point e, way and
+// rise are not set.
 typedef struct in_box {
+    int is_point;
     vec3 y, e, axis[3];
+    vec3 center;                       ///< of the box, from its body frame's origin, world
     double from[3], way[3], square[3]; ///< square: of the half axis' length
     double rise[3];                    ///< way; 0 where the segment is along the faces, to rounding
 } in_box;
@@ -165,28 +193,36 @@ static double find_nearest(const in_box *q) {
     return min2(high, max2(low, s));
 }
 
+static void set_way(const ovoid_shape *thin, const mat3 *turn, in_box *q) {
+    q->e = mat3_mul_vec3(*turn, closed_get_half(thin));
+    double least = 0x1p-92 * vec3_norm_squared(q->e);
+    for (int i = 0; i < 3; i++) {
+        double along = vec3_dot(q->axis[i], q->e);
+        q->way[i] = along * (1 / q->square[i]);
+        q->rise[i] = along * along > least * q->square[i] ? q->way[i] : 0;
+    }
+}
+
 static void set_in_box(const pair_frame *f, int is_box_a, in_box *q) {
     const ovoid_shape *box = is_box_a ? f->a : f->b, *thin = is_box_a ? f->b : f->a;
     const mat3 *turn = is_box_a ? &f->world : &f->world_b, *turn_thin = is_box_a ? &f->world_b : &f->world;
-    vec3 middle = closed_get_middle(thin);
-    q->y = is_box_a ? frame_world_difference(f, box->box.center, middle)
-                    : vec3_neg(frame_world_difference(f, middle, box->box.center));
-    q->e = thin->vertex_count == 1 ? (vec3){0, 0, 0} : mat3_mul_vec3(*turn_thin, closed_get_half(thin));
-    double least = 0x1p-92 * vec3_norm_squared(q->e);
+    vec3 middle = turn_middle(*turn_thin, thin);
+    q->is_point = thin->vertex_count == 1;
+    q->center = mat3_mul_vec3(*turn, box->box.center);
+    q->y =
+        is_box_a ? vec3_add(f->offset, vec3_sub(middle, q->center)) : vec3_sub(vec3_sub(middle, q->center), f->offset);
     for (int i = 0; i < 3; i++) {
-        vec3 axis = mat3_mul_vec3(*turn, box->box.axis[i]);
-        double square = vec3_norm_squared(axis), along = vec3_dot(axis, q->e), scale = 1 / square;
-        q->axis[i] = axis;
-        q->square[i] = square;
-        q->from[i] = vec3_dot(axis, q->y) * scale;
-        q->way[i] = along * scale;
-        q->rise[i] = along * along > least * square ? q->way[i] : 0;
+        q->axis[i] = mat3_mul_vec3(*turn, box->box.axis[i]);
+        q->square[i] = vec3_norm_squared(q->axis[i]);
+        q->from[i] = vec3_dot(q->axis[i], q->y) * (1 / q->square[i]);
     }
+    if (!q->is_point) set_way(thin, turn_thin, q);
 }
 
 // The gap of the segment from the box along m.
 static double find_box_gap(const in_box *q, vec3 m) {
-    double gap = vec3_dot(m, q->y) - fabs(vec3_dot(m, q->e));
+    double gap = vec3_dot(m, q->y);
+    if (!q->is_point) gap -= fabs(vec3_dot(m, q->e));
     for (int i = 0; i < 3; i++) gap -= fabs(vec3_dot(m, q->axis[i]));
     return gap;
 }
@@ -196,7 +232,7 @@ static vec3 find_face(const in_box *q) {
     double best = -INFINITY;
     vec3 n = {1, 0, 0};
     for (int i = 0; i < 3; i++) {
-        double gap = (fabs(q->from[i]) - fabs(q->way[i]) - 1) * sqrt(q->square[i]);
+        double way = q->is_point ? 0 : fabs(q->way[i]), gap = (fabs(q->from[i]) - way - 1) * sqrt(q->square[i]);
         if (!(gap > best)) continue;
         best = gap;
         n = q->from[i] < 0 ? vec3_neg(q->axis[i]) : q->axis[i];
@@ -217,30 +253,27 @@ static vec3 find_box_normal(const in_box *q, vec3 w, unsigned beyond, int is_ins
 }
 
 static void find_in_box(const pair_frame *f, int is_box_a, nearest_pair *out) {
-    const ovoid_shape *thin = is_box_a ? f->b : f->a;
     double *of_box = is_box_a ? out->a : out->b, *of_thin = is_box_a ? out->b : out->a;
     in_box q;
     set_in_box(f, is_box_a, &q);
-    double s = thin->vertex_count == 1 ? 0 : find_nearest(&q);
+    double s = q.is_point ? 0 : find_nearest(&q);
     // w: the sum of what is beyond the faces, which has digits for a direction; off: the points' difference.
     unsigned beyond = 0;
     vec3 w = {0, 0, 0}, on_box = {0, 0, 0};
     for (int i = 0; i < 3; i++) {
-        double t = q.from[i] + s * q.way[i], excess = find_excess(t);
+        double t = q.is_point ? q.from[i] : q.from[i] + s * q.way[i], excess = find_excess(t);
         of_box[i] = t - excess;
         w = vec3_add_scaled(w, q.axis[i], excess);
         on_box = vec3_add_scaled(on_box, q.axis[i], of_box[i]);
         beyond |= (unsigned)(fabs(excess) > 0) << i;
     }
     of_thin[0] = s;
-    vec3 on_thin = vec3_add_scaled(q.y, q.e, s), off = vec3_sub(on_thin, on_box);
-    vec3 n = find_box_normal(&q, w, beyond, thin->vertex_count == 2 && fabs(s) < 1);
+    vec3 on_thin = q.is_point ? q.y : vec3_add_scaled(q.y, q.e, s), off = vec3_sub(on_thin, on_box);
+    vec3 n = find_box_normal(&q, w, beyond, !q.is_point && fabs(s) < 1);
     out->gap = find_box_gap(&q, n);
     out->normal = is_box_a ? n : vec3_neg(n);
     out->difference = is_box_a ? off : vec3_neg(off);
-    vec3 center = is_box_a ? mat3_mul_vec3(f->world, f->a->box.center)
-                           : vec3_add(f->offset, mat3_mul_vec3(f->world_b, f->b->box.center));
-    out->point_a = vec3_add(center, is_box_a ? on_box : on_thin);
+    out->point_a = vec3_add(is_box_a ? q.center : vec3_add(f->offset, q.center), is_box_a ? on_box : on_thin);
 }
 
 // ---- the points as pairs of vertices
@@ -276,24 +309,24 @@ static uint32_t get_vertex(const ovoid_shape *s, unsigned bits) {
 // The two points as one convex combination of pairs of vertices: from the pair with the ends at -1 one parameter after
 // another goes to its end at 1, the one of the largest weight first. 0: there are more pairs than an answer holds.
 static int write_points(const pair_frame *f, const nearest_pair *found, simplex *points) {
-    if (f->a->vertex_count + f->b->vertex_count == 2) {
-        *points = (simplex){.weight = {1}, .count = 1};
-        return 1;
-    }
     cut cuts[6];
-    uint32_t count = 0;
+    uint32_t count = 0, axes_a = count_axes(f->a), axes_b = count_axes(f->b);
     unsigned bits = 0;
-    add_cuts(found->a, count_axes(f->a), 0, cuts, &count, &bits);
-    add_cuts(found->b, count_axes(f->b), 3, cuts, &count, &bits);
+    if (axes_a > 0) add_cuts(found->a, axes_a, 0, cuts, &count, &bits);
+    if (axes_b > 0) add_cuts(found->b, axes_b, 3, cuts, &count, &bits);
     if (count > 3) return 0;
     points->count = (int)count + 1;
     double left = 1;
     for (uint32_t i = 0; i < 4; i++) {
+        if (i > count) {
+            points->p[i].a = points->p[i].b = 0;
+            points->weight[i] = 0;
+            continue;
+        }
         double next = i < count ? cuts[i].weight : 0;
-        int is_used = i <= count;
-        points->p[i].a = is_used ? get_vertex(f->a, bits) : 0;
-        points->p[i].b = is_used ? get_vertex(f->b, bits >> 3) : 0;
-        points->weight[i] = is_used ? left - next : 0;
+        points->p[i].a = get_vertex(f->a, bits);
+        points->p[i].b = get_vertex(f->b, bits >> 3);
+        points->weight[i] = left - next;
         if (i < count) bits |= cuts[i].bit;
         left = next;
     }
@@ -310,16 +343,23 @@ static closed_cores find_cores(const pair_frame *f, const nearest_pair *found, d
     return (closed_cores){a, vec3_add(a, found->difference), n};
 }
 
+static void find_nearest_pair(const pair_frame *f, nearest_pair *found) {
+    uint32_t a = f->a->vertex_count, b = f->b->vertex_count;
+    if (a == 8 || b == 8)
+        find_in_box(f, a == 8, found);
+    else if (a + b == 2)
+        find_points(f, found);
+    else if (a + b == 3)
+        find_point_and_segment(f, a == 1, found);
+    else
+        find_segments(f, found);
+}
+
 int closed_run(const placed_query *query, small_end *end) {
     const pair_frame *f = query->frame;
     nearest_pair found;
     if (!closed_is_moderate(f)) return 0;
-    if (f->a->vertex_count == 8 || f->b->vertex_count == 8)
-        find_in_box(f, f->a->vertex_count == 8, &found);
-    else if (f->a->vertex_count + f->b->vertex_count == 2)
-        find_points(f, &found);
-    else
-        find_segments(f, &found);
+    find_nearest_pair(f, &found);
     double distance = vec3_norm(found.difference);
     if (!closed_set_bounds(query, found.gap, distance, end) || !write_points(f, &found, &end->points)) return 0;
     end->normal = vec3_clear_signs(found.normal);

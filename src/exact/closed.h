@@ -27,6 +27,9 @@ static inline vec3 closed_get_half(const ovoid_shape *s) {
     return vec3_scale(vec3_sub(vec3_at(shape_vertices(s), 1), s->first), 0.5);
 }
 
+/// 1 for the origin of the body frame, with a radius: no rotation changes it.
+static inline int closed_is_origin(const ovoid_shape *s) { return (s->vertex_count == 1) & !(s->extent > 0); }
+
 /// Two points d apart, A's to B's: their distance, the unit normal, and the gap along it. Any normal is as good as
 /// another where they are one.
 typedef struct closed_points {

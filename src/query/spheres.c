@@ -2,7 +2,6 @@
 // stays in registers, as only inline functions see it. What is not answered here goes through the pipeline.
 #include "query/spheres.h"
 
-#include "exact/closed.h"
 #include "linear/pose.h"
 #include "linear/rotation.h"
 #include "query/begin.h"
