@@ -17,7 +17,7 @@ cd "$(dirname "$0")/.." || exit 1
 jobs=${JOBS:-2}
 copy=build/mutate
 tree=$copy/tree
-groups="allowance query prepared growth boxes closed exact hull shape ellipsoid simd environment tools world world_manifolds solid_manifolds compound solid solid_body solid_files decompose motion smooth paper manifold table lanes io robot robot_read robot_solid robot_spheres robot_cover robot_table robot_compare ompl fcl adapters robot_cli robot_spheres_cli shard verify page report python python_solid decompose_watch robot_watch hostile hostile_cli contact_faces contact_python python_fcl"
+groups="allowance query prepared depth_memory growth boxes closed exact hull shape ellipsoid simd environment tools world world_manifolds solid_manifolds compound solid solid_body solid_files decompose motion smooth paper manifold table lanes io robot robot_read robot_solid robot_spheres robot_cover robot_table robot_compare ompl fcl adapters robot_cli robot_spheres_cli shard verify page report python python_solid decompose_watch robot_watch hostile hostile_cli contact_faces contact_python python_fcl"
 
 # The tests of a group, fastest first; arguments after a colon.
 tests_of() {
@@ -27,6 +27,7 @@ tests_of() {
     allowance) echo "test_allowance test_allowance_axis test_judge_allowance" ;;
     query) echo "$query" ;;
     prepared) echo "test_prepared test_environment" ;;
+    depth_memory) echo "test_query_memory" ;;
     growth) echo "test_simd_epa8 test_judge_capacity $query" ;;
     boxes) echo "test_simd_box_axes test_query_boxes $query" ;;
     closed) echo "test_query_closed test_judge_closed test_query_batch test_prepared test_allowance test_query_boxes $query" ;;

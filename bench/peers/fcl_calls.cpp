@@ -154,7 +154,7 @@ ovoid_answer prove(const named &x, const named &y, const fcl::Transform3d &s, co
     tight.relative_tolerance = 1e-10;
     static ovoid_cover cover;
     const ovoid_answer answer = ovoid_depth(&pair, &tight, nullptr, &cover);
-    const ovoid_answer_basis basis = {&tight, &cover};
+    const ovoid_answer_basis basis = {&tight, &cover, nullptr};
     ovoid_error error;
     if (ovoid_answer_verify(&pair, &answer, &basis, &error) != OVOID_OK) std::printf("NOT PROVEN: %s\n", error.message);
     return answer;

@@ -62,6 +62,7 @@ class Limit(Named):
     SHAPE_A = 9
     SHAPE_B = 10
     ALLOWANCE = 11  #: the shapes' allowances leave it open; no search narrows it
+    MEMORY = 12  #: only in C: too little working memory was given
 
 
 class Code(Named):

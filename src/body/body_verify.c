@@ -253,11 +253,11 @@ static ovoid_code verify_parts(cut *c, const ovoid_pair *parts, const ovoid_opti
     const ovoid_answer *x = &c->x->deciding;
     if (!is_of_parts(c->x)) return refuse_all(error, "the bracket is not that of the deciding pair");
     // Two shapes are asked with the options as they are.
-    const ovoid_answer_basis basis = {given, c->all->cover};
+    const ovoid_answer_basis basis = {.options = given, .cover = c->all->cover};
     if (c->a.shape && c->b.shape) return answer_verify_internal(parts, x, &basis, error);
     ovoid_code code = verify_terms(c, parts, given, error);
     // A first look at the bodies has its points by their rounding.
-    const answer_claims claims = {parts, x, c->all->cover, c->frame.claim};
+    const answer_claims claims = {.pair = parts, .answer = x, .cover = c->all->cover, .slack = c->frame.claim};
     if (code == OVOID_OK) code = bounds_verify_internal(&claims, error);
     return code == OVOID_OK ? verify_exclusions(c, error) : code;
 }
@@ -281,7 +281,7 @@ static int is_refusal(ovoid_limit limit) { return limit >= OVOID_LIMIT_POSE_A &&
 
 static ovoid_code verify_solids(cut *c, const ovoid_pair *leaves, ovoid_error *error) {
     static const ovoid_options of_leaves = {.absolute_tolerance = INFINITY};
-    static const ovoid_answer_basis basis = {&of_leaves, NULL};
+    static const ovoid_answer_basis basis = {.options = &of_leaves};
     // Of the deciding pair the bounds; what its status means is a matter of the bodies' size.
     ovoid_code code = answer_verify_internal(leaves, &c->x->deciding, &basis, error);
     if (code == OVOID_OK) code = verify_exclusions(c, error);

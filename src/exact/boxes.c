@@ -147,7 +147,7 @@ static int build_cover(const pair_frame *f, const box_axes_query *q, const box_a
         int near = !(axes->along[pair] >= 0);
         if (!add_face(&b, axes, pair, near) || !add_face(&b, axes, pair, !near)) return 0;
     }
-    surface all = {b.w, (const uint16_t(*)[3])cover->triangles, cover->point_count, cover->triangle_count};
+    surface all = surface_make(b.w, cover->point_count, (const uint16_t(*)[3])cover->triangles, cover->triangle_count);
     return surface_is_closed(&all) && surface_compute_depth(&all, f->claim) >= depth;
 }
 

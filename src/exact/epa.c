@@ -6,8 +6,8 @@
 // - Nothing is taken on trust: the lower bound is the gap along a face's normal, by the supports; the upper bound is
 //   the radius that the whole surface keeps from the origin, checked at the end as a proof (cover.c).
 // - A depth's first points are joined in lanes (epa_lanes.c); this goes on from there where it must.
-// Working memory is fixed, on the stack, about 80 KB. Cost: for each new point one support and a scan of the faces that
-// may be the nearest.
+// Working memory is on the stack, about 80 KB; beyond 512 points the surface goes on in the caller's, if there is any.
+// Cost: for each new point one support and a scan of the faces that may be the nearest.
 #include "exact/epa.h"
 
 #include "base/compiler.h"
@@ -42,6 +42,7 @@ typedef struct growth {
     growth_room room;
     uint16_t nearest; ///< face
     int is_grown;     ///< as near as is wanted
+    int is_moved;     ///< the surface is in the caller's memory
     double gap;       ///< along its normal, NAN until measured
     ovoid_cover *cover;
 } growth;
@@ -242,9 +243,9 @@ static void take_cover(growth *g) {
     search *s = g->s;
     expansion *e = &g->e;
     ovoid_cover *cover = g->cover;
-    surface all = {e->w, (const uint16_t(*)[3])e->triangles, e->points, 0};
+    surface all = surface_make(e->w, e->points, (const uint16_t(*)[3])e->triangles, 0);
     double depth = measure_faces(s, e);
-    if (cover || !(depth > 0)) all.triangle_count = expansion_pack(e);
+    if (cover || g->is_moved || !(depth > 0)) all.triangle_count = expansion_pack(e);
     if (!(depth > 0)) depth = surface_compute_depth(&all, s->frame->claim);
     double upper = -depth - s->frame->upper_radii;
     if (!(depth > 0) || !(upper < s->upper || upper - s->lower <= s->goal.tolerance)) return;
@@ -252,6 +253,12 @@ static void take_cover(growth *g) {
     s->stage = OVOID_STAGE_EPA;
     s->kind = OVOID_PROOF_COVER;
     s->witness = find_witness(g);
+    if (g->is_moved) {
+        s->goal.room->cover = (ovoid_large_cover){e->points, all.triangle_count, e->a, e->b, all.triangles};
+        return;
+    }
+    // A second run's surface proves more than that of the first, which may stand in the caller's memory.
+    if (s->goal.room) s->goal.room->cover.point_count = 0;
     if (!search_wants_cover(s, cover, s->upper)) return;
     cover->point_count = e->points;
     cover->triangle_count = all.triangle_count;
@@ -339,6 +346,21 @@ static int measure_sliver(const expansion *e, face *f) {
     return 1;
 }
 
+// Goes on in the caller's memory, if that has more room and no cover stands there that was found before.
+static int move(growth *g) {
+    depth_room *room = g->s->goal.room;
+    if (!room || g->is_moved || room->points <= EXPANSION_POINTS || room->cover.point_count) return 0;
+    expansion_move(&g->e, room->data, room->points);
+    return g->is_moved = 1;
+}
+
+static int join(growth *g, const frame_support *support) {
+    expansion *e = &g->e;
+    if (expansion_join(e, g->nearest, expansion_add_point(e, support->w, support->a, support->b))) return 1;
+    e->points--;
+    return 0;
+}
+
 // One step: the support of the nearest face. 0 when there is nothing to gain or a limit is met, -1 if rounding keeps it
 // from being joined.
 static int grow(growth *g) {
@@ -354,13 +376,13 @@ static int grow(growth *g) {
     if (s->goal.wants_depth && is_narrow(s, f->low, high)) return 0;
     if (high - f->low <= e->slack) return 0;
     if (high - f->low < 1e-3 * s->frame->size && has_point(e, &support)) return measure_sliver(e, f);
-    if (e->points == EXPANSION_POINTS) {
+    if (e->points == e->most_points && !move(g)) {
         s->limit = OVOID_LIMIT_CAPACITY;
         return 0;
     }
-    if (expansion_join(e, g->nearest, expansion_add_point(e, support.w, support.a, support.b))) return 1;
-    e->points--;
-    return -1;
+    if (join(g, &support)) return 1;
+    // The last points may want more faces at once than there is room for.
+    return e->points > EXPANSION_POINTS / 2 && move(g) && join(g, &support) ? 1 : -1;
 }
 
 static void find_next(growth *g) {
@@ -413,7 +435,7 @@ int epa_run(search *s, simplex *points, int is_first, ovoid_cover *cover) {
     growth g;
     g.s = s;
     g.cover = cover;
-    g.is_grown = 0;
+    g.is_grown = g.is_moved = 0;
     expansion_room_give(&g.room.all, &g.e);
     prober_make(&g.p, s, 1);
     expansion_clear(&g.e, 16 * 0x1p-53 * s->frame->size);

@@ -38,7 +38,7 @@ static void take_lane(expansion *p, face *f, uint32_t i) {
     const simd_cone *c = &p->cone;
     double area = c->area[i], low = c->offset[i];
     if (!(area > 1e-4 * c->product[i] && area > SIMD_AREA_MIN)) {
-        set_plane(p, f, p->f[f->twin[1] / 4].n);
+        set_plane(p, f, p->f[f->twin[1]].n);
         return;
     }
     f->n = (vec3){c->n[0][i], c->n[1][i], c->n[2][i]};
@@ -82,7 +82,7 @@ uint16_t expansion_add_point(expansion *p, vec3 w, uint32_t a, uint32_t b) {
 // The four faces of the first tetrahedron, outward: a base, and a cone from point 3 over it.
 void expansion_make_tetrahedron(expansion *p) {
     static const uint16_t corner[4][3] = {{0, 2, 1}, {3, 0, 1}, {3, 1, 2}, {3, 2, 0}};
-    static const uint16_t across[4][3] = {{13, 9, 5}, {14, 2, 8}, {6, 1, 12}, {10, 0, 4}};
+    static const uint16_t across[4][3] = {{3, 2, 1}, {3, 0, 2}, {1, 0, 3}, {2, 0, 1}};
     vec3 e1 = vec3_sub(p->w[1], p->w[0]), e2 = vec3_sub(p->w[2], p->w[0]), e3 = vec3_sub(p->w[3], p->w[0]);
     if (vec3_dot(vec3_cross(e1, e2), e3) < 0) {
         vec3 w = p->w[1];
@@ -110,13 +110,6 @@ static uint32_t number_faces(const epa8 *from, uint8_t number[EPA8_FACES]) {
     return count;
 }
 
-// The face across the edge from corner i to corner k, with its edge there.
-static uint16_t find_across(const epa8 *from, const uint8_t number[EPA8_FACES], uint8_t i, uint8_t k) {
-    uint8_t outer = from->left[k][i];
-    const uint8_t *v = from->v[outer];
-    return (uint16_t)(4 * number[outer] + (v[0] == k ? 0 : v[1] == k ? 1 : 2));
-}
-
 uint16_t expansion_take(expansion *p, const epa8 *from) {
     uint8_t number[EPA8_FACES];
     p->points = 0;
@@ -132,7 +125,7 @@ uint16_t expansion_take(expansion *p, const epa8 *from) {
         f->outward = !(from->inward[i / 64] >> i % 64 & 1);
         for (int e = 0; e < 3; e++) {
             f->v[e] = v[e];
-            f->twin[e] = find_across(from, number, v[e], v[e == 2 ? 0 : e + 1]);
+            f->twin[e] = number[from->left[v[e == 2 ? 0 : e + 1]][v[e]]];
         }
         open_face(p, number[i]);
     }
@@ -162,6 +155,11 @@ uint16_t expansion_find_nearest(expansion *p) {
     return best != NONE ? best : find_least(p);
 }
 
+// Sets the face across the edge of f that starts at a corner.
+static void set_twin(face *f, uint16_t corner, uint16_t across) {
+    f->twin[f->v[0] == corner ? 0 : f->v[1] == corner ? 1 : 2] = across;
+}
+
 // A new face on an edge of the horizon, joined to its outer neighbour. 0 if the horizon passes the edge's first corner
 // a second time or memory is used up.
 static int add_on_edge(expansion *p, const face *old, int e, uint16_t apex) {
@@ -170,7 +168,7 @@ static int add_on_edge(expansion *p, const face *old, int e, uint16_t apex) {
     face *f = &p->f[g];
     f->v[0] = apex, f->v[1] = from, f->v[2] = old->v[e == 2 ? 0 : e + 1];
     f->twin[1] = outer;
-    p->f[outer / 4].twin[outer % 4] = (uint16_t)(4 * g + 1);
+    set_twin(&p->f[outer], f->v[2], g);
     p->stamp[from] = apex;
     p->leaving[from] = g;
     p->ring[0] = g;
@@ -200,7 +198,7 @@ static int replace_visible(expansion *p, uint16_t first, uint16_t apex, uint16_t
     for (uint16_t *at = end; at-- > *seen;) {
         const face *old = &p->f[*at];
         for (int e = 0; e < 3; e++) {
-            uint16_t g = old->twin[e] / 4;
+            uint16_t g = old->twin[e];
             face *f = &p->f[g];
             if (!f->alive) continue;
             if (vec3_dot(f->n, w) - f->low > p->slack) {
@@ -219,7 +217,7 @@ static void restore_faces(expansion *p, const uint16_t *seen, const uint16_t *en
     for (; seen < end; seen++) {
         face *f = &p->f[*seen];
         f->alive = 1;
-        for (int e = 0; e < 3; e++) p->f[f->twin[e] / 4].twin[f->twin[e] % 4] = (uint16_t)(4 * *seen + e);
+        for (int e = 0; e < 3; e++) set_twin(&p->f[f->twin[e]], f->v[e == 2 ? 0 : e + 1], *seen);
     }
 }
 
@@ -230,8 +228,8 @@ static int close_ring(expansion *p, uint16_t apex) {
         uint16_t to = p->f[g].v[2];
         if (p->stamp[to] != apex || (g == first && i > 0)) return 0;
         uint16_t follower = p->leaving[to];
-        p->f[g].twin[2] = (uint16_t)(4 * follower);
-        p->f[follower].twin[0] = (uint16_t)(4 * g + 2);
+        p->f[g].twin[2] = follower;
+        p->f[follower].twin[0] = g;
         p->ring[i] = g;
         g = follower;
     }
@@ -250,6 +248,45 @@ int expansion_join(expansion *p, uint16_t first, uint16_t apex) {
     free_faces(p, seen, (uint32_t)(end - seen));
     set_ring(p, apex);
     return 1;
+}
+
+// ---- a room of any size
+
+// The arrays of a room one after another, the widest items first.
+static void carve(expansion *p, char *base, size_t points) {
+    size_t faces = 2 * points, at = 0;
+    p->most_points = (uint32_t)points;
+    p->most_faces = (uint32_t)faces;
+    p->w = (vec3 *)(void *)(base + at), at += points * sizeof *p->w;
+    p->f = (face *)(void *)(base + at), at += faces * sizeof *p->f;
+    p->a = (uint32_t *)(void *)(base + at), at += points * sizeof *p->a;
+    p->b = (uint32_t *)(void *)(base + at), at += points * sizeof *p->b;
+    p->leaving = (uint16_t *)(void *)(base + at), at += points * sizeof *p->leaving;
+    p->stamp = (uint16_t *)(void *)(base + at), at += points * sizeof *p->stamp;
+    // The lists that only growth needs take as much as the triangles that end it.
+    p->triangles = (uint16_t(*)[3])(void *)(base + at);
+    p->ring = (uint16_t *)(void *)(base + at), at += points * sizeof *p->ring;
+    p->free = (uint16_t *)(void *)(base + at), at += faces * sizeof *p->free;
+    p->open = (uint16_t *)(void *)(base + at);
+}
+
+size_t expansion_get_room_size(uint32_t points) {
+    const size_t lists = points + 2 * (size_t)points + 3 * (size_t)points;
+    return points * (sizeof(vec3) + 2 * sizeof(uint32_t) + 2 * sizeof(uint16_t)) + 2 * points * sizeof(face) +
+           lists * sizeof(uint16_t);
+}
+
+void expansion_move(expansion *p, void *room, uint32_t points) {
+    const expansion from = *p;
+    carve(p, room, points);
+    memcpy(p->w, from.w, from.points * sizeof *p->w);
+    memcpy(p->f, from.f, from.faces * sizeof *p->f);
+    memcpy(p->a, from.a, from.points * sizeof *p->a);
+    memcpy(p->b, from.b, from.points * sizeof *p->b);
+    // The stamps of a point that was not joined are not kept.
+    memset(p->stamp, 0, from.points * sizeof *p->stamp);
+    memcpy(p->free, from.free, from.free_count * sizeof *p->free);
+    memcpy(p->open, from.open, from.open_count * sizeof *p->open);
 }
 
 uint32_t expansion_pack(expansion *p) {

@@ -1,5 +1,5 @@
 // A convex hull of few points that grows: the polytope of EPA. Its memory is the caller's, a room for a number of
-// points that he knows: an expansion is to be given one before anything else.
+// points that he knows: an expansion is to be given one before anything else, and can be moved to a larger one.
 #ifndef OVOID_EXACT_EXPAND_H
 #define OVOID_EXACT_EXPAND_H
 
@@ -14,7 +14,7 @@ typedef struct expansion_face {
     vec3 n;           ///< unit, outward
     double low;       ///< n.w of its corners, to rounding
     uint16_t v[3];    ///< corners, counter-clockwise from outside
-    uint16_t twin[3]; ///< across the edge v[e], v[e + 1]: 4 face + edge
+    uint16_t twin[3]; ///< the face across the edge v[e], v[e + 1]
     uint8_t alive;    ///< 0: replaced
     uint8_t outward;  ///< the origin is behind its triangle, beyond any rounding
 } expansion_face;
@@ -65,6 +65,13 @@ typedef struct expansion {
 // NOLINTEND(bugprone-macro-parentheses)
 
 EXPANSION_ROOM(expansion_room, EXPANSION_POINTS, EXPANSION_FACES);
+
+/// Bytes of a room of any number of points, at most OVOID_COVER_POINTS_MAX, and twice as many faces.
+size_t expansion_get_room_size(uint32_t points);
+
+/// Moves the expansion to such a room, which is aligned to 8 bytes and larger than the one that it has. A point that
+/// could not be joined for want of memory can be joined then.
+void expansion_move(expansion *p, void *room, uint32_t points);
 
 /// Clears the expansion: it has no points then.
 void expansion_clear(expansion *p, double slack);

@@ -11,7 +11,7 @@ static double depth_without(hull_memory *memory, const hull_points *points, cons
         if (!dropped[i]) memory->left[n++] = points->w[i];
     if (!expansion_make_hull(e, memory->left, n, points->slack)) return 0;
     uint32_t triangles = expansion_pack(e);
-    surface s = {e->w, (const uint16_t(*)[3])e->triangles, e->points, triangles};
+    surface s = surface_make(e->w, e->points, (const uint16_t(*)[3])e->triangles, triangles);
     return surface_compute_depth(&s, points->error);
 }
 

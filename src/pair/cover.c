@@ -67,7 +67,7 @@ static long count_crossings(const surface *s, vec3 u, double slack, double enoug
     *ok = 1;
     for (uint32_t t = 0; t < s->triangle_count; t++) {
         const uint16_t *v = s->triangles[t];
-        vec3 a = s->points[v[0]], b = s->points[v[1]], c = s->points[v[2]];
+        vec3 a = surface_get_point(s, v[0]), b = surface_get_point(s, v[1]), c = surface_get_point(s, v[2]);
         int ab = edge_sign(u, a, b, slack), bc = edge_sign(u, b, c, slack), ca = edge_sign(u, c, a, slack);
         // A line that certainly passes two edges on different sides misses the triangle.
         if ((ab > 0 || bc > 0 || ca > 0) && (ab < 0 || bc < 0 || ca < 0)) continue;
@@ -101,18 +101,20 @@ static int is_outward(vec3 a, vec3 b, vec3 c, double doubt) {
 static int is_star(const surface *s, double doubt) {
     for (uint32_t t = 0; t < s->triangle_count; t++) {
         const uint16_t *v = s->triangles[t];
-        if (!is_outward(s->points[v[0]], s->points[v[1]], s->points[v[2]], doubt)) return 0;
+        if (!is_outward(surface_get_point(s, v[0]), surface_get_point(s, v[1]), surface_get_point(s, v[2]), doubt))
+            return 0;
     }
     return 1;
 }
 
 double surface_compute_depth(const surface *s, double error) {
     double depth = INFINITY, reach = 0;
-    for (uint32_t i = 0; i < s->point_count; i++) reach = fmax(reach, vec3_norm(s->points[i]));
+    for (uint32_t i = 0; i < s->point_count; i++) reach = fmax(reach, vec3_norm(surface_get_point(s, i)));
     for (uint32_t t = 0; t < s->triangle_count && depth > error; t++) {
         const uint16_t *v = s->triangles[t];
         vec3 n;
-        depth = fmin(depth, triangle_compute_clearance(s->points[v[0]], s->points[v[1]], s->points[v[2]], depth, &n));
+        depth = fmin(depth, triangle_compute_clearance(surface_get_point(s, v[0]), surface_get_point(s, v[1]),
+                                                       surface_get_point(s, v[2]), depth, &n));
     }
     if (!(depth > error) || s->triangle_count == 0) return 0;
     if (is_star(s, triangle_compute_doubt(reach, error))) return depth - error;
@@ -131,21 +133,37 @@ static int is_end(const void *table, size_t slot, const void *key) {
     return held == UINT32_MAX || held == *(const uint32_t *)key;
 }
 
-int surface_is_closed(const surface *s) {
-    // Directed edges in a hash table with open addressing; each must be new, and have its reverse in the end.
-    enum { SLOTS = 8192 };
-    uint32_t table[SLOTS];
-    if (s->triangle_count == 0 || s->triangle_count > 1024) return 0;
+// Edges are taken in parts that fit the table: an edge and its reverse are in one part.
+enum { SLOTS = 8192, EDGES_OF_PART = SLOTS / 2, EDGES_MOST = SLOTS / 4 * 3 };
+
+static uint32_t find_part(uint32_t from, uint32_t to, uint32_t parts) {
+    uint32_t low = from < to ? from : to, high = from < to ? to : from;
+    return parts == 1 ? 0 : (uint32_t)((hash_number(low << 16 | high) >> 13) % parts);
+}
+
+// Directed edges of one part in a hash table with open addressing; each must be new, and have its reverse in the end.
+static int is_part_closed(const surface *s, uint32_t part, uint32_t parts) {
+    uint32_t table[SLOTS], count = 0;
     memset(table, 0xff, sizeof table);
     for (int pass = 0; pass < 2; pass++)
         for (uint32_t t = 0; t < s->triangle_count; t++)
             for (int e = 0; e < 3; e++) {
                 uint32_t from = s->triangles[t][e], to = s->triangles[t][(e + 1) % 3];
                 if (from >= s->point_count || to >= s->point_count || from == to) return 0;
+                if (find_part(from, to, parts) != part) continue;
+                if (pass == 0 && ++count > EDGES_MOST) return 0;
                 uint32_t key = pass == 0 ? from << 16 | to : to << 16 | from;
                 size_t slot = hash_find(hash_number(key), SLOTS, table, &key, is_end);
                 if ((table[slot] == key) != (pass == 1)) return 0;
                 table[slot] = key;
             }
+    return 1;
+}
+
+int surface_is_closed(const surface *s) {
+    if (s->triangle_count == 0 || s->triangle_count > 2 * UINT16_MAX) return 0;
+    uint32_t parts = 1 + (3 * s->triangle_count - 1) / EDGES_OF_PART;
+    for (uint32_t part = 0; part < parts; part++)
+        if (!is_part_closed(s, part, parts)) return 0;
     return 1;
 }

@@ -2,14 +2,28 @@
 #ifndef OVOID_PAIR_COVER_H
 #define OVOID_PAIR_COVER_H
 
-#include "linear/vec3.h"
+#include "pair/frame.h"
 
-/// A surface over points, at most 65535 of them.
+/// A surface over points, at most 65535 of them. The points are given, or are differences of the pair's vertices that
+/// are computed wherever they are used, which needs no memory.
 typedef struct surface {
-    const vec3 *points;
+    const vec3 *points; ///< NULL: b[i] less a[i]
     const uint16_t (*triangles)[3];
     uint32_t point_count, triangle_count;
+    const pair_frame *frame;
+    const uint32_t *a, *b;
 } surface;
+
+/// Over points that are given.
+static inline surface surface_make(const vec3 *points, uint32_t point_count, const uint16_t (*triangles)[3],
+                                   uint32_t triangle_count) {
+    return (surface){
+        .points = points, .triangles = triangles, .point_count = point_count, .triangle_count = triangle_count};
+}
+
+static inline vec3 surface_get_point(const surface *s, uint32_t i) {
+    return s->points ? s->points[i] : frame_difference(s->frame, s->a[i], s->b[i]);
+}
 
 /// A triangle (a, b, c) has the origin behind it, whatever the corners' rounding, if det(a, b, c)^2 is above this times
 /// the sum |b - a|^2 + |c - a|^2, and det positive. Corners of norm at most `reach`, each off by `error`.
@@ -26,7 +40,8 @@ double triangle_compute_clearance(vec3 a, vec3 b, vec3 c, double enough, vec3 *n
 /// when each coordinate may be off by `error`; 0 if that is not proven. The surface must be closed.
 double surface_compute_depth(const surface *s, double error);
 
-/// 1 if each directed edge occurs exactly once and its reverse exactly once, and all indices are in range.
+/// 1 if each directed edge occurs exactly once and its reverse exactly once, and all indices are in range. Cost: a pass
+/// over the triangles for each 1365 of them, 32 KB of stack.
 int surface_is_closed(const surface *s);
 
 #endif

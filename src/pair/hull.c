@@ -75,12 +75,12 @@ static double double_pyramid_depth(const vec3 *w, int count, double error) {
         triangles[2 * i][0] = 0, triangles[2 * i][1] = from, triangles[2 * i][2] = to;
         triangles[2 * i + 1][0] = 1, triangles[2 * i + 1][1] = to, triangles[2 * i + 1][2] = from;
     }
-    surface s = {w, (const uint16_t(*)[3])triangles, (uint32_t)count, (uint32_t)(2 * ring)};
+    surface s = surface_make(w, (uint32_t)count, (const uint16_t(*)[3])triangles, (uint32_t)(2 * ring));
     return surface_compute_depth(&s, error);
 }
 
 double hull_compute_clearance(const vec3 *w, int count, double error) {
-    surface s = {w, tetrahedron, 4, 4};
+    surface s = surface_make(w, 4, tetrahedron, 4);
     if (count == 4) return surface_compute_depth(&s, error);
     return count == 5 || count == 6 ? double_pyramid_depth(w, count, error) : 0;
 }

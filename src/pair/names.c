@@ -40,6 +40,7 @@ const char *ovoid_limit_get_name(ovoid_limit limit) {
     case OVOID_LIMIT_SHAPE_A: return "shape_a";
     case OVOID_LIMIT_SHAPE_B: return "shape_b";
     case OVOID_LIMIT_ALLOWANCE: return "allowance";
+    case OVOID_LIMIT_MEMORY: return "memory";
     }
     return "unknown";
 }

@@ -340,15 +340,20 @@ static int is_better(const ovoid_answer *warm, const ovoid_answer *cold) {
            warm->upper - warm->lower < cold->upper - cold->lower;
 }
 
+static void clear_cover(ovoid_cover *cover, const query_goal *goal) {
+    if (cover) cover->point_count = cover->triangle_count = 0;
+    if (goal->room) goal->room->cover.point_count = 0;
+}
+
 // A search from an earlier proof that did not answer is followed by the query without that proof: no proof, whatever it
 // holds, makes an answer worse. What the proof decided and the query alone does not is kept, with its cover.
 COMPILER_NOINLINE static void search_again(const open_query *q, search *s, ovoid_answer *out) {
     ovoid_answer warm;
     answer_write(s, &warm);
-    if (q->cover) q->cover->point_count = q->cover->triangle_count = 0;
+    clear_cover(q->cover, q->placed.goal);
     search_afresh(q, out);
     if (!is_better(&warm, out)) return;
-    if (q->cover) q->cover->point_count = q->cover->triangle_count = 0;
+    clear_cover(q->cover, q->placed.goal);
     search_in_doubles(q, q->placed.earlier, s);
     *out = warm;
 }

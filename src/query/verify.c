@@ -76,20 +76,35 @@ static double measure_upper_again(const measure *m, const ovoid_proof *p) {
 }
 
 double cover_measure_upper(const pair_frame *f, const ovoid_cover *cover) {
-    vec3 w[OVOID_COVER_POINTS];
     if (!cover || cover->point_count > OVOID_COVER_POINTS || cover->triangle_count > 2 * OVOID_COVER_POINTS)
         return INFINITY;
+    const ovoid_large_cover large = cover_get_large(cover);
+    return large_cover_measure_upper(f, &large);
+}
+
+double large_cover_measure_upper(const pair_frame *f, const ovoid_large_cover *cover) {
+    vec3 w[OVOID_COVER_POINTS];
+    if (cover->point_count > OVOID_COVER_POINTS_MAX || cover->triangle_count > 2 * OVOID_COVER_POINTS_MAX)
+        return INFINITY;
+    int is_large = cover->point_count > OVOID_COVER_POINTS;
     for (uint32_t i = 0; i < cover->point_count; i++) {
         if (cover->a[i] >= f->a->vertex_count || cover->b[i] >= f->b->vertex_count) return INFINITY;
-        w[i] = frame_difference(f, cover->a[i], cover->b[i]);
+        if (!is_large) w[i] = frame_difference(f, cover->a[i], cover->b[i]);
     }
-    surface all = {w, (const uint16_t(*)[3])cover->triangles, cover->point_count, cover->triangle_count};
+    surface all = {
+        is_large ? NULL : w, cover->triangles, cover->point_count, cover->triangle_count, f, cover->a, cover->b};
     double depth = surface_is_closed(&all) ? surface_compute_depth(&all, f->check) : 0;
     return depth > 0 ? -depth - f->upper_radii : INFINITY;
 }
 
-static ovoid_code verify_upper(measure *m, const ovoid_answer *answer, const ovoid_cover *cover, ovoid_error *error) {
+static double measure_covers(const pair_frame *f, const answer_claims *claims) {
+    if (claims->cover) return cover_measure_upper(f, claims->cover);
+    return claims->large_cover ? large_cover_measure_upper(f, claims->large_cover) : INFINITY;
+}
+
+static ovoid_code verify_upper(measure *m, const answer_claims *claims, ovoid_error *error) {
     const pair_frame *f = m->frame;
+    const ovoid_answer *answer = claims->answer;
     const ovoid_proof *p = &answer->proof;
     double found = INFINITY;
     switch (p->kind) {
@@ -102,9 +117,11 @@ static ovoid_code verify_upper(measure *m, const ovoid_answer *answer, const ovo
         break;
     }
     case OVOID_PROOF_INNER_POINTS: found = inner_points_compute_upper(f, p->inner_a, p->inner_b, f->check); break;
-    case OVOID_PROOF_COVER: found = cover_measure_upper(f, cover); break;
+    case OVOID_PROOF_COVER: found = measure_covers(f, claims); break;
     }
-    if (p->kind == OVOID_PROOF_COVER && !cover) return refuse(error, "a depth without its cover", answer->upper, found);
+    int has_cover = claims->cover || claims->large_cover;
+    if (p->kind == OVOID_PROOF_COVER && !has_cover)
+        return refuse(error, "a depth without its cover", answer->upper, found);
     if (!(found <= answer->upper) && make_fine(m)) found = fmin(found, measure_upper_again(m, p));
     return found <= answer->upper ? OVOID_OK : refuse(error, "upper bound", answer->upper, found);
 }
@@ -162,8 +179,9 @@ ovoid_code terms_verify_internal(const ovoid_answer *answer, const answer_terms 
 
 ovoid_code refusal_verify_internal(ovoid_verdict answer, ovoid_limit refused, ovoid_error *error) {
     int claims = answer.lower != -INFINITY || answer.upper != INFINITY || answer.status != OVOID_UNDECIDED;
-    // The margin that is refused too is not among the options.
-    if (!claims && (answer.limit == refused || answer.limit == OVOID_LIMIT_OPTIONS)) return OVOID_OK;
+    // A margin or memory that is refused too is not among the options.
+    int is_own = answer.limit == OVOID_LIMIT_OPTIONS || answer.limit == OVOID_LIMIT_MEMORY;
+    if (!claims && (answer.limit == refused || is_own)) return OVOID_OK;
     return error_set(error, OVOID_ERROR_PROOF, -1, "a query that must be refused has an answer or another reason");
 }
 
@@ -173,7 +191,7 @@ static ovoid_code verify_bounds(const pair_frame *f, const answer_claims *claims
         return error_set(error, OVOID_ERROR_PROOF, -1, "the proof has an index out of range or a number not finite");
     measure m = {.pair = claims->pair, .frame = f};
     ovoid_code code = verify_lower(&m, answer->lower, &answer->proof, error);
-    if (code == OVOID_OK) code = verify_upper(&m, answer, claims->cover, error);
+    if (code == OVOID_OK) code = verify_upper(&m, claims, error);
     return code == OVOID_OK ? verify_witness(f, answer, claims->slack, error) : code;
 }
 
@@ -184,12 +202,13 @@ ovoid_code answer_verify_internal(const ovoid_pair *pair, const ovoid_answer *an
     pair_frame f;
     ovoid_options options;
     ovoid_limit refused = options_make(given, &options) ? frame_make(pair, &f) : OVOID_LIMIT_OPTIONS;
-    if (refused != OVOID_LIMIT_NONE || answer->limit == OVOID_LIMIT_OPTIONS)
+    if (refused != OVOID_LIMIT_NONE || answer->limit == OVOID_LIMIT_OPTIONS || answer->limit == OVOID_LIMIT_MEMORY)
         return refusal_verify_internal(answer_get_verdict(answer), refused, error);
     const answer_terms terms = {options_compute_tolerance(&options, f.size, f.hidden), frame_get_allowance(&f),
                                 given ? given->cap : 0};
     ovoid_code code = terms_verify_internal(answer, &terms, error);
-    return code == OVOID_OK ? verify_bounds(&f, &(answer_claims){pair, answer, basis->cover, 0}, error) : code;
+    const answer_claims claims = {pair, answer, basis->cover, 0, basis->large_cover};
+    return code == OVOID_OK ? verify_bounds(&f, &claims, error) : code;
 }
 
 ovoid_code bounds_verify_internal(const answer_claims *claims, ovoid_error *error) {

@@ -97,7 +97,7 @@ double smooth_grow(const smooth_pair *pair, vec3 *n, uint32_t *steps) {
     *n = (vec3){1, 0, 0};
     if (!grow(pair, &e, n, steps)) return INFINITY;
     uint32_t triangles = expansion_pack(&e);
-    surface s = {e.w, (const uint16_t(*)[3])e.triangles, e.points, triangles};
+    surface s = surface_make(e.w, e.points, (const uint16_t(*)[3])e.triangles, triangles);
     double depth = surface_compute_depth(&s, pair->claim);
     return depth > 0 ? -depth : INFINITY;
 }

@@ -44,9 +44,14 @@ void check_pairs() {
         CHECK_EQ(ovoid::is_within(a, 0.5), ovoid_answer_is_within(&a, 0.5));
         CHECK(ovoid::is_proven(p, a, ovoid::options(), &cover));
         ovoid::verify(p, a, ovoid::options(), &cover);
+        ovoid::depth_memory memory(OVOID_COVER_POINTS);
+        CHECK(is_same_answer(ovoid::depth(p, memory), cold));
+        CHECK_EQ(memory.cover().point_count, cover.point_count);
+        CHECK(ovoid::is_proven(p, a, memory));
         ovoid::answer wrong = a;
         wrong.lower += 0.1;
         CHECK(!ovoid::is_proven(p, wrong, ovoid::options(), &cover));
+        CHECK(!ovoid::is_proven(p, wrong, memory));
         CHECK(throws(OVOID_ERROR_PROOF, -1, "", [&] { ovoid::verify(p, wrong, ovoid::options(), &cover); }));
         const ovoid::prepared_shape ready_a(ovoid::posed_shape(b.box)), ready_b(ovoid::posed_shape(b.hull, at));
         ovoid::answer whole;

@@ -80,7 +80,7 @@ static void place(uint64_t *r, ovoid_pair *p) {
 // better than doubles say where.
 static void put(const ovoid_pair *p, const ovoid_answer *answer, const ovoid_cover *cover, int has_points) {
     ovoid_error error = {0};
-    const ovoid_answer_basis basis = {NULL, cover};
+    const ovoid_answer_basis basis = {.cover = cover};
     if (!CHECK(judge_verify_answer(court, p, answer, cover, &error) == OVOID_OK))
         printf("the judge: %s\n", error.message);
     if (has_points && !CHECK(judge_verify_points(court, p, answer, &error) == OVOID_OK))

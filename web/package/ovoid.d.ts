@@ -69,7 +69,7 @@ export declare class Shape {
 export declare const Status: { readonly undecided: 'undecided'; readonly separated: 'separated'; readonly touching: 'touching'; readonly overlapping: 'overlapping' };
 export type Status = (typeof Status)[keyof typeof Status];
 export type Limit =
-  | 'none' | 'answered' | 'cap' | 'iterations' | 'precision' | 'capacity' | 'pose_a' | 'pose_b' | 'options' | 'shape_a' | 'shape_b' | 'allowance';
+  | 'none' | 'answered' | 'cap' | 'iterations' | 'precision' | 'capacity' | 'pose_a' | 'pose_b' | 'options' | 'shape_a' | 'shape_b' | 'allowance' | 'memory';
 export type Stage = 'none' | 'proof' | 'sphere' | 'outer' | 'support' | 'inner' | 'gjk' | 'epa' | 'refine';
 export interface Proof {
   normal: number[]; normal_low?: number[];

@@ -12,6 +12,8 @@
 #include "ovoid/query.h"
 #include "ovoid/smooth.h"
 
+#include <memory>
+
 namespace ovoid {
 
 /** Options of a query: tolerances, cap, iterations. */
@@ -72,6 +74,28 @@ inline answer depth(const pair &p, const ovoid_options &o = options(), const ovo
                     ovoid_cover *received = nullptr) noexcept {
     return ovoid_depth(&p, &o, earlier, received);
 }
+/** Working memory of depth and the cover that it leaves there. The memory is owned. */
+class depth_memory {
+  public:
+    /** For a search of up to that many points: 144 bytes each. Throws std::bad_alloc. */
+    explicit depth_memory(std::uint32_t points = OVOID_COVER_POINTS_MAX)
+        : data_(new unsigned char[ovoid_depth_get_memory_size(points)]), memory_{data_.get(),
+                                                                                 ovoid_depth_get_memory_size(points),
+                                                                                 {}} {}
+    /** The proof of the last answer's upper bound, valid until the next query. */
+    const ovoid_large_cover &cover() const noexcept { return memory_.cover; }
+    /** The C struct. */
+    ovoid_depth_memory *get() noexcept { return &memory_; }
+
+  private:
+    std::unique_ptr<unsigned char[]> data_;
+    ovoid_depth_memory memory_;
+};
+/** The same, whose search goes on in that memory once its own is full. */
+inline answer depth(const pair &p, depth_memory &memory, const ovoid_options &o = options(),
+                    const ovoid_proof *earlier = nullptr) noexcept {
+    return ovoid_depth_with(&p, &o, earlier, memory.get());
+}
 /** The gap along a direction: a proven lower bound of the signed distance. */
 inline double compute_gap(const pair &p, const ovoid_vec3 &direction) noexcept {
     return ovoid_pair_compute_gap(&p, direction);
@@ -89,14 +113,20 @@ inline int is_within(const ovoid_answer &a, double margin) noexcept { return ovo
  */
 inline bool is_proven(const pair &p, const ovoid_answer &a, const ovoid_options &o = options(),
                       const ovoid_cover *c = nullptr) noexcept {
-    const ovoid_answer_basis basis = {&o, c};
+    const ovoid_answer_basis basis = {&o, c, nullptr};
+    return ovoid_answer_verify(&p, &a, &basis, nullptr) == OVOID_OK;
+}
+/** The same of an answer of depth with memory, by the cover that is left there. */
+inline bool is_proven(const pair &p, const ovoid_answer &a, const depth_memory &memory,
+                      const ovoid_options &o = options()) noexcept {
+    const ovoid_answer_basis basis = {&o, nullptr, &memory.cover()};
     return ovoid_answer_verify(&p, &a, &basis, nullptr) == OVOID_OK;
 }
 /** Throws PROOF, with a sentence, if is_proven is false. */
 inline void verify(const pair &p, const ovoid_answer &a, const ovoid_options &o = options(),
                    const ovoid_cover *c = nullptr) {
     ovoid_error e;
-    const ovoid_answer_basis basis = {&o, c};
+    const ovoid_answer_basis basis = {&o, c, nullptr};
     detail::require(ovoid_answer_verify(&p, &a, &basis, &e), e);
 }
 

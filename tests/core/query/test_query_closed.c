@@ -27,7 +27,7 @@ static ovoid_answer ask(const ovoid_pair *pair, int is_depth, int is_quick) {
     static ovoid_cover cover;
     ovoid_error error = {0};
     ovoid_answer answer = is_depth ? ovoid_depth(pair, NULL, NULL, &cover) : ovoid_distance(pair, NULL, NULL);
-    const ovoid_answer_basis basis = {NULL, is_depth ? &cover : NULL};
+    const ovoid_answer_basis basis = {.cover = is_depth ? &cover : NULL};
     if (!CHECK(ovoid_answer_verify(pair, &answer, &basis, &error) == OVOID_OK)) printf("%s\n", error.message);
     if (is_quick) CHECK(answer.stage == OVOID_STAGE_SUPPORT && answer.iterations == 0);
     // No earlier proof makes another answer.

@@ -168,7 +168,7 @@ static void check_surface(uint64_t *s, double error) {
     if (!make_body(&x, s, 4 + (int)(random_next(s) % 30))) return;
     bring_near(&x, s, error);
     if (random_next(s) % 2) turn_over(&x);
-    surface all = {x.w, (const uint16_t(*)[3])x.t, x.points, x.triangles};
+    surface all = surface_make(x.w, x.points, (const uint16_t(*)[3])x.t, x.triangles);
     CHECK(surface_is_closed(&all));
     check_claim(&x, s, surface_compute_depth(&all, error), error);
 }
@@ -186,7 +186,7 @@ static void check_nested(uint64_t *s) {
         for (int k = 0; k < 3; k++) x.t[out.triangles + i][k] = (uint16_t)(in.t[i][k] + out.points);
     x.points += in.points;
     x.triangles += in.triangles;
-    surface all = {x.w, (const uint16_t(*)[3])x.t, x.points, x.triangles};
+    surface all = surface_make(x.w, x.points, (const uint16_t(*)[3])x.t, x.triangles);
     CHECK(surface_is_closed(&all));
     CHECK_EQ(winding_of(&x), 0);
     CHECK_EQ(surface_compute_depth(&all, 1e-12), 0);
@@ -204,7 +204,7 @@ static void check_plain(uint64_t *s) {
     body x;
     if (!make_body(&x, s, 20)) return;
     for (int side = 0; side < 2; side++) {
-        surface all = {x.w, (const uint16_t(*)[3])x.t, x.points, x.triangles};
+        surface all = surface_make(x.w, x.points, (const uint16_t(*)[3])x.t, x.triangles);
         double depth = surface_compute_depth(&all, 1e-14), distance = distance_of(&x);
         if (winding_of(&x) == 0)
             CHECK_EQ(depth, 0);
@@ -217,7 +217,7 @@ static void check_plain(uint64_t *s) {
 static void check_holes(uint64_t *s) {
     body x;
     if (!make_body(&x, s, 16)) return;
-    surface all = {x.w, (const uint16_t(*)[3])x.t, x.points, x.triangles - 1};
+    surface all = surface_make(x.w, x.points, (const uint16_t(*)[3])x.t, x.triangles - 1);
     CHECK(!surface_is_closed(&all));
     // One triangle turned over; one twice; one index too large; a triangle of two corners.
     all.triangle_count++;
@@ -262,7 +262,7 @@ static void check_convex(uint64_t *s) {
 static void check_closed(void) {
     static const vec3 w[5] = {{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}, {1, 1, 1}};
     uint16_t t[4][3];
-    surface x = {w, (const uint16_t(*)[3])t, 4, 4};
+    surface x = surface_make(w, 4, (const uint16_t(*)[3])t, 4);
     memcpy(t, faces_of_four, sizeof t);
     CHECK(surface_is_closed(&x));
     for (int v = 0; v < 4; v++) {
