@@ -63,6 +63,10 @@ body body_make(pool *p, const ovoid_shape *shape, const ovoid_pose *pose) {
         b.outside = number_from(p, allowance.outside);
     else
         b.across = number_from(p, allowance.outside);
+    ovoid_round round = ovoid_shape_get_round(shape);
+    b.round = round.kind;
+    b.round_radius = number_from(p, round.radius);
+    b.half_length = number_from(p, round.half_length);
     return b;
 }
 
@@ -133,7 +137,7 @@ static double coarse_dot(const coarse *c, const double *v) {
 // |M'direction x axis| is n |direction x R axis|, R the rotation: over |axis|, which is 1 to rounding only.
 num body_find_across(pool *p, const body *b, nvec direction) {
     enum { BITS = 240 };
-    if (num_sign(b->across) == 0) return b->across;
+    if (num_sign(b->across) == 0 || b->round != OVOID_ROUND_NONE) return number_from_integer(p, 0);
     nvec across = nvec_cross(p, body_rotate_back(p, b, direction), b->axis);
     num square = num_quotient_below(p, nvec_norm_squared(p, across), nvec_norm_squared(p, b->axis), BITS);
     num above = num_add(p, square, num_scaled(p, square, 1 - BITS));
@@ -162,7 +166,56 @@ static num find_top(pool *p, const body *b, nvec direction, int side) {
     return num_add(p, num_add(p, at_position, nvec_dot(p, local, b->origin)), best);
 }
 
+// An upper bound of what a cylinder or cone around the origin of the user's frame reaches along the direction, or
+// against it, times n |direction|: with z along its axis and r across, h |z| + R r, or the larger of h z and R r - h z.
+static num find_round_top(pool *p, const body *b, nvec direction, int side) {
+    enum { BITS = 240 };
+    nvec local = body_rotate_back(p, b, direction);
+    num z = num_mul(p, b->half_length, side > 0 ? local.z : num_neg(p, local.z));
+    num square = num_add(p, num_mul(p, local.x, local.x), num_mul(p, local.y, local.y));
+    num rim = num_mul(p, b->round_radius, num_root_above(p, square, BITS));
+    if (b->round == OVOID_ROUND_CYLINDER) return num_add(p, num_sign(z) < 0 ? num_neg(p, z) : z, rim);
+    num base = num_sub(p, rim, z);
+    return num_compare(p, base, z) > 0 ? base : z;
+}
+
+// n lengths along the axis, z, and across it, r. Inside: the nearest side. Outside: the point's z is cut off at the
+// ends, then its r at the side.
+num body_find_room(pool *p, const body *b, nvec point) {
+    enum { BITS = 240 };
+    nvec local = nvec_sub(p, point, nvec_scale(p, b->position, b->n));
+    local = body_rotate_back(p, b, local);
+    // M' (n x - n position) = n (n v): divided by n.
+    num square = num_add(p, num_mul(p, local.x, local.x), num_mul(p, local.y, local.y)), nn = num_mul(p, b->n, b->n);
+    num r = num_root_above(p, square, BITS), radius = num_mul(p, b->round_radius, nn),
+        half = num_mul(p, b->half_length, nn), z = local.z, zero = number_from_integer(p, 0);
+    num end = num_sign(z) < 0 ? num_neg(p, half) : half, over = num_sub(p, num_sign(z) < 0 ? num_neg(p, z) : z, half);
+    num clipped = num_sign(over) > 0 ? end : z;
+    // beyond = (r - width) factor, factor = 1 of cylinders and 2 half of cones with a height.
+    int is_cone = b->round == OVOID_ROUND_CONE && num_sign(half) > 0;
+    num factor = is_cone ? num_scaled(p, half, 1) : number_from_integer(p, 1);
+    num width = is_cone ? num_mul(p, radius, num_sub(p, half, clipped)) : radius;
+    num beyond = num_sub(p, num_mul(p, r, factor), width);
+    if (num_sign(over) > 0 || num_sign(beyond) > 0) {
+        num b2 = num_sign(beyond) > 0 ? num_mul(p, beyond, beyond) : zero, o = num_mul(p, over, factor);
+        num o2 = num_sign(over) > 0 ? num_mul(p, o, o) : zero;
+        num away = num_neg(p, num_root_above(p, num_add(p, b2, o2), BITS)), scale = num_mul(p, factor, b->n);
+        return num_quotient_below(p, away, scale, BITS);
+    }
+    num to_end = is_cone ? num_add(p, half, z) : num_neg(p, over), to_side = num_neg(p, beyond);
+    if (is_cone) {
+        num slope = num_add(p, num_mul(p, factor, factor), num_mul(p, radius, radius));
+        to_side = num_quotient_below(p, to_side, num_root_above(p, slope, BITS), BITS);
+    }
+    return num_quotient_below(p, num_compare(p, to_end, to_side) < 0 ? to_end : to_side, b->n, BITS);
+}
+
 num body_support(pool *p, const body *b, nvec direction, int side) {
+    if (b->round != OVOID_ROUND_NONE) {
+        num at_position = num_mul(p, nvec_dot(p, direction, b->position), b->n);
+        num reach = find_round_top(p, b, direction, side);
+        return side > 0 ? num_add(p, at_position, reach) : num_sub(p, at_position, reach);
+    }
     num top = find_top(p, b, direction, side), across = body_find_across(p, b, direction);
     return side > 0 ? num_add(p, top, across) : num_sub(p, top, across);
 }

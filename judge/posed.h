@@ -19,6 +19,8 @@ typedef struct body {
     num across; ///< the length by which the true body exceeds the shape across the axis; `outside` is zero then; zero:
                 ///< there is no axis
     nvec axis;  ///< of any length, in the shape's axes
+    ovoid_round_kind round; ///< the true body is one of these: then its own support is used
+    num round_radius, half_length;
     double extent; ///< the largest |vertex|, in doubles
     double reach;  ///< about the largest |position| + |origin| + |vertex|, in doubles: the scale of rounding
 } body;
@@ -60,12 +62,16 @@ nvec body_point(pool *p, const body *b, nvec local);
 nvec body_vertex(pool *p, const body *b, uint32_t i);
 
 /// An upper bound of n `across` |direction x axis|: the length by which the true body exceeds the shape along the
-/// direction if its allowance is along an axis, times n |direction|.
+/// direction if its allowance is along an axis, times n |direction|. 0 of true cylinders and cones.
 num body_find_across(pool *p, const body *b, nvec direction);
 
-/// The largest (side 1) or smallest (side -1) n (direction . x) over all vertices, and the excess of the true body
-/// across its axis.
+/// The largest (side 1) or smallest (side -1) n (direction . x) over the true cylinder or cone; else over all vertices,
+/// and the excess of the true body across its axis.
 num body_support(pool *p, const body *b, nvec direction, int side);
+
+/// A lower bound of the largest ball's radius about n times a world point in a true cylinder or cone, times n; of a
+/// point outside below zero, minus n times its distance, or less.
+num body_find_room(pool *p, const body *b, nvec point);
 
 /// k (x_b - x_a) for two points that carry n_a and n_b; for two vertices.
 nvec posed_difference(const posed *s, nvec xa, nvec xb);

@@ -81,6 +81,8 @@ static named find_named(const claim *c, int of_b) {
     const ovoid_proof *proof = c->proof;
     if (proof->kind == OVOID_PROOF_INNER) return (named){inner_point_a(c), s->a.n, 1};
     if (proof->kind == OVOID_PROOF_INNER_POINTS) return (named){of_b ? inner_point_b(c) : inner_point_a(c), b->n, 1};
+    if (proof->kind == OVOID_PROOF_BALLS && (proof->count == 0 || b->round != OVOID_ROUND_NONE))
+        return (named){of_b ? inner_point_b(c) : inner_point_a(c), b->n, b->round != OVOID_ROUND_NONE};
     const double *weights = of_b ? proof->weight_b : proof->weight_a;
     if (!are_weights(weights, proof->count)) return (named){nvec_zero(s->p), b->n, 0};
     weighted w = body_weighted_point(s->p, b, of_b ? proof->b : proof->a, weights, proof->count);
@@ -92,7 +94,17 @@ static int is_witness(const claim *c, int of_b, nvec point, double tolerance) {
     const body *b = of_b ? &s->b : &s->a;
     num reach = num_add(s->p, b->radius, number_from(s->p, tolerance));
     named n = find_named(c, of_b);
+    // A proof's ball is in its body.
+    if (c->proof->kind == OVOID_PROOF_BALLS && b->round != OVOID_ROUND_NONE) {
+        num room = num_quotient_below(s->p, body_find_room(s->p, b, n.point), b->n, 240);
+        num far = num_add(s->p, reach, room);
+        if (num_sign(far) >= 0 && is_near(s->p, point, &n, far)) return 1;
+    }
     if (n.is_known && is_near(s->p, point, &n, reach)) return 1;
+    if (b->round != OVOID_ROUND_NONE) {
+        num room = body_find_room(s->p, b, nvec_scale(s->p, point, b->n));
+        if (num_sign(num_add(s->p, room, num_mul(s->p, reach, b->n))) >= 0) return 1;
+    }
     return body_holds(s->p, b, point, reach);
 }
 

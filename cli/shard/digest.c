@@ -129,7 +129,11 @@ static void add_shape(shard_digest *d, const ovoid_shape *shape) {
     const ovoid_polytope body = ovoid_shape_get_polytope(shape);
     const ovoid_fit outer = ovoid_shape_get_outer(shape), inner = ovoid_shape_get_inner(shape);
     const ovoid_allowance allowance = ovoid_shape_get_allowance(shape);
+    const ovoid_round round = ovoid_shape_get_round(shape);
     const double numbers[] = {ovoid_shape_get_radius(shape),
+                              round.kind,
+                              round.radius,
+                              round.half_length,
                               allowance.outside,
                               allowance.inside,
                               allowance.axis.x,

@@ -70,7 +70,8 @@ typedef enum ovoid_proof_kind {
     OVOID_PROOF_HULL,     /**< the origin is strictly inside a surface of 4 to 6 differences b[i] - a[i]: d < 0 */
     OVOID_PROOF_INNER,    /**< a point strictly inside both inner ellipsoids: d < 0 */
     OVOID_PROOF_INNER_POINTS, /**< a point of each inner ellipsoid: d <= their distance */
-    OVOID_PROOF_COVER         /**< a closed surface of differences around the origin (ovoid_cover): depth */
+    OVOID_PROOF_COVER,        /**< a closed surface of differences around the origin (ovoid_cover): depth */
+    OVOID_PROOF_BALLS         /**< a ball inside each body: d <= the distance of their centres minus their radii */
 } ovoid_proof_kind;
 
 /**
@@ -90,7 +91,11 @@ typedef enum ovoid_proof_kind {
  * Upper bound: as `kind` says. POINTS: sum weight_a[i] x(a[i]) / sum weight_a[i] is the point of A, and the same of B
  * gives that of B. HULL: four differences are the corners of a tetrahedron; of five or six, 0 and 1 are the tips of a
  * double pyramid over the closed ring 2, 3, ..., with triangles (0, r, next r) and (1, next r, r); upper is minus the
- * origin's distance to that surface, minus the radii; the weights give a common point of the bodies.
+ * origin's distance to that surface, minus the radii; the weights give a common point of the bodies. BALLS, of pairs
+ * with a true cylinder or cone (ovoid_round): the centre in such a body is inner_a or inner_b, that in another body is
+ * too if count is 0, else its point of POINTS. The radius is that of the largest ball about the centre inside the body,
+ * before rounding; it is zero for a point of POINTS; for a centre outside of its body it is below zero, minus the
+ * distance.
  */
 typedef struct ovoid_proof {
     ovoid_vec3 normal;     /**< world frame, from A to B */
@@ -99,8 +104,8 @@ typedef struct ovoid_proof {
     uint32_t count; /**< entries used of the arrays */
     uint32_t a[OVOID_PROOF_PAIRS], b[OVOID_PROOF_PAIRS];
     double weight_a[OVOID_PROOF_PAIRS], weight_b[OVOID_PROOF_PAIRS]; /**< >= 0, not all zero */
-    ovoid_vec3 inner_a; /**< INNER: the common point; INNER_POINTS: the point of A; body frame of A */
-    ovoid_vec3 inner_b; /**< INNER_POINTS: the point of B, body frame of B */
+    ovoid_vec3 inner_a; /**< INNER: the common point; INNER_POINTS, BALLS: the point of A; body frame of A */
+    ovoid_vec3 inner_b; /**< INNER_POINTS, BALLS: the point of B, body frame of B */
 } ovoid_proof;
 
 /** The largest number of points of a cover. */

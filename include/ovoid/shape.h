@@ -44,6 +44,22 @@ typedef struct ovoid_allowance {
                         directions. Stored as zero if `outside` is zero */
 } ovoid_allowance;
 
+/** Kinds of bodies that are known in closed form. */
+typedef enum ovoid_round_kind {
+    OVOID_ROUND_NONE = 0, /**< nothing is known beside polyhedron, radius and allowance */
+    OVOID_ROUND_CYLINDER, /**< a cylinder from z = -half_length to +half_length */
+    OVOID_ROUND_CONE      /**< a cone, its base at z = -half_length, its apex at +half_length */
+} ovoid_round_kind;
+
+/**
+ * The true body of a shape whose polyhedron is inscribed in it, in the user's local frame; the shape's rounding radius
+ * is around it. Distances and depths of pairs are those of true bodies (docs/allowances.md).
+ */
+typedef struct ovoid_round {
+    ovoid_round_kind kind;
+    double radius, half_length;
+} ovoid_round;
+
 /** Options of all functions that create a shape; all zero, or NULL, is the default. */
 typedef struct ovoid_shape_options {
     double radius;             /**< rounding radius, >= 0, added around the hull */
@@ -94,11 +110,13 @@ OVOID_API ovoid_shape *ovoid_shape_create_capsule(double radius, double half_len
                                                   ovoid_error *error);
 
 /**
- * The cylinder along z, stored as an inscribed prism with an allowance: brackets are those of the true cylinder, and at
- * least as wide as the allowance. It takes the fewest sides that meet options->tolerance, 32 by default; LIMIT if these
- * are more than 2^16. Both lengths are added to those of options->allowance; the sum has the axis z, so that the flat
- * ends are exact, unless options->allowance has an `outside` that is not along z. Errors: NOT_FINITE, RADIUS, RANGE,
- * ARGUMENT (tolerance), and those of ovoid_shape_create_from_points.
+ * The cylinder along z, stored as an inscribed prism with an allowance: brackets are those of the true cylinder. Those
+ * of distances are as narrow as of polyhedra; of depths too, but where a rim crosses an edge they, as those of motions
+ * and smooth brackets, may be as wide as the allowance. It takes the
+ * fewest sides that meet options->tolerance, 32 by default; LIMIT if these are more than 2^16. Both lengths are added
+ * to those of options->allowance; the sum has the axis z, so that the flat ends are exact, unless options->allowance
+ * has an `outside` that is not along z. Errors: NOT_FINITE, RADIUS, RANGE, ARGUMENT (tolerance), and those of
+ * ovoid_shape_create_from_points.
  */
 OVOID_API ovoid_shape *ovoid_shape_create_cylinder(double radius, double half_length,
                                                    const ovoid_shape_options *options, ovoid_error *error);
@@ -166,6 +184,11 @@ OVOID_API ovoid_polytope ovoid_shape_get_polytope(const ovoid_shape *shape);
 OVOID_API double ovoid_shape_get_radius(const ovoid_shape *shape);
 /** The allowance. */
 OVOID_API ovoid_allowance ovoid_shape_get_allowance(const ovoid_shape *shape);
+/**
+ * The true body, where it is a cylinder or a cone: of a shape that ovoid_shape_create_cylinder or _cone made with no
+ * allowance in its options, of a copy of it, and of what was read from its file. Else the kind is OVOID_ROUND_NONE.
+ */
+OVOID_API ovoid_round ovoid_shape_get_round(const ovoid_shape *shape);
 /** What the constructor did with the given points. */
 OVOID_API ovoid_report ovoid_shape_get_report(const ovoid_shape *shape);
 /** The outer ellipsoid of the polyhedron (without the radius), with its gap. Body frame. */

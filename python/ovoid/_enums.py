@@ -94,6 +94,7 @@ class ProofKind(Named):
     INNER = 3
     INNER_POINTS = 4
     COVER = 5
+    BALLS = 6
 
 
 class ImpactStatus(Named):

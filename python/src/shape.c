@@ -105,6 +105,14 @@ static PyObject *get_allowance_axis(PyObject *self, void *closure) {
     return vec3_make(axis);
 }
 
+static PyObject *get_round(PyObject *self, void *closure) {
+    (void)closure;
+    ovoid_round round = ovoid_shape_get_round(get(self));
+    if (round.kind == OVOID_ROUND_NONE) Py_RETURN_NONE;
+    const char *kind = round.kind == OVOID_ROUND_CONE ? "cone" : "cylinder";
+    return Py_BuildValue("(sdd)", kind, round.radius, round.half_length);
+}
+
 static PyObject *get_report(PyObject *self, void *closure) {
     (void)closure;
     ovoid_report r = ovoid_shape_get_report(get(self));
@@ -247,6 +255,10 @@ static PyGetSetDef fields[] = {
     {"allowance_axis", get_allowance_axis, NULL,
      "tuple[float, float, float] | None: The direction, of length 1, across which alone the true body stands out; "
      "None: it may in all directions.",
+     NULL},
+    {"round", get_round, NULL,
+     "tuple[str, float, float] | None: The true body, 'cylinder' or 'cone', its radius and half length; None: not "
+     "known in closed form.",
      NULL},
     FIELD_FACT(load_facts, shape_facts, UINT, "rank", rank, "0 a point, 1 a segment, 2 flat, 3 solid."),
     {"report", get_report, NULL, "dict[str, int]: What the constructor did with the points given, a dict.", NULL},

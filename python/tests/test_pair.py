@@ -54,11 +54,15 @@ class Shapes(unittest.TestCase):
         table = ovoid.Shape.box((2, 2, 0.25))
         for post in (ovoid.Shape.cylinder(0.5, 1), ovoid.Shape.cone(0.5, 1)):
             self.assertEqual(post.allowance_axis, (0, 0, 1))
+            self.assertIn(post.round[0], ("cylinder", "cone"))
+            self.assertEqual(ovoid.Shape.from_bytes(post.to_bytes()).round, post.round)
             for gap, status in ((0, "TOUCHING"), (1e-6, "SEPARATED"), (-1e-6, "OVERLAPPING")):
                 answer = ovoid.collide(table, post, (0, 0, -0.25), (0.5, 0.2, 1 + gap))
                 self.assertEqual(answer.status.name, status)
         self.assertIsNone(table.allowance_axis)
-        self.assertIsNone(ovoid.Shape.cylinder(0.5, 1, allowance=(0.1, 0)).allowance_axis)
+        other = ovoid.Shape.cylinder(0.5, 1, allowance=(0.1, 0))
+        self.assertIsNone(other.allowance_axis)
+        self.assertIsNone(other.round)
         slab = ovoid.Shape.box((1, 1, 1), allowance=[0.25, 0, [0, 3, 0]])
         self.assertEqual((slab.allowance, slab.allowance_axis), ((0.25, 0), (0, 1, 0)))
         for wrong in ((1,), (1, 0, 2), (1, 0, (1, 2)), 3, "no"):

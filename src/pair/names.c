@@ -52,6 +52,7 @@ const char *ovoid_proof_kind_get_name(ovoid_proof_kind kind) {
     case OVOID_PROOF_HULL: return "hull";
     case OVOID_PROOF_INNER: return "inner";
     case OVOID_PROOF_INNER_POINTS: return "inner_points";
+    case OVOID_PROOF_BALLS: return "balls";
     case OVOID_PROOF_COVER: return "cover";
     }
     return "unknown";

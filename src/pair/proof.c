@@ -1,6 +1,8 @@
 // Reading a proof without trusting it.
 #include "pair/proof.h"
 
+#include "pair/balls.h"
+
 int proof_is_sound(const pair_frame *f, const ovoid_proof *p) {
     if (!vec3_is_finite(p->normal) || !vec3_is_finite(p->normal_low) || p->count > OVOID_PROOF_PAIRS) return 0;
     double sum_a = 0, sum_b = 0;
@@ -43,6 +45,7 @@ witness_points witness_compute_points(const pair_frame *f, const ovoid_proof *p)
         break;
     case OVOID_PROOF_COVER: w = proof_compute_points(f, p); break;
     case OVOID_PROOF_HULL: return proof_compute_points(f, p);
+    case OVOID_PROOF_BALLS: return balls_compute_points(f, p);
     default: return (witness_points){p->inner_a, p->inner_a};
     }
     w.a = vec3_add_scaled(w.a, n, f->a->radius);

@@ -41,10 +41,11 @@ void stage_proof(search *s, const ovoid_proof *earlier, simplex *start) {
     // The proof's direction: for a depth, and for a proof without differences, the first rejections have not measured
     // it. In other cases the direction of the differences is newer.
     vec3 n = vec3_unit(frame_direction_from_world(f, earlier->normal));
-    if ((s->goal.wants_depth || earlier->count == 0) && !search_is_done(s) && vec3_norm_squared(n) > 0)
+    int has_differences = earlier->count > 0 && earlier->kind != OVOID_PROOF_BALLS;
+    if ((s->goal.wants_depth || !has_differences) && !search_is_done(s) && vec3_norm_squared(n) > 0)
         (void)search_probe(s, n);
     if (s->lower > -INFINITY || s->upper < INFINITY) s->stage = OVOID_STAGE_PROOF;
-    if (search_is_done(s)) return;
+    if (search_is_done(s) || !has_differences) return;
     for (uint32_t i = 0; i < earlier->count; i++) take_start(start, proof_difference(f, earlier, i));
 }
 

@@ -9,8 +9,10 @@
 #include "exact/gjk.h"
 #include "exact/inside.h"
 #include "exact/refine.h"
+#include "exact/round.h"
 #include "pair/proof.h"
 #include "pair/reject.h"
+#include "pair/round.h"
 #include "pair/stages.h"
 #include "query/begin.h"
 #include "query/spheres.h"
@@ -26,6 +28,10 @@ static void set_upper_proof(ovoid_proof *p, const search *s) {
         p->inner_a = s->inner_a;
         p->inner_b = s->inner_b;
         return;
+    }
+    if (s->kind == OVOID_PROOF_BALLS) {
+        p->inner_a = s->inner_a;
+        p->inner_b = s->inner_b;
     }
     p->count = (uint32_t)s->witness.count;
     for (int i = 0; i < s->witness.count; i++) {
@@ -93,16 +99,27 @@ static void try_axis(search *s, vec3 axis) {
     s->world = s->world_low = (vec3){0, 0, 0};
 }
 
+// 1 if a narrower bracket would say more: the sign, or the distance or depth that the goal asks for.
+static int is_worth_rounding(const search *s) {
+    if (s->lower > s->goal.far || s->upper <= s->goal.near) return 0;
+    if (!search_is_sign_known(s)) return 1;
+    return s->goal.wants_bracket && (s->upper >= 0 || s->goal.wants_depth);
+}
+
+static void drop_gain(search *s, double gain) {
+    s->goal.has_axis = 0;
+    s->goal.tolerance -= gain;
+    s->goal.allowance -= gain;
+    s->lower = frame_take_gain(s->lower, gain);
+}
+
 // The lower bound with what it gains along its normal; the normal may become an axis where the sign is open still. The
 // goal's allowance is then what is left of it along the normal that was found.
 static void take_gain(search *s) {
     if (!s->goal.has_axis) return;
     const pair_frame *f = s->frame;
-    double gain = compute_gain(s, get_normal(s));
-    s->goal.has_axis = 0;
-    s->goal.tolerance -= gain;
-    s->goal.allowance -= gain;
-    s->lower = frame_take_gain(s->lower, gain);
+    drop_gain(s, compute_gain(s, get_normal(s)));
+    if (frame_has_round(f) && is_worth_rounding(s)) round_run(s, get_normal(s));
     if (search_is_sign_known(s)) return;
     try_axis(s, f->a->allowance.axis);
     try_axis(s, mat3_mul_vec3(f->rotation, f->b->allowance.axis));
@@ -214,9 +231,22 @@ static void run_stages(search *s, double sphere_gap, const ovoid_proof *earlier,
     stage_support(s, n, start->count > 1 ? &fresh : start);
 }
 
+// Bodies that are apart, of which one is a true cylinder or cone: their own search from the direction that parted them.
+// 1 if that answers the query; else nothing has changed.
+COMPILER_NOINLINE static int run_round(search *s) {
+    if (!frame_has_round(s->frame) || !s->goal.wants_bracket || !(s->lower + s->frame->lower_radii > 0)) return 0;
+    search t = *s;
+    drop_gain(&t, compute_gain(&t, t.normal));
+    round_run(&t, t.normal);
+    if (!search_is_done(&t)) return 0;
+    *s = t;
+    return 1;
+}
+
 // GJK, then EPA where the cores touch or overlap and GJK cannot narrow the bracket. A depth query tries EPA first,
 // unless the cores are known to be apart.
 static void run_exact(search *s, simplex *start, ovoid_cover *cover) {
+    if (s->goal.has_axis && run_round(s)) return;
     int cores_apart = s->lower + s->frame->lower_radii > 0;
     if (s->goal.wants_depth && !cores_apart &&
         (boxes_take_depth(s, cover) || inside_take_depth(s, cover) || epa_run(s, start, 1, cover)))

@@ -11,7 +11,8 @@
 static inline int reject_by_earlier(const placed_query *q, rejection *found) {
     const ovoid_proof *earlier = q->earlier;
     int was_apart = earlier && q->goal->far < INFINITY &&
-                    (earlier->kind == OVOID_PROOF_POINTS || earlier->kind == OVOID_PROOF_INNER_POINTS);
+                    (earlier->kind == OVOID_PROOF_POINTS || earlier->kind == OVOID_PROOF_INNER_POINTS ||
+                     earlier->kind == OVOID_PROOF_BALLS);
     return was_apart && reject_by_normal(q->frame, q->goal->far, earlier, found);
 }
 

@@ -3,11 +3,13 @@
 // in exact arithmetic.
 #include "base/environment.h"
 #include "base/error.h"
+#include "pair/balls.h"
 #include "pair/cover.h"
 #include "pair/fine.h"
 #include "pair/hull.h"
 #include "pair/inner.h"
 #include "pair/proof.h"
+#include "pair/round.h"
 #include "query/answer.h"
 
 // The pair in doubles, and in pairs of doubles once these are needed.
@@ -34,6 +36,12 @@ static double measure_lower_again(const measure *m, const ovoid_proof *p) {
     return fine_compute_lower(&m->fine, fine_find_support(&m->fine, n).gap, m->fine.check);
 }
 
+// The lower bound by the supports of true bodies.
+static double measure_round(const pair_frame *f, vec3 n) {
+    double radii = round_compute_radii(f, n, AXIS_CHECK) + f->check + ROUND_CHECK * f->size;
+    return round_measure_gap(f, n) - radii;
+}
+
 static ovoid_code verify_lower(measure *m, double lower, const ovoid_proof *p, ovoid_error *error) {
     const pair_frame *f = m->frame;
     if (lower == -INFINITY) return OVOID_OK;
@@ -41,6 +49,7 @@ static ovoid_code verify_lower(measure *m, double lower, const ovoid_proof *p, o
     if (!(vec3_norm_squared(n) > 0)) return refuse(error, "lower bound without a normal", lower, 0);
     double gain = frame_compute_gain(f, n, mat3_mul_transposed_vec3(f->rotation, n), AXIS_CHECK);
     double found = frame_take_gain(frame_measure_gap(f, n) - f->lower_radii - f->check, gain);
+    if (frame_has_round(f)) found = max2(found, measure_round(f, n));
     if (found < lower && make_fine(m)) found = frame_take_gain(measure_lower_again(m, p), gain);
     return found >= lower ? OVOID_OK : refuse(error, "lower bound", lower, found);
 }
@@ -118,6 +127,7 @@ static ovoid_code verify_upper(measure *m, const answer_claims *claims, ovoid_er
     }
     case OVOID_PROOF_INNER_POINTS: found = inner_points_compute_upper(f, p->inner_a, p->inner_b, f->check); break;
     case OVOID_PROOF_COVER: found = measure_covers(f, claims); break;
+    case OVOID_PROOF_BALLS: found = balls_compute_upper(f, p, f->check + BALLS_CHECK * f->size); break;
     }
     int has_cover = claims->cover || claims->large_cover;
     if (p->kind == OVOID_PROOF_COVER && !has_cover)

@@ -110,7 +110,7 @@ void block_fill(ovoid_shape *shape, const ovoid_polytope *p, uint32_t *room) {
 void block_set_radius(ovoid_shape *s, double radius, ovoid_allowance allowance) {
     s->radius = s->lower_radius = s->upper_radius = radius;
     s->allowance = allowance;
-    s->round = (round_form){ROUND_NONE, 0, 0};
+    s->round = (ovoid_round){OVOID_ROUND_NONE, 0, 0};
     s->span = s->extent;
     s->has_allowance = allowance.outside + allowance.inside > 0 ? ALLOWANCE_ANY : 0;
     if (vec3_norm_squared(allowance.axis) > 0) s->has_allowance |= ALLOWANCE_AXIS;
@@ -179,6 +179,7 @@ simd_extreme shape_find_extreme(const ovoid_shape *s, ovoid_vec3 n) {
 
 double ovoid_shape_get_radius(const ovoid_shape *shape) { return shape->radius; }
 ovoid_allowance ovoid_shape_get_allowance(const ovoid_shape *shape) { return shape->allowance; }
+ovoid_round ovoid_shape_get_round(const ovoid_shape *shape) { return shape->round; }
 ovoid_report ovoid_shape_get_report(const ovoid_shape *shape) { return shape->report; }
 ovoid_fit ovoid_shape_get_outer(const ovoid_shape *shape) { return shape->outer_fit; }
 ovoid_fit ovoid_shape_get_inner(const ovoid_shape *shape) { return shape->inner_fit; }

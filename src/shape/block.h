@@ -36,16 +36,6 @@ typedef struct shape_inner {
     double reach; ///< an upper bound of its largest radius
 } shape_inner;
 
-/// A body that is not its polyhedron, in closed form: along z of the user's frame, around its origin.
-typedef enum round_kind { ROUND_NONE = 0, ROUND_CYLINDER, ROUND_CONE } round_kind;
-
-/// What is known about the true body beside the allowance, for instance that it is a cylinder; the rounding radius is
-/// around it.
-typedef struct round_form {
-    round_kind kind;
-    double radius, half_length; ///< a cone's apex is at +half_length
-} round_form;
-
 /// Bits of has_allowance.
 enum { ALLOWANCE_ANY = 1, ALLOWANCE_AXIS = 2 };
 
@@ -78,7 +68,7 @@ struct ovoid_shape {
     ovoid_fit outer_fit, inner_fit;
     ovoid_report report;
     ovoid_measures measures;
-    round_form round; ///< not in files: a shape that was read has only its polyhedron and its allowance
+    ovoid_round round; ///< of a kind only where the allowance is along z: then all that the true body is
     ovoid_allocator allocator;
 };
 

@@ -1,5 +1,6 @@
 // The file of a shape (".ovoid"): version 1; 2 where it has an allowance; 3 with the triangles of its hull, for solids
-// of many vertices; 4 and 5 are 2 and 3 with the allowance's axis. docs/polytope.md has the table.
+// of many vertices; 4 and 5 are 2 and 3 with the allowance's axis; 6 and 7 are 4 and 5 of cylinders and cones, with
+// their lengths. docs/polytope.md has the table.
 //
 // A file holds what cannot be recomputed: the vertices, the fitted ellipsoids, the radius, the allowance, and the
 // report of the given points. Facets, adjacency, planes and measures depend on the vertices and the triangles alone,
@@ -21,6 +22,7 @@
 #include "polytope/points.h"
 #include "shape/block.h"
 #include "shape/create.h"
+#include "shape/round.h"
 
 #include <string.h>
 
@@ -30,7 +32,8 @@
 #define ALLOWANCE_AT HEADER_SIZE
 #define ALLOWANCE_SIZE 16
 #define AXIS_SIZE 24
-#define VERSION_MOST 5
+#define ROUND_SIZE 24
+#define VERSION_MOST 7
 #define CHECKSUM_SIZE 8
 static const uint8_t magic[8] = {0x89, 'O', 'V', 'O', 'I', 'D', '\n', 0x1a};
 
@@ -47,13 +50,15 @@ typedef struct layout {
     uint32_t triangle_count;                // in the file
 } layout;
 
-static int has_triangles(uint32_t version) { return version == 3 || version == 5; }
+static int has_triangles(uint32_t version) { return version >= 3 && version % 2 == 1; }
 static int has_axis(uint32_t version) { return version >= 4; }
+static int has_round(uint32_t version) { return version >= 6; }
 
 // By Euler's formula a solid of n vertices has 2 n - 4 triangles.
 static layout make_layout(uint32_t version, uint32_t vertex_count) {
     layout l = {.version = version, .vertices_at = HEADER_SIZE + (version > 1 ? ALLOWANCE_SIZE : 0)};
     if (has_axis(version)) l.vertices_at += AXIS_SIZE;
+    if (has_round(version)) l.vertices_at += ROUND_SIZE;
     l.triangles_at = l.vertices_at + (size_t)vertex_count * 24;
     l.triangle_count = has_triangles(version) && vertex_count > 3 ? 2 * vertex_count - 4 : 0;
     l.size = l.triangles_at + (size_t)l.triangle_count * 12 + CHECKSUM_SIZE;
@@ -118,6 +123,11 @@ size_t shape_write_version(const ovoid_shape *shape, uint32_t version, void *buf
         put_double(&w, shape->allowance.inside);
     }
     if (has_axis(version)) put_vec3(&w, shape->allowance.axis);
+    if (has_round(version)) {
+        put_integer(&w, shape->round.kind, 8);
+        put_double(&w, shape->round.radius);
+        put_double(&w, shape->round.half_length);
+    }
     const double *vertices = shape_vertices(shape);
     for (size_t i = 0; i < 3 * (size_t)shape->vertex_count; i++) put_double(&w, vertices[i]);
     const uint32_t *triangles = ovoid_shape_get_polytope(shape).triangles;
@@ -129,6 +139,7 @@ size_t shape_write_version(const ovoid_shape *shape, uint32_t version, void *buf
 // The proof of the triangles needs a point inside: the centre of an inner ellipsoid that is more than a point.
 static uint32_t choose_version(const ovoid_shape *s) {
     int is_large = s->rank == 3 && s->vertex_count >= SHAPE_TRIANGLES_LEAST && s->inner.q.xx != 0;
+    if (s->round.kind != OVOID_ROUND_NONE) return is_large ? 7 : 6;
     if (shape_has_axis(s)) return is_large ? 5 : 4;
     return is_large ? 3 : s->has_allowance ? 2 : 1;
 }
@@ -184,6 +195,7 @@ typedef struct content {
     uint32_t rank, vertex_count;
     double radius;
     ovoid_allowance allowance;
+    ovoid_round round;
     ovoid_vec3 origin;
     ovoid_report report;
     ovoid_fit outer, inner;
@@ -268,6 +280,18 @@ static ovoid_code read_allowance(reader *r, content *c) {
     return has_axis(c->at.version) ? read_axis(r, c) : OVOID_OK;
 }
 
+static ovoid_code read_round(reader *r, content *c) {
+    if (!has_round(c->at.version)) return OVOID_OK;
+    size_t start = r->at;
+    uint64_t kind = get_integer(r, 8);
+    double radius = get_double(r), half_length = get_double(r);
+    if (!(kind == OVOID_ROUND_CYLINDER || kind == OVOID_ROUND_CONE) || !(radius > 0 && is_length(radius)) ||
+        !(half_length >= 0 && is_length(half_length)) || signbit(half_length))
+        return refuse(r, start, "the true body is no cylinder or cone");
+    c->round = (ovoid_round){(ovoid_round_kind)kind, radius, half_length};
+    return OVOID_OK;
+}
+
 static ovoid_code read_header(reader *r, content *c) {
     c->radius = get_double(r);
     if (!(c->radius >= 0 && is_length(c->radius))) return refuse(r, 32, "the radius is not a length");
@@ -276,7 +300,8 @@ static ovoid_code read_header(reader *r, content *c) {
     ovoid_code code = read_report(r, c);
     if (!code) code = read_fit(r, &c->outer);
     if (!code) code = read_fit(r, &c->inner);
-    return code ? code : read_allowance(r, c);
+    if (!code) code = read_allowance(r, c);
+    return code ? code : read_round(r, c);
 }
 
 // Reads coordinates of the body frame: origin + vertex must be exactly a double, and no zero negative.
@@ -326,8 +351,11 @@ static ovoid_code validate_ellipsoids(const reader *r, const content *c, const o
 // Sets radius and allowance. A file whose allowance block_set_radius would reduce is refused, since no writer makes it.
 static ovoid_code set_radius(const reader *r, const content *c, ovoid_shape *shape) {
     block_set_radius(shape, c->radius, c->allowance);
-    if (shape->allowance.inside == c->allowance.inside) return OVOID_OK;
-    return refuse(r, ALLOWANCE_AT + 8, "the allowance inside is larger than the body");
+    shape->round = c->round;
+    if (shape->allowance.inside != c->allowance.inside)
+        return refuse(r, ALLOWANCE_AT + 8, "the allowance inside is larger than the body");
+    if (c->round.kind == OVOID_ROUND_NONE || round_is_held(shape, &c->round)) return OVOID_OK;
+    return refuse(r, ALLOWANCE_AT + ALLOWANCE_SIZE + AXIS_SIZE, "the polyhedron is not inscribed in its true body");
 }
 
 static ovoid_shape *make_shape(const reader *r, const content *c, hull *polytope) {

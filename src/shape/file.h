@@ -9,7 +9,8 @@
 enum { SHAPE_TRIANGLES_LEAST = 512 };
 
 /// ovoid_shape_write in the given version: 1, of a shape without an allowance; 2, with one; 3, with triangles, of a
-/// solid whose inner ellipsoid is more than a point; 4 and 5, as 2 and 3, of a shape whose allowance has an axis.
+/// solid whose inner ellipsoid is more than a point; 4 and 5, as 2 and 3, of a shape whose allowance has an axis;
+/// 6 and 7, as 4 and 5, of one whose true body is known.
 size_t shape_write_version(const ovoid_shape *shape, uint32_t version, void *buffer, size_t capacity);
 
 #endif

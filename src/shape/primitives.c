@@ -168,8 +168,8 @@ static ovoid_shape *create_round(const turned *t, const ovoid_shape_options *opt
     ovoid_shape *shape = create_turned(&by, &o, error);
     // An allowance given by the caller leaves the true body unknown.
     int is_known = !options || (!(options->allowance.outside > 0) && !(options->allowance.inside > 0));
-    round_kind kind = by.rings == 2 ? ROUND_CYLINDER : ROUND_CONE;
-    if (shape && is_known) shape->round = (round_form){kind, by.radius, by.half_length};
+    ovoid_round_kind kind = by.rings == 2 ? OVOID_ROUND_CYLINDER : OVOID_ROUND_CONE;
+    if (shape && is_known && shape_has_axis(shape)) shape->round = (ovoid_round){kind, by.radius, by.half_length + 0.0};
     return shape;
 }
 

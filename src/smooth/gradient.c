@@ -200,9 +200,10 @@ static void compute(const ovoid_pair *pair, const ovoid_answer *answer, const ov
     out->has_rotation = 0;
     out->slope = 0;
     out->slide = INFINITY;
-    if (has_points && answer->proof.kind == OVOID_PROOF_POINTS && answer->proof.count &&
-        proof_is_sound(&f, &answer->proof))
-        gradient_refine_round(&f, pair, &answer->proof, out);
+    const ovoid_proof *proof = &answer->proof;
+    int is_balls = proof->kind == OVOID_PROOF_BALLS && vec3_is_finite(proof->inner_a) && vec3_is_finite(proof->inner_b);
+    int has_start = is_balls || (proof->kind == OVOID_PROOF_POINTS && proof->count);
+    if (has_start && proof_is_sound(&f, proof)) gradient_refine_round(&f, pair, proof, out);
 }
 
 ovoid_gradient ovoid_answer_compute_gradient(const ovoid_pair *pair, const ovoid_answer *answer,

@@ -16,7 +16,7 @@
 // as edges.
 //
 // Cost: some queries of a point, 1 to 10 microseconds.
-#include "pair/proof.h"
+#include "pair/balls.h"
 #include "query/answer.h"
 #include "shape/point.h"
 #include "smooth/gradient.h"
@@ -28,7 +28,7 @@ enum { ROUNDS = 8, TURNS = 200, HALVINGS = 80 };
 /// A body in the world's axes, from the body frame of A.
 typedef struct round_body {
     const ovoid_shape *shape;
-    round_form form; ///< ROUND_NONE: the polyhedron
+    ovoid_round form; ///< OVOID_ROUND_NONE: the polyhedron
     ovoid_pose pose;
     mat3 rotation;
     vec3 base;         ///< the origin of the body frame
@@ -61,7 +61,7 @@ static double find_round_support(const round_body *b, vec3 n, vec3 *point) {
     double along = vec3_dot(n, b->axis), half = b->form.half_length;
     vec3 across = vec3_add_scaled(n, b->axis, -along);
     double length = vec3_norm(across), rim = b->form.radius * length, end = along < 0 ? -half : half;
-    if (b->form.kind == ROUND_CONE) {
+    if (b->form.kind == OVOID_ROUND_CONE) {
         end = half * along >= rim - half * along ? half : -half;
         if (end > 0) rim = 0;
     }
@@ -76,7 +76,7 @@ static vec3 find_round_point(const round_body *b, vec3 x) {
     double z = vec3_dot(v, b->axis), radius = b->form.radius, half = b->form.half_length;
     vec3 across = vec3_add_scaled(v, b->axis, -z);
     double off = vec3_norm(across), to = min2(off, radius), at = max2(-half, min2(z, half));
-    if (b->form.kind == ROUND_CONE) {
+    if (b->form.kind == OVOID_ROUND_CONE) {
         // In the half plane through the axis: the base, or the side.
         double t = ((radius - off) * radius + (z + half) * (2 * half)) / (radius * radius + 4 * half * half);
         t = max2(0, min2(t, 1));
@@ -92,7 +92,7 @@ static vec3 find_round_point(const round_body *b, vec3 x) {
 
 static double find_support(const round_body *b, vec3 n) {
     vec3 point;
-    if (b->form.kind != ROUND_NONE) return find_round_support(b, n, &point);
+    if (b->form.kind != OVOID_ROUND_NONE) return find_round_support(b, n, &point);
     return vec3_dot(n, b->base) + shape_find_extreme(b->shape, mat3_mul_transposed_vec3(b->rotation, n)).value;
 }
 
@@ -179,7 +179,7 @@ static int find_with_hull(const round_body *round, const round_body *hull, vec3 
 // From the axis of a cylinder, which is an edge with a radius where the points are on its side; 0 where they are not.
 static int find_from_axis(const round_body *a, const round_body *b, nearest *found) {
     vec3 end = vec3_scale(b->axis, b->form.half_length);
-    if (b->form.kind != ROUND_CYLINDER || !(fabs(vec3_dot(found->n, b->axis)) < 0.25)) return 0;
+    if (b->form.kind != OVOID_ROUND_CYLINDER || !(fabs(vec3_dot(found->n, b->axis)) < 0.25)) return 0;
     nearest y = *found;
     solve_edge(a, vec3_sub(b->center, end), vec3_add(b->center, end), &y);
     y.n = vec3_unit(vec3_sub(y.q, y.p));
@@ -223,7 +223,7 @@ static double find_round_slide(const round_body *b, vec3 n, double turn, double 
     double radius = b->form.radius, half = b->form.half_length;
     // Sines of angles are below the angles: to the axis, and to the base plane or the cone's side.
     *angle = min2(across, fabs(along));
-    if (b->form.kind == ROUND_CONE) {
+    if (b->form.kind == OVOID_ROUND_CONE) {
         double side = (2 * half * along - radius * across) / sqrt(4 * half * half + radius * radius);
         *angle = fabs(side);
         if (side > turn + 64 * ROUNDING) return 0;
@@ -240,7 +240,7 @@ typedef struct sliding {
 
 static sliding find_slide(const round_body *b, const nearest *found, vec3 n, double turn) {
     sliding s;
-    if (b->form.kind != ROUND_NONE) {
+    if (b->form.kind != OVOID_ROUND_NONE) {
         s.slide = find_round_slide(b, n, turn, &s.slope);
         return s;
     }
@@ -254,7 +254,7 @@ static sliding find_slide(const round_body *b, const nearest *found, vec3 n, dou
 
 // The room along a cylinder's side to its ends, of a point with the normal n there; below zero where it is not there.
 static double find_room(const round_body *b, vec3 n, vec3 point, double turn) {
-    if (b->form.kind != ROUND_CYLINDER || !(fabs(vec3_dot(n, b->axis)) <= turn + 64 * ROUNDING)) return -1;
+    if (b->form.kind != OVOID_ROUND_CYLINDER || !(fabs(vec3_dot(n, b->axis)) <= turn + 64 * ROUNDING)) return -1;
     return b->form.half_length - fabs(vec3_dot(vec3_sub(point, b->center), b->axis));
 }
 
@@ -263,7 +263,7 @@ static double find_room(const round_body *b, vec3 n, vec3 point, double turn) {
 static double find_crossing(const round_body bodies[2], const nearest *found, double turn, double *room) {
     const round_body *other = &bodies[1];
     *room = find_room(&bodies[0], found->n, found->p, turn);
-    if (other->form.kind != ROUND_NONE) {
+    if (other->form.kind != OVOID_ROUND_NONE) {
         *room = min2(*room, find_room(other, found->n, found->q, turn));
         return vec3_norm(vec3_cross(other->axis, bodies[0].axis));
     }
@@ -294,22 +294,31 @@ static sliding find_points(const round_body bodies[2], const nearest *found, con
     return (sliding){(d->excess + d->off) / cross, cross};
 }
 
+// The second body's point in its body frame, to begin with.
+static vec3 find_start(const pair_frame *f, const ovoid_proof *proof, int is_swapped) {
+    if (proof->kind == OVOID_PROOF_BALLS) {
+        ball_centers c = balls_find_centers(f, proof);
+        return is_swapped ? c.a : c.b;
+    }
+    weighted_vertices of_a = {proof->a, proof->weight_a, proof->count},
+                      of_b = {proof->b, proof->weight_b, proof->count};
+    return is_swapped ? feature_make(f->a, (vec3){0, 0, 0}, of_a).point
+                      : feature_make(f->b, (vec3){0, 0, 0}, of_b).point;
+}
+
 void gradient_refine_round(const pair_frame *f, const ovoid_pair *pair, const ovoid_proof *proof, ovoid_gradient *out) {
     const ovoid_shape *shapes[2] = {f->a, f->b};
     for (int k = 0; k < 2; k++)
-        if (shapes[k]->has_allowance && shapes[k]->round.kind == ROUND_NONE) return;
+        if (shapes[k]->has_allowance && shapes[k]->round.kind == OVOID_ROUND_NONE) return;
     // The first body is round.
-    int is_swapped = f->a->round.kind == ROUND_NONE;
+    int is_swapped = f->a->round.kind == OVOID_ROUND_NONE;
     round_body bodies[2];
     bodies[is_swapped] = make_body(f->a, &f->world, pair->pose_a.rotation, (vec3){0, 0, 0});
     bodies[!is_swapped] = make_body(f->b, &f->world_b, pair->pose_b.rotation, f->offset);
     nearest found = {.upper = 0};
-    feature start =
-        is_swapped ? feature_make(f->a, (vec3){0, 0, 0}, (weighted_vertices){proof->a, proof->weight_a, proof->count})
-                   : feature_make(f->b, (vec3){0, 0, 0}, (weighted_vertices){proof->b, proof->weight_b, proof->count});
-    vec3 q = vec3_add(bodies[1].base, mat3_mul_vec3(bodies[1].rotation, start.point));
-    int is_found = bodies[1].form.kind == ROUND_NONE ? find_with_hull(&bodies[0], &bodies[1], q, &found)
-                                                     : find_with_round(&bodies[0], &bodies[1], q, &found);
+    vec3 q = vec3_add(bodies[1].base, mat3_mul_vec3(bodies[1].rotation, find_start(f, proof, is_swapped)));
+    int is_found = bodies[1].form.kind == OVOID_ROUND_NONE ? find_with_hull(&bodies[0], &bodies[1], q, &found)
+                                                           : find_with_round(&bodies[0], &bodies[1], q, &found);
     if (!is_found || !(vec3_norm_squared(found.n) > 0.5)) return;
 
     double gap = -find_support(&bodies[1], vec3_neg(found.n)) - find_support(&bodies[0], found.n);
@@ -317,7 +326,8 @@ void gradient_refine_round(const pair_frame *f, const ovoid_pair *pair, const ov
     if (!(lower > 0)) return;
     const doubt d = {gradient_find_angle_above((upper - lower) / upper), upper - lower,
                      sqrt(max2((upper - lower) * (upper + lower), 0))};
-    if (!(d.turn < out->turn)) return;
+    // A direction that is nearly as good is taken: its points are known.
+    if (!(d.turn < 2 * out->turn)) return;
     sliding points = find_points(bodies, &found, &d);
     vec3 n = is_swapped ? vec3_neg(found.n) : found.n, to_p = vec3_sub(found.p, bodies[0].base),
          to_q = vec3_sub(found.q, bodies[1].base);

@@ -21,7 +21,7 @@ WORDS = {
     "status": ["separated", "touching", "overlapping", "undecided", "near"],
     "limit": ["none", "answered", "precision", "capacity", "pose_a", "allowance"],
     "within": ["yes", "no", "at", "unproven"],
-    "kind": ["none", "points", "hull", "inner", "inner_points", "cover"],
+    "kind": ["none", "points", "hull", "inner", "inner_points", "cover", "balls"],
     "kind_a": ["hull", "parts", "solid", "surface"],
     "kind_b": ["hull", "parts", "solid", "surface"],
     "inside": ["a in b", "b in a"],

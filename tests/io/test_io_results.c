@@ -339,9 +339,10 @@ static void check_same(const ovoid_record *a, const ovoid_record *b) {
     CHECK(is_same_bits(x->proof.weight_a, y->proof.weight_a, 8 * n));
     CHECK(is_same_bits(x->proof.weight_b, y->proof.weight_b, 8 * n));
     int kind = x->proof.kind;
-    if (kind == OVOID_PROOF_INNER || kind == OVOID_PROOF_INNER_POINTS)
+    if (kind == OVOID_PROOF_INNER || kind == OVOID_PROOF_INNER_POINTS || kind == OVOID_PROOF_BALLS)
         CHECK(is_same_vector(x->proof.inner_a, y->proof.inner_a));
-    if (kind == OVOID_PROOF_INNER_POINTS) CHECK(is_same_vector(x->proof.inner_b, y->proof.inner_b));
+    if (kind == OVOID_PROOF_INNER_POINTS || kind == OVOID_PROOF_BALLS)
+        CHECK(is_same_vector(x->proof.inner_b, y->proof.inner_b));
     if (!CHECK(!a->cover == !b->cover) || !a->cover) return;
     CHECK_EQ(a->cover->point_count, b->cover->point_count);
     CHECK_EQ(a->cover->triangle_count, b->cover->triangle_count);

@@ -111,7 +111,11 @@ static void check_judge(judge *context, const ovoid_pair *pair, const ovoid_mani
     CHECK(judge_verify_contact(context, pair, &contact, NULL) != OVOID_OK);
     polygon.outer = outer;
     m.lower += 1e-9;
-    CHECK(judge_verify_contact(context, pair, &contact, NULL) != OVOID_OK);
+    // The features of a cylinder's polyhedron do not show the largest gap of the cylinder itself, which the judge
+    // knows.
+    int is_round = ovoid_shape_get_round(pair->shape_a).kind != OVOID_ROUND_NONE ||
+                   ovoid_shape_get_round(pair->shape_b).kind != OVOID_ROUND_NONE;
+    if (!is_round) CHECK(judge_verify_contact(context, pair, &contact, NULL) != OVOID_OK);
 }
 
 int main(int argc, char **argv) {

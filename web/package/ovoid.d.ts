@@ -73,7 +73,7 @@ export type Limit =
 export type Stage = 'none' | 'proof' | 'sphere' | 'outer' | 'support' | 'inner' | 'gjk' | 'epa' | 'refine';
 export interface Proof {
   normal: number[]; normal_low?: number[];
-  kind: 'none' | 'points' | 'hull' | 'inner' | 'inner_points' | 'cover';
+  kind: 'none' | 'points' | 'hull' | 'inner' | 'inner_points' | 'cover' | 'balls';
   a: number[]; b: number[]; weight_a: number[]; weight_b: number[];
   inner_a?: number[]; inner_b?: number[];
   cover?: { pairs: number[][]; triangles: number[][] };

@@ -82,8 +82,9 @@ function toProofObject(n, names) {
   }
   const proof = { normal: vector(n, at), kind: names.kind[n[at + 6]], a, b, weight_a, weight_b };
   if (n[at + 3] !== 0 || n[at + 4] !== 0 || n[at + 5] !== 0) proof.normal_low = vector(n, at + 3);
-  if (proof.kind === 'inner' || proof.kind === 'inner_points') proof.inner_a = vector(n, at + PROOF - 6);
-  if (proof.kind === 'inner_points') proof.inner_b = vector(n, at + PROOF - 3);
+  const hasBoth = proof.kind === 'inner_points' || proof.kind === 'balls';
+  if (proof.kind === 'inner' || hasBoth) proof.inner_a = vector(n, at + PROOF - 6);
+  if (hasBoth) proof.inner_b = vector(n, at + PROOF - 3);
   return proof;
 }
 

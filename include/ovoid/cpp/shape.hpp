@@ -52,6 +52,8 @@ class shape_view {
     double radius() const noexcept { return ovoid_shape_get_radius(shape_); }
     /** How far the true body may differ from the shape. */
     ovoid_allowance allowance() const noexcept { return ovoid_shape_get_allowance(shape_); }
+    /** The true body, where it is a cylinder or a cone. */
+    ovoid_round round() const noexcept { return ovoid_shape_get_round(shape_); }
     /** What the constructor did with the given points. */
     ovoid_report report() const noexcept { return ovoid_shape_get_report(shape_); }
     /** The outer ellipsoid of the polyhedron. */

@@ -25,7 +25,7 @@ static const char *name_inside(int i) {
 static const field_names statuses = {name_status, OVOID_UNDECIDED, OVOID_OVERLAPPING},
                          limits = {name_limit, OVOID_LIMIT_NONE, OVOID_LIMIT_ALLOWANCE},
                          stages = {name_stage, OVOID_STAGE_NONE, OVOID_STAGE_REFINE},
-                         proofs = {name_proof, OVOID_PROOF_NONE, OVOID_PROOF_COVER},
+                         proofs = {name_proof, OVOID_PROOF_NONE, OVOID_PROOF_BALLS},
                          kinds = {name_kind, OVOID_MESH_HULL, OVOID_MESH_SURFACE},
                          frames = {name_frame, OVOID_STEP_A, OVOID_STEP_B},
                          insides = {name_inside, OVOID_BODY_A_INSIDE, OVOID_BODY_COMMON_POINT};
@@ -297,8 +297,9 @@ uint64_t record_find_bits(const record_line *line) {
     if (has_allowance(r->kind_a, &r->mesh_a)) bits |= RECORD_ALLOWANCE_A;
     if (has_allowance(r->kind_b, &r->mesh_b)) bits |= RECORD_ALLOWANCE_B;
     if (r->fields & OVOID_RECORD_MESHES) bits |= RECORD_VOLUMES;
-    if (kind == OVOID_PROOF_INNER || kind == OVOID_PROOF_INNER_POINTS) bits |= RECORD_INNER_A;
-    if (kind == OVOID_PROOF_INNER_POINTS) bits |= RECORD_INNER_B;
+    int has_both = kind == OVOID_PROOF_INNER_POINTS || kind == OVOID_PROOF_BALLS;
+    if (kind == OVOID_PROOF_INNER || has_both) bits |= RECORD_INNER_A;
+    if (has_both) bits |= RECORD_INNER_B;
     if (r->cover && r->cover->point_count) bits |= RECORD_COVER;
     if (r->fields & OVOID_RECORD_CONTACTS && !record_is_impact(r)) bits |= find_contact_bits(r);
     return r->solid ? bits | find_solid_bits(line) : bits;

@@ -22,11 +22,12 @@ static void put(size_t i, vec3 v) {
 static void check_body(ovoid_shape *s) {
     if (!CHECK(s)) return;
     int solid = s->rank == 3 && s->inner.q.xx != 0;
-    size_t size = ovoid_shape_write(s, NULL, 0), most = size + 24 * (size_t)s->vertex_count + 16;
+    size_t size = ovoid_shape_write(s, NULL, 0), most = size + 24 * (size_t)s->vertex_count + 40;
     uint8_t *bytes = malloc(most);
     int is_large = solid && s->vertex_count >= SHAPE_TRIANGLES_LEAST, has_axis = shape_has_axis(s);
-    uint32_t expected = has_axis ? (is_large ? 5 : 4) : is_large ? 3 : s->has_allowance ? 2 : 1;
-    uint32_t other = has_axis ? 5 : 3;
+    int is_round = s->round.kind != OVOID_ROUND_NONE;
+    uint32_t expected = has_axis ? (is_large ? 5 : 4) + 2 * is_round : is_large ? 3 : s->has_allowance ? 2 : 1;
+    uint32_t other = has_axis ? 5 + 2 * is_round : 3;
     for (uint32_t k = 0; k < (solid ? 2u : 1u); k++) {
         size = k ? shape_write_version(s, other, bytes, most) : ovoid_shape_write(s, bytes, most);
         CHECK_EQ(bytes[8], k ? other : expected);
@@ -424,6 +425,34 @@ static void check_allowances(void) {
     ovoid_shape_destroy(s);
 }
 
+// True bodies in which the polyhedron is not inscribed, or which are none: `at` is the number of the value in the file.
+static void check_rounds(void) {
+    static const struct {
+        int at;
+        double factor, other; // other: where the factor is 0
+    } wrong[] = {{1, 0, 0},    {1, 0, -1},       {1, 0, NAN}, {1, 1.01, 0},     {1, 0.99, 0},
+                 {2, 0, -0.0}, {2, 0, -1},       {2, 0, NAN}, {2, 1.01, 0},     {2, 0.99, 0},
+                 {2, 0, 0},    {1, 1 + 1e-9, 0}, {0, 0, 0},   {1, 1 - 1e-9, 0}, {2, 1 + 1e-15, 0}};
+    for (int kind = 0; kind < 2; kind++)
+        for (size_t i = 0; i < 2 * sizeof wrong / sizeof *wrong; i++) {
+            ovoid_shape *s = (kind ? ovoid_shape_create_cone : ovoid_shape_create_cylinder)(1, 0.75, NULL, NULL);
+            uint32_t version = 6 + i % 2;
+            forgery f = {NULL, shape_write_version(s, version, NULL, 0), s->vertex_count, s->counts.triangles};
+            f.bytes = malloc(f.size);
+            shape_write_version(s, version, f.bytes, f.size);
+            CHECK(f.bytes[8] == version && f.bytes[368] == 1 + kind);
+            double value;
+            uint8_t *place = f.bytes + 368 + 8 * wrong[i / 2].at;
+            memcpy(&value, place, 8);
+            value = wrong[i / 2].factor > 0 ? value * wrong[i / 2].factor : wrong[i / 2].other;
+            memcpy(place, &value, 8);
+            // The other kind: a prism is no pyramid.
+            if (wrong[i / 2].at == 0) f.bytes[368] = (uint8_t)(2 - kind);
+            check_refused(&f, "true body", 368);
+            ovoid_shape_destroy(s);
+        }
+}
+
 // Axes that no allowance has: zero, not of length 1, not a number, or of nothing that stands out.
 static void check_axes(void) {
     static const vec3 wrong[] = {{0, 0, 0}, {0, 0, 2}, {0, 0, 1 - 1e-9}, {NAN, 0, 1}, {0, INFINITY, 0}};
@@ -453,7 +482,7 @@ static void check_headers(void) {
         check_refused(&f, "solid", 12);
     }
     forgery f = forge(s);
-    f.bytes[8] = 6;
+    f.bytes[8] = 8;
     check_refused(&f, "version", 8);
     f = forge(s);
     f.bytes[8] = 2;
@@ -481,6 +510,7 @@ int main(void) {
     check_other_triangles();
     check_allowances();
     check_axes();
+    check_rounds();
     check_headers();
     return check_end();
 }

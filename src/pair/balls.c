@@ -1,0 +1,112 @@
+// Theorem. If the ball of radius r about a is in A and that of radius s about b is in B, the ball of radius r + s about
+// b - a is in the difference B - A, so that the signed distance is at most |b - a| - r - s. Where r is negative and a
+// point of A is within -r of a, the bound holds as well, by the triangle inequality.
+//
+// In the half plane of the distance from the axis and the height z, a cylinder is a rectangle and a cone a triangle.
+// The largest ball about a point inside reaches to the nearest side. A point outside is no farther from the body than
+// from the point that it becomes when its height, then its distance from the axis is cut off at the body. In a box the
+// ball reaches to the nearest face.
+#include "pair/balls.h"
+
+// The distance from the axis to the side at a height from -half to half.
+static double find_width(const ovoid_round *round, double z) {
+    if (round->kind == OVOID_ROUND_CYLINDER || !(round->half_length > 0)) return round->radius;
+    return round->radius * (0.5 - 0.5 * (z / round->half_length));
+}
+
+static double find_room_in_round(const ovoid_round *round, vec3 v) {
+    double half = round->half_length, inward = round->radius - vec3_norm((vec3){v.x, v.y, 0});
+    if (round->kind == OVOID_ROUND_CYLINDER) return min2(inward, half - fabs(v.z));
+    vec3 side = vec3_unit((vec3){2 * half, round->radius, 0});
+    return min2(half + v.z, side.x * inward - side.y * (half + v.z));
+}
+
+static vec3 cut_off_at_round(const ovoid_round *round, vec3 v) {
+    double half = round->half_length, z = max2(-half, min2(half, v.z));
+    double r = vec3_norm((vec3){v.x, v.y, 0}), width = find_width(round, z), part = r > width ? width / r : 1;
+    return (vec3){v.x * part, v.y * part, z};
+}
+
+static double find_room_in_box(const parallelepiped *box, vec3 off) {
+    double room = INFINITY;
+    for (int k = 0; k < 3; k++) {
+        vec3 n = vec3_unit(vec3_cross(vec3_unit(box->axis[(k + 1) % 3]), vec3_unit(box->axis[(k + 2) % 3])));
+        room = min2(room, fabs(vec3_dot(n, box->axis[k])) - fabs(vec3_dot(n, off)));
+    }
+    return room;
+}
+
+static vec3 cut_off_at_box(const parallelepiped *box, vec3 off) {
+    vec3 held = off;
+    for (int k = 0; k < 3; k++) {
+        vec3 axis = vec3_unit(box->axis[k]);
+        double length = vec3_norm(box->axis[k]), along = vec3_dot(axis, off), most = max2(-length, min2(length, along));
+        if (along != most) held = vec3_add_scaled(held, axis, most - along);
+    }
+    return held;
+}
+
+vec3 balls_cut_off(const ovoid_shape *s, vec3 x) {
+    vec3 from = s->round.kind != OVOID_ROUND_NONE ? vec3_neg(s->origin) : s->box.center, v = vec3_sub(x, from);
+    vec3 held = s->round.kind != OVOID_ROUND_NONE ? cut_off_at_round(&s->round, v) : cut_off_at_box(&s->box, v);
+    return vec3_add(from, held);
+}
+
+// The radius of the largest ball about x, in the body frame.
+static double find_room(const ovoid_shape *s, vec3 x) {
+    if (!balls_fit(s)) return -INFINITY;
+    int is_round = s->round.kind != OVOID_ROUND_NONE;
+    double room = is_round ? find_room_in_round(&s->round, vec3_add(x, s->origin))
+                           : find_room_in_box(&s->box, vec3_sub(x, s->box.center));
+    return room >= 0 ? room : -vec3_norm(vec3_sub(balls_cut_off(s, x), x));
+}
+
+// A centre far away would have a greater error.
+static int is_near(const pair_frame *f, vec3 x) { return vec3_is_finite(x) && vec3_max_abs(x) <= f->size; }
+
+double balls_measure(const pair_frame *f, const ball_centers *c, double error) {
+    if (!is_near(f, c->a) || !is_near(f, c->b)) return INFINITY;
+    double room_a = c->is_point_a ? 0 : find_room(f->a, c->a), room_b = c->is_point_b ? 0 : find_room(f->b, c->b);
+    return vec3_norm(vec3_sub(frame_b(f, c->b), c->a)) - room_a - room_b + error;
+}
+
+static double find_radius(const ovoid_shape *s) {
+    return s->round.kind != OVOID_ROUND_NONE ? s->radius : s->upper_radius;
+}
+
+double balls_compute_radii(const pair_frame *f) { return find_radius(f->a) + find_radius(f->b); }
+
+static vec3 find_mean(const ovoid_shape *s, const uint32_t *v, const double *w, uint32_t count) {
+    vec3 sum = {0, 0, 0};
+    double all = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        sum = vec3_add_scaled(sum, vec3_at(shape_vertices(s), v[i]), w[i]);
+        all += w[i];
+    }
+    return vec3_scale(sum, 1 / all);
+}
+
+ball_centers balls_find_centers(const pair_frame *f, const ovoid_proof *p) {
+    ball_centers c = {p->inner_a, p->inner_b, 0, 0};
+    c.is_point_a = p->count > 0 && f->a->round.kind == OVOID_ROUND_NONE;
+    c.is_point_b = p->count > 0 && f->b->round.kind == OVOID_ROUND_NONE;
+    if (c.is_point_a) c.a = find_mean(f->a, p->a, p->weight_a, p->count);
+    if (c.is_point_b) c.b = find_mean(f->b, p->b, p->weight_b, p->count);
+    return c;
+}
+
+double balls_compute_upper(const pair_frame *f, const ovoid_proof *p, double error) {
+    if (!frame_has_round(f)) return INFINITY;
+    ball_centers c = balls_find_centers(f, p);
+    return balls_measure(f, &c, error) - balls_compute_radii(f);
+}
+
+witness_points balls_compute_points(const pair_frame *f, const ovoid_proof *p) {
+    ball_centers c = balls_find_centers(f, p);
+    double reach_a = f->a->radius + (c.is_point_a ? 0 : find_room(f->a, c.a));
+    double reach_b = f->b->radius + (c.is_point_b ? 0 : find_room(f->b, c.b));
+    vec3 b = frame_b(f, c.b), d = vec3_sub(b, c.a), n = vec3_unit(frame_direction_from_world(f, p->normal));
+    // Where the centres are about as far apart as rounding radii reach, their difference is the better direction.
+    if (vec3_norm(d) > 0.5 * max2(0, reach_a + reach_b)) n = vec3_unit(d);
+    return (witness_points){vec3_add_scaled(c.a, n, reach_a), vec3_add_scaled(b, n, -reach_b)};
+}

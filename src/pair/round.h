@@ -1,0 +1,30 @@
+// Supports of the true bodies of shapes that know their round form: cylinders and cones.
+//
+// Along a unit n, with n_z along the axis and n_r = |n x axis|, a cylinder of radius R and half length h reaches h
+// |n_z|
+// + R n_r from its centre, a cone max(h n_z, R n_r - h n_z). With u = 2^-53 either is off by less than 12 u (h + R),
+// beside what n itself is off by, of which frame.h speaks: no point of the round body is farther from the origin of its
+// frame than the vertices of its polyhedron. So ROUND_CLAIM and ROUND_CHECK are added to the frame's.
+#ifndef OVOID_PAIR_ROUND_H
+#define OVOID_PAIR_ROUND_H
+
+#include "pair/frame.h"
+
+#define ROUND_CLAIM (64 * 0x1p-53)
+#define ROUND_CHECK (32 * 0x1p-53)
+
+static inline int frame_has_round(const pair_frame *f) {
+    return (f->a->round.kind != OVOID_ROUND_NONE) | (f->b->round.kind != OVOID_ROUND_NONE);
+}
+
+/// The support of a round body along the unit n, both in its body frame; its point.
+double round_find_support(const ovoid_shape *shape, vec3 n, vec3 *point);
+
+/// What a lower bound along n loses to radii and allowances if it is by the gap of true bodies where these are known.
+/// error: as in block.h.
+double round_compute_radii(const pair_frame *f, vec3 n, double error);
+
+/// frame_measure_gap with the supports of true bodies where these are known.
+double round_measure_gap(const pair_frame *f, vec3 n);
+
+#endif

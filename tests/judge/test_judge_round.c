@@ -1,0 +1,182 @@
+// Pairs with true cylinders and cones before the exact judge and the check without a search. Truth: rational arithmetic
+// with the supports of the round bodies, their roots rounded up. A lower bound that is raised by more than its rounding
+// is refused by both; near bodies that are apart, no direction in reach has a larger gap than the answer's, to the
+// query's tolerance; and a shape that was written to a file and read gives the same answer.
+#include "check.h"
+#include "judge.h"
+
+#include "ovoid/ovoid.h"
+
+#include <string.h>
+
+static long accepted, refused, compared;
+
+static ovoid_quat random_turn(uint64_t *s) {
+    static const ovoid_quat simple[] = {{1, 0, 0, 0}, {1, 1, 0, 0}, {1, 0, 1e-6, 0}, {0, 1, 0, 0}, {1, 1, 1, 1}};
+    if (random_next(s) % 3 == 0) return simple[random_next(s) % 5];
+    return (ovoid_quat){random_normal(s), random_normal(s), random_normal(s), random_normal(s)};
+}
+
+static ovoid_vec3 random_point(uint64_t *s, double size) {
+    return (ovoid_vec3){size * random_uniform(s, -1, 1), size * random_uniform(s, -1, 1),
+                        size * random_uniform(s, -1, 1)};
+}
+
+static ovoid_shape *make_round(uint64_t *s) {
+    double radius = random_uniform(s, 0.1, 1), half = random_next(s) % 8 ? random_uniform(s, 0.05, 1) : 0;
+    ovoid_shape_options o = {.tolerance = random_next(s) % 2 ? 0.02 * radius : 0};
+    if (random_next(s) % 4 == 0) o.radius = 0.125;
+    return (random_next(s) % 2 ? ovoid_shape_create_cylinder : ovoid_shape_create_cone)(radius, half, &o, NULL);
+}
+
+static ovoid_shape *make_other(uint64_t *s) {
+    double xyz[36], a = random_uniform(s, 0.2, 1);
+    ovoid_shape_options known = {.allowance = {.outside = 0.01, .inside = 0.02}};
+    for (int i = 0; i < 36; i++) xyz[i] = random_uniform(s, -1, 1);
+    switch (random_next(s) % 6) {
+    case 0: return ovoid_shape_create_sphere(a, NULL, NULL);
+    case 1: return ovoid_shape_create_capsule(0.25, a, NULL, NULL);
+    case 2: return ovoid_shape_create_box((ovoid_vec3){a, 1, 0.5}, NULL, NULL);
+    case 3: return ovoid_shape_create_from_points(xyz, 12, NULL, NULL);
+    case 4: return ovoid_shape_create_from_points(xyz, 12, &known, NULL);
+    default: return make_round(s);
+    }
+}
+
+static void check_accepted(judge *context, const ovoid_pair *p, const ovoid_answer *x, const ovoid_cover *cover) {
+    ovoid_error error = {.message = ""};
+    if (!CHECK_EQ(judge_verify_answer(context, p, x, cover, &error), OVOID_OK)) printf("  %s\n", error.message);
+    if (!CHECK_EQ(ovoid_answer_verify(p, x, &(ovoid_answer_basis){.cover = cover}, &error), OVOID_OK))
+        printf("  %s\n", error.message);
+    accepted++;
+}
+
+// Balls show no more than 2e-12 above their claim.
+static void check_upper_lie(judge *context, const ovoid_pair *p, const ovoid_answer *x) {
+    ovoid_answer lie = *x;
+    lie.upper -= 2e-12;
+    if (!(lie.lower <= lie.upper) || x->proof.kind != OVOID_PROOF_BALLS) return;
+    lie.status = lie.lower > 0 ? OVOID_SEPARATED : lie.upper < 0 ? OVOID_OVERLAPPING : OVOID_UNDECIDED;
+    CHECK(judge_verify_answer(context, p, &lie, NULL, NULL) != OVOID_OK);
+    CHECK(ovoid_answer_verify(p, &lie, NULL, NULL) != OVOID_OK);
+    refused++;
+}
+
+// A gap is claimed with room for 320 roundings of the pair's size, which is below 16; 2e-12 more is a lie.
+static void check_lie(judge *context, const ovoid_pair *p, const ovoid_answer *x, const ovoid_cover *cover) {
+    ovoid_answer lie = *x;
+    lie.lower += 2e-12;
+    if (!(lie.lower <= lie.upper) || x->limit == OVOID_LIMIT_PRECISION) return;
+    lie.status = lie.lower > 0 ? OVOID_SEPARATED : lie.upper < 0 ? OVOID_OVERLAPPING : OVOID_UNDECIDED;
+    CHECK(judge_verify_answer(context, p, &lie, cover, NULL) != OVOID_OK);
+    CHECK(ovoid_answer_verify(p, &lie, &(ovoid_answer_basis){.cover = cover}, NULL) != OVOID_OK);
+    refused++;
+}
+
+// The support in the world, in closed form or by all vertices.
+static double find_support(const ovoid_shape *shape, const ovoid_pose *pose, ovoid_vec3 n) {
+    ovoid_pose turn = {{0, 0, 0}, pose->rotation};
+    ovoid_vec3 m = ovoid_pose_compute_local_point(&turn, n);
+    ovoid_round round = ovoid_shape_get_round(shape);
+    double along = round.half_length * m.z, rim = round.radius * sqrt(m.x * m.x + m.y * m.y), top = -INFINITY;
+    if (round.kind == OVOID_ROUND_CYLINDER) top = fabs(along) + rim;
+    if (round.kind == OVOID_ROUND_CONE) top = fmax(along, rim - along);
+    ovoid_polytope polytope = ovoid_shape_get_polytope(shape);
+    ovoid_vec3 o = polytope.origin;
+    for (uint32_t i = 0; i < polytope.vertex_count && round.kind == OVOID_ROUND_NONE; i++) {
+        const double *v = polytope.vertices + 3 * (size_t)i;
+        top = fmax(top, m.x * (v[0] + o.x) + m.y * (v[1] + o.y) + m.z * (v[2] + o.z));
+    }
+    ovoid_vec3 t = pose->position;
+    ovoid_allowance allowance = ovoid_shape_get_allowance(shape);
+    double beyond = round.kind == OVOID_ROUND_NONE ? allowance.outside : 0;
+    return (n.x * t.x + n.y * t.y + n.z * t.z) + top + ovoid_shape_get_radius(shape) + beyond;
+}
+
+static double find_gap(const ovoid_pair *p, ovoid_vec3 n) {
+    ovoid_vec3 back = {-n.x, -n.y, -n.z};
+    return -find_support(p->shape_b, &p->pose_b, back) - find_support(p->shape_a, &p->pose_a, n);
+}
+
+// The gap along a direction is a concave function about the largest one of bodies that are apart, so that a larger one
+// would be seen in the normal's neighbourhood.
+static void check_best(const ovoid_pair *p, const ovoid_answer *x, uint64_t *s) {
+    if (!(x->lower > 1e-6)) return;
+    for (int i = 0; i < 60; i++) {
+        double size = pow(10, -1 - i % 6);
+        ovoid_vec3 turn = random_point(s, size), n = x->normal;
+        n = (ovoid_vec3){n.x + turn.x, n.y + turn.y, n.z + turn.z};
+        double length = sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
+        CHECK_LE(find_gap(p, (ovoid_vec3){n.x / length, n.y / length, n.z / length}), x->lower + 2e-8);
+        compared++;
+    }
+}
+
+static void check_file(const ovoid_pair *p, const ovoid_answer *x) {
+    static unsigned char bytes[1 << 16];
+    ovoid_pair q = *p;
+    size_t size = ovoid_shape_write(p->shape_a, bytes, sizeof bytes);
+    ovoid_shape *again = ovoid_shape_read(bytes, size, NULL, NULL);
+    if (!CHECK(again != NULL)) return;
+    ovoid_round a = ovoid_shape_get_round(p->shape_a), b = ovoid_shape_get_round(again);
+    CHECK(a.kind == b.kind && !memcmp(&a.radius, &b.radius, 16));
+    q.shape_a = again;
+    ovoid_answer y = ovoid_distance(&q, NULL, NULL);
+    CHECK(!memcmp(&x->lower, &y.lower, sizeof y.lower) && !memcmp(&x->upper, &y.upper, sizeof y.upper));
+    ovoid_shape_destroy(again);
+}
+
+static void check_pair(judge *context, const ovoid_pair *p, uint64_t *s) {
+    static ovoid_cover cover;
+    ovoid_answer x = ovoid_depth(p, NULL, NULL, &cover);
+    check_accepted(context, p, &x, &cover);
+    check_lie(context, p, &x, &cover);
+    check_upper_lie(context, p, &x);
+    int is_found = x.limit == OVOID_LIMIT_NONE || x.limit == OVOID_LIMIT_ALLOWANCE;
+    if (is_found) CHECK_EQ(judge_verify_points(context, p, &x, NULL), OVOID_OK);
+    check_best(p, &x, s);
+    ovoid_proof earlier = x.proof;
+    x = ovoid_distance(p, NULL, NULL);
+    check_accepted(context, p, &x, NULL);
+    check_best(p, &x, s);
+    check_file(p, &x);
+    double depth = fabs(x.lower);
+    x = ovoid_distance(p, NULL, &earlier);
+    check_accepted(context, p, &x, NULL);
+    check_best(p, &x, s);
+    x = ovoid_collide(p, NULL, NULL);
+    check_accepted(context, p, &x, NULL);
+    x = ovoid_within(p, depth, NULL, NULL);
+    check_accepted(context, p, &x, NULL);
+}
+
+int main(void) {
+    uint64_t s = 29;
+    for (int i = 0; i < 600; i++) {
+        check_seed = s;
+        // A judge knows shapes by their addresses.
+        judge *context = judge_create();
+        ovoid_shape *a = make_round(&s), *b = make_other(&s);
+        double far = i % 3 == 0 ? 0.6 : 2;
+        ovoid_pair p = {a, b, {random_point(&s, 1), random_turn(&s)}, {random_point(&s, far), random_turn(&s)}};
+        // Some about 1e-7 apart or deep.
+        if (i % 4 == 0) {
+            ovoid_answer x = ovoid_distance(&p, NULL, NULL);
+            double move = -x.lower + 1e-7 * random_uniform(&s, -1, 1);
+            ovoid_vec3 n = x.normal, *to = &p.pose_b.position;
+            *to = (ovoid_vec3){to->x + move * n.x, to->y + move * n.y, to->z + move * n.z};
+        }
+        if (CHECK(context && a && b)) check_pair(context, &p, &s);
+        if (i % 2) {
+            ovoid_pair q = {b, a, p.pose_b, p.pose_a};
+            check_pair(context, &q, &s);
+        }
+        ovoid_shape_destroy(a);
+        ovoid_shape_destroy(b);
+        judge_destroy(context);
+    }
+    check_seed = 0;
+    printf("%ld answers accepted, %ld lies refused, %ld directions compared\n", accepted, refused, compared);
+    CHECK(refused > 600 && compared > 20000);
+    return check_end();
+}
