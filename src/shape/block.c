@@ -112,13 +112,13 @@ void block_set_radius(ovoid_shape *s, double radius, ovoid_allowance allowance) 
     s->allowance = allowance;
     s->round = (ovoid_round){OVOID_ROUND_NONE, 0, 0};
     s->span = s->extent;
-    s->has_allowance = allowance.outside + allowance.inside > 0 ? ALLOWANCE_ANY : 0;
-    if (vec3_norm_squared(allowance.axis) > 0) s->has_allowance |= ALLOWANCE_AXIS;
     if (allowance.outside > 0) s->lower_radius = nextafter(radius + allowance.outside, INFINITY);
     // No point of the polyhedron is farther from a point of the true body than its own diameter and `outside`.
     double most = 2 * (s->extent + s->lower_radius);
     if (allowance.inside > most) s->allowance.inside = most;
     double inside = s->allowance.inside;
+    s->has_allowance = allowance.outside + inside > 0 ? ALLOWANCE_ANY : 0;
+    if (vec3_norm_squared(allowance.axis) > 0) s->has_allowance |= ALLOWANCE_AXIS;
     if (!(inside > 0)) return;
     s->upper_radius = nextafter(radius - inside, -INFINITY);
     s->span += 2 * inside;

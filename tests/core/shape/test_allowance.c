@@ -565,6 +565,13 @@ static void test_edges(void) {
     p = (ovoid_pair){point, any, {{-5, 0, 0}, {1, 0, 0, 0}}, {{0, 0, 0}, {1, 0, 0, 0}}};
     x = ovoid_distance(&p, NULL, NULL);
     CHECK(x.upper >= 6 + 0.5);
+    // A point has no size, so nothing is left of it.
+    ovoid_shape *exact = ovoid_shape_create_from_points(origin, 1, &huge, &e);
+    size = ovoid_shape_write(exact, bytes, sizeof bytes);
+    ovoid_shape *exact_read = ovoid_shape_read(bytes, size, NULL, &e);
+    CHECK(exact_read && ovoid_shape_get_allowance(exact_read).inside <= 0);
+    ovoid_shape_destroy(exact);
+    ovoid_shape_destroy(exact_read);
     ovoid_shape_destroy(s);
     ovoid_shape_destroy(copy);
     ovoid_shape_destroy(read);
