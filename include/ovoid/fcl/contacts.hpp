@@ -128,9 +128,15 @@ template <class S> class contact_list {
     ::fcl::CollisionResult<S> *result_;
 };
 
+/// The signed distance of a contact. Where an allowance leaves the depth open it is the longest one, since a
+/// translation by that along the normal is proven to part the bodies.
+inline double contact_distance(const ovoid_answer &depth) {
+    return depth.upper - depth.lower > 1e-8 * -depth.lower ? depth.lower : middle(depth);
+}
+
 /// The deepest point of two overlapping shapes as a contact.
 template <class S> void add_deepest(contact_list<S> &to, int i, int j, const ovoid_answer &depth) {
-    to.add(i, j, {depth.point_a, depth.point_b, middle(depth), 0}, depth.normal);
+    to.add(i, j, {depth.point_a, depth.point_b, contact_distance(depth), 0}, depth.normal);
 }
 
 /// Does a polyhedron stand for a round body, whose faces its facets are not; or is it a sphere? Both have one contact.
