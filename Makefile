@@ -6,7 +6,7 @@ PYTHON_FOLDER ?= build/python
 PYTHON ?= $(firstword $(wildcard /usr/bin/python3) python3)
 BUILD := build/release
 
-.PHONY: all help demo check check-all test abi coverage python cluster bits ports wasm page mutate bench soak soak-world soak-solid soak-robot planned-proofs trust fuzz docs site install deb deb-root format lint clean
+.PHONY: all help demo check check-all test abi coverage python cluster bits ports wasm page mutate bench soak soak-world soak-solid soak-robot soak-fcl planned-proofs trust fuzz docs site install deb deb-root format lint clean
 
 all: ## the libraries and the tool, in build/release, with the page of --html where Node.js is here
 	@scripts/setup.sh build
@@ -94,6 +94,10 @@ soak-solid: ## solids before the exact judge and beside brute force, a million a
 soak-robot: ## states and edges of robots before a judge in long double, 10^7 and 10^5 of each kind, half an hour
 	@$(call build,build,test_robot_judge)
 	@$(BUILD)/tests/test_robot_judge --states 1e7 --edges 1e5 --seed $$(date +%s)
+
+soak-fcl: ## a million calls by FCL and by <ovoid/fcl.hpp>: which differ, and which of both a proof refutes; minutes
+	@$(call build,bench,bench_fcl_calls)
+	@$(BUILD)/bench/bench_fcl_calls --calls 8850 --rounds 0
 
 planned-proofs: ## proofs of the motions of PROBLEMS=7 planning problems a robot, made by the tool and verified
 	@$(call build,planned-proofs,ovoid_cli bench_planner)
