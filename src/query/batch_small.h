@@ -24,14 +24,14 @@ typedef struct small_owner {
 
 /// The searches of a batch: all couples have its goal, but for the tolerance.
 typedef struct small_pool {
+    gjk8 groups[SMALL_POOL_GROUPS];
+    small_couple couples[SMALL_POOL_PLACES];
+    pair_frame frame; ///< the next couple's, where no evidence is wanted: one that stays in the cache
     const gjk8_kernels *kernels;
     const query_goal *goal;
     small_owner owner;
-    int has_lanes; ///< else each couple is searched by itself, which for a few costs less and gives the same bits
-    small_couple couples[SMALL_POOL_PLACES];
-    gjk8 groups[SMALL_POOL_GROUPS];
-    unsigned place;   ///< of the next couple
-    pair_frame frame; ///< the next couple's, where no evidence is wanted: one that stays in the cache
+    int has_lanes;  ///< else each couple is searched by itself, which for a few costs less and gives the same bits
+    unsigned place; ///< of the next couple
 } small_pool;
 
 /// count: of the couples that will be added, at most.
