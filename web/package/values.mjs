@@ -36,14 +36,18 @@ export function toPose(pose, what = 'pose') {
 /** Names of numbers, by the module's own words. */
 export class Names {
   constructor(memory) {
-    const list = (read, count) => Array.from({ length: count }, (_, i) => memory.text(read(i)));
+    // Up to the first that the library has no name for.
+    const list = (read, all = []) => {
+      for (let name = memory.text(read(0)); name !== 'unknown'; name = memory.text(read(all.length))) all.push(name);
+      return all;
+    };
     const { get_status_name, get_stage_name, get_limit_name, get_proof_kind_name, get_axis_name, get_manifold_proof_name } = memory.exports;
-    this.status = list(get_status_name, 4);
-    this.stage = list(get_stage_name, 9);
-    this.limit = list(get_limit_name, 12);
-    this.kind = list(get_proof_kind_name, 6);
-    this.axis = list(get_axis_name, 5);
-    this.contactProof = list(get_manifold_proof_name, 5);
+    this.status = list(get_status_name);
+    this.stage = list(get_stage_name);
+    this.limit = list(get_limit_name);
+    this.kind = list(get_proof_kind_name);
+    this.axis = list(get_axis_name);
+    this.contactProof = list(get_manifold_proof_name);
   }
 
   /** The number of a name, or what is none: 255. */

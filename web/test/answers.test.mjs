@@ -393,3 +393,15 @@ test('what a contact cannot be asked of is refused', () => {
   assert.throws(() => ovoid.findManifold(box, box, null, null, { angle: 2 }), /1.45/);
   assert.throws(() => ovoid.computePolygon(box, box, null, null, { ...ovoid.findManifold(box, box), part_a: 3 }), /no such parts/);
 });
+
+// Every kind of proof has its name: that of a cylinder's distance is the last.
+test('the proof of a true cylinder holds, read back from JSON too', () => {
+  const can = Shape.cylinder(5, 20), wedge = Shape.fromPoints([[0, 0, 0], [40, 0, 0], [0, 20, 0], [40, 20, 0], [0, 0, 30], [0, 20, 30]].flat());
+  const pose = { xyz: [35, 10, 90] }, answer = distance(wedge, can, null, pose), { status, stage, limit, iterations, lower, upper, point_a, point_b, normal, proof } = answer;
+  assert.equal(proof.kind, 'balls');
+  assert.ok(upper - lower < 1e-6);
+  const read = JSON.parse(JSON.stringify({ status, stage, limit, iterations, lower, upper, point_a, point_b, normal, proof }));
+  for (const claim of [answer, read]) assert.equal(verify(wedge, can, null, pose, claim), null);
+  read.proof.inner_b[0] += 1;
+  assert.notEqual(verify(wedge, can, null, pose, { ...read, upper: read.upper - 0.5 }), null);
+});

@@ -342,7 +342,7 @@ test("a robot: joints' sliders move it, the near pairs are those of the tool", {
     input.value = 1.5707963267948966;
     input.dispatchEvent(new Event('input'));
   });
-  assert.match(await page.textContent('#verdict'), /^This state: hit: lower and post overlap by 0\.199 m, proven$/);
+  assert.match(await page.textContent('#verdict'), /^This state: hit: lower and post overlap by 0\.2 m, proven$/);
   assert.ok((await page.evaluate(() => window.ovoidPage.model.bodies.find((body) => body.name === 'lower').pose.xyz[1])) > before + 1);
   assert.ok((await readRows(page)).some(([names]) => names === 'lower – post'));
   // The post is moved out of the way, by hand, and back.
@@ -426,12 +426,12 @@ test('a path: what the tool proves of it is at the top, over s, and in its steps
   const line = JSON.parse(run('robot', 'path', ...startArm, '--states', inStart('straight.csv'), '--json', '--html', 'path.html'));
   assert.equal(line.status, 'hit');
   const { page, errors } = await open('path.html', flat);
-  assert.match(await page.textContent('#whole'), /^The path: hit first at s = 0\.34878 ± 0\.00011: fore and post overlap by 2\.25e-4 to 3\.71e-4 m, proven/);
+  assert.match(await page.textContent('#whole'), /^The path: hit first at s = 0\.34872 ± 0\.000042: fore and post overlap by 3\.41e-5 m, proven/);
   assert.equal(await page.textContent('#now'), 's 0: proven free');
   await page.click('#jump');
   assert.match(await page.textContent('#now'), /: hit$/);
   // Of the pair that hits there is one bracket, the narrower one.
-  assert.match(await page.textContent('#verdict'), /^This state: hit: fore and post overlap by 2\.25e-4 to 3\.71e-4 m, proven/);
+  assert.match(await page.textContent('#verdict'), /^This state: hit: fore and post overlap by 3\.41e-5 m, proven/);
   for (const [s, said] of [[0.3, 'proven free'], [0.5, 'not looked at'], [1, 'not looked at']])
     assert.match(await page.evaluate((at) => [window.ovoidPage.track.set(at), document.getElementById('now').textContent][1], s), new RegExp(`${said}$`));
   // The steps of each pair together cover all that is free.
