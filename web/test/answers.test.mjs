@@ -397,7 +397,7 @@ test('what a contact cannot be asked of is refused', () => {
 // Every kind of proof has its name: that of a cylinder's distance is the last.
 test('the proof of a true cylinder holds, read back from JSON too', () => {
   const can = Shape.cylinder(5, 20), wedge = Shape.fromPoints([[0, 0, 0], [40, 0, 0], [0, 20, 0], [40, 20, 0], [0, 0, 30], [0, 20, 30]].flat());
-  const pose = { xyz: [35, 10, 90] }, answer = distance(wedge, can, null, pose), { status, stage, limit, iterations, lower, upper, point_a, point_b, normal, proof } = answer;
+  const pose = { xyz: [35, 10, 90] }, { distance, verify } = ovoid, answer = distance(wedge, can, null, pose), { status, stage, limit, iterations, lower, upper, point_a, point_b, normal, proof } = answer;
   assert.equal(proof.kind, 'balls');
   assert.ok(upper - lower < 1e-6);
   const read = JSON.parse(JSON.stringify({ status, stage, limit, iterations, lower, upper, point_a, point_b, normal, proof }));
