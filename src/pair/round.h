@@ -1,10 +1,9 @@
 // Supports of the true bodies of shapes that know their round form: cylinders and cones.
 //
-// Along a unit n, with n_z along the axis and n_r = |n x axis|, a cylinder of radius R and half length h reaches h
-// |n_z|
-// + R n_r from its centre, a cone max(h n_z, R n_r - h n_z). With u = 2^-53 either is off by less than 12 u (h + R),
-// beside what n itself is off by, of which frame.h speaks: no point of the round body is farther from the origin of its
-// frame than the vertices of its polyhedron. So ROUND_CLAIM and ROUND_CHECK are added to the frame's.
+// Along a unit n, with n_z along the axis and n_r = |n x axis|, a cylinder of radius R and half length h reaches
+// h |n_z| + R n_r from its centre, a cone max(h n_z, R n_r - h n_z). With u = 2^-53 either is off by less than
+// 12 u (h + R), beside what n itself is off by, of which frame.h speaks: no point of the round body is farther from the
+// origin of its frame than the vertices of its polyhedron. So ROUND_CLAIM and ROUND_CHECK are added to the frame's.
 #ifndef OVOID_PAIR_ROUND_H
 #define OVOID_PAIR_ROUND_H
 
