@@ -21,6 +21,7 @@ typedef struct lane_group {
     size_t index[PAIR8];
     pair8_places at; ///< their bodies and shapes
     pair8 *lanes;
+    int is_placed; ///< the columns of the spheres are filled
 } lane_group;
 
 // A couple that the lanes leave open, with what they found: alone, nothing.
@@ -156,19 +157,22 @@ static void write_bounds(const batch_state *c, group_lane at, ovoid_stage stage,
     write_verdict(c->batch, at.e->index[at.k], (ovoid_verdict){status, stage, limit, 0, lower, upper});
 }
 
-// Ends a lane that the spheres decided. Its evidence is found by rejecting the pair again, alone.
-static void end_at_spheres(const batch_state *c, group_lane at, unsigned narrow) {
+// Ends a lane that the spheres decided. Its evidence is that of the line of their centres.
+static void end_at_spheres(const batch_state *c, group_lane at, const pair8_found *found) {
     if (!c->wants_evidence) {
-        write_bounds(c, at, OVOID_STAGE_SPHERE, narrow);
+        write_bounds(c, at, OVOID_STAGE_SPHERE, found->narrow);
         return;
     }
     pair_frame frame;
     query_goal goal = get_goal(c, at);
-    rejection rejected;
     place_frame(at, &frame);
     ovoid_answer own, *out = c->batch->answers ? &c->batch->answers[at.e->index[at.k]] : &own;
-    (void)reject_by_spheres(&frame, goal.far, &rejected);
-    *out = rejection_make_answer(&rejected, &frame, &goal);
+    double lower = at.e->lanes->lower.lane[at.k];
+    vec3 line = found->origin >> at.k & 1 ? frame.offset : frame.between;
+    *out = rejection_make_answer(&(rejection){lower, vec3_unit(line), 0, 0, OVOID_STAGE_SPHERE}, &frame, &goal);
+    // The verdict's bracket, which knows no vertex where the origins decided.
+    out->upper = at.e->lanes->upper.lane[at.k];
+    out->limit = found->narrow >> at.k & 1 ? OVOID_LIMIT_NONE : goal.beyond;
     batch_write(c->batch, at.e->index[at.k], out);
 }
 
@@ -394,12 +398,23 @@ static void end_group(const batch_state *c, lane_group *e, unsigned some, const 
 
 // Lanes from `count` on repeat lane 0.
 static void fill(lane_group *e, unsigned count) {
-    lane_column *column = (lane_column *)e->lanes;
     for (unsigned k = count; k < PAIR8; k++) {
         e->at.pose_a[k] = e->at.pose_a[0];
         e->at.pose_b[k] = e->at.pose_b[0];
-        for (int i = 0; i < PAIR8_SPHERE_COLUMNS; i++) column[i].lane[k] = column[i].lane[0];
+        e->at.shape_a[k] = e->at.shape_a[0];
+        e->at.shape_b[k] = e->at.shape_b[0];
     }
+}
+
+// Fills the columns of a waiting group that the ellipsoids read. Couples that came from several groups are placed
+// again, in lanes: this costs less than copying some forty columns lane by lane.
+static void place_again(const batch_state *c, lane_group *e) {
+    pair8_query numbers = c->numbers;
+    numbers.keeps_all = 1;
+    if (!e->is_placed) (void)c->kernels->spheres(&e->at, &numbers, e->lanes);
+    // Distances of bodies far apart start from the line of centres.
+    for (unsigned k = 0; k < PAIR8; k++)
+        e->lanes->line.lane[k] = c->goal.far == INFINITY && e->lanes->lower.lane[k] > e->lanes->reach.lane[k];
 }
 
 // Takes all waiting couples through the ellipsoids to their answers.
@@ -408,6 +423,7 @@ static void settle(batch_state *c) {
     pair8_group waiting[PAIR8_GROUPS];
     if (last) fill(&c->waiting[groups - 1], last);
     for (unsigned i = 0; i < groups; i++) {
+        place_again(c, &c->waiting[i]);
         waiting[i].from = find_ellipsoids(&c->waiting[i]);
         waiting[i].lanes = c->waiting[i].lanes;
     }
@@ -424,9 +440,9 @@ static void wait_for_others(batch_state *c, const lane_group *e, unsigned k) {
     to->index[at] = e->index[k];
     to->at.pose_a[at] = e->at.pose_a[k];
     to->at.pose_b[at] = e->at.pose_b[k];
-    const lane_column *from = (const lane_column *)e->lanes;
-    lane_column *column = (lane_column *)to->lanes;
-    for (int i = 0; i < PAIR8_SPHERE_COLUMNS; i++) column[i].lane[at] = from[i].lane[k];
+    to->at.shape_a[at] = e->at.shape_a[k];
+    to->at.shape_b[at] = e->at.shape_b[k];
+    to->is_placed = 0;
 }
 
 // How many couples ahead the beginning of shapes is prefetched; bodies twice as many.
@@ -529,25 +545,23 @@ static void take_group(batch_state *c, size_t first, unsigned count, lane_group 
     unsigned odd = find_places(c, first, count, e), all = (1u << count) - 1;
     pair8_found found = c->kernels->spheres(&e->at, &c->numbers, e->lanes);
     odd |= found.odd;
-    // Distances of bodies far apart start from the line of centres.
-    for (unsigned k = 0; k < PAIR8; k++)
-        e->lanes->line.lane[k] = c->goal.far == INFINITY && e->lanes->lower.lane[k] > e->lanes->reach.lane[k];
     unsigned apart = found.apart & ~odd & all, open = all & ~(odd | apart);
     unsigned warm = c->batch->proofs ? find_warm(c->batch, e, open) : 0;
     open &= ~warm;
     for (unsigned rest = (odd & all) | warm; rest; rest &= rest - 1)
         leave_alone(c, first + compiler_count_low_zeros(rest));
     for (unsigned rest = apart; rest; rest &= rest - 1)
-        end_at_spheres(c, (group_lane){e, compiler_count_low_zeros(rest)}, found.narrow);
+        end_at_spheres(c, (group_lane){e, compiler_count_low_zeros(rest)}, &found);
     open &= ~add_small(c, e, open);
     for (unsigned rest = open; rest; rest &= rest - 1) {
         unsigned k = compiler_count_low_zeros(rest);
         fetch_ellipsoids((const void *)e->at.shape_a[k]);
         fetch_ellipsoids((const void *)e->at.shape_b[k]);
     }
-    if (open == PAIR8_ALL && e != own)
+    if (open == PAIR8_ALL && e != own) {
         c->waiting_count += PAIR8;
-    else
+        e->is_placed = 1;
+    } else
         for (; open; open &= open - 1) wait_for_others(c, e, compiler_count_low_zeros(open));
     // Without room for another group, the waiting ones go first.
     if (c->waiting_count > PAIR8 * (PAIR8_GROUPS - 1)) settle(c);

@@ -40,9 +40,6 @@ typedef struct pair8 {
     lane_column lower, upper;
 } pair8;
 
-/// How many columns, from the first one on, are written before `ellipsoids`.
-enum { PAIR8_SPHERE_COLUMNS = 3 + 3 + 3 + 3 + 3 + 9 + 9 + 3 + 3 + 1 + 1 };
-
 /// The places of the numbers of a lane group's bodies and shapes. Pose: position xyz, rotation wxyz. Shape: reach,
 /// radius, centre xyz, extent, two that are not read, first vertex xyz, one that is not read.
 typedef struct pair8_places {
@@ -60,7 +57,7 @@ typedef struct pair8_query {
     double far, absolute, relative; ///< answered when lower > far; the tolerance, of the size
     double reject, claim;           ///< FRAME_REJECT, FRAME_CLAIM
     double hidden, length_most;     ///< OVOID_LENGTH_MIN, OVOID_LENGTH_MAX
-    int keeps_all;                  ///< `spheres` fills its columns even where all lanes are apart
+    int keeps_all;                  ///< `spheres` fills its columns even where the origins part all lanes
 } pair8_query;
 
 /// Masks of lanes.
@@ -68,6 +65,7 @@ typedef struct pair8_found {
     unsigned odd;    ///< not computed: left to the single query
     unsigned inner;  ///< a common point proves an overlap; lower, upper are its bounds
     unsigned apart;  ///< lower > far
+    unsigned origin; ///< of `apart`: by the spheres around the origins of the body frames, whose bounds these are
     unsigned narrow; ///< upper - lower is within the tolerance
 } pair8_found;
 
@@ -80,7 +78,8 @@ typedef struct pair8_group {
 
 /// Kernels of one instruction set.
 typedef struct pair8_kernels {
-    /// Places both bodies in the world and computes the bounds of the enclosing spheres: lower, upper.
+    /// Places both bodies in the world and computes the bounds of the enclosing spheres: lower, upper. The spheres
+    /// around the frames' origins come first, as they need no rotation.
     pair8_found (*spheres)(const pair8_places *from, const pair8_query *query, pair8 *o);
     /// B in the frame of A, inner and outer ellipsoids: lower and upper where these decide, the direction for the other
     /// lanes. For `count` lane groups, at most PAIR8_GROUPS: together they are faster.

@@ -39,6 +39,19 @@ LANES_INLINE void read_columns(const double *const rows[PAIR8], int from, int co
         _mm512_store_pd(out[k + 1].lane, _mm512_unpackhi_pd(even, odd));
     }
 }
+#elif LANES == 4
+LANES_INLINE __m256d read_two(const double *const rows[PAIR8], int first, int from) {
+    __m256d v = _mm256_castpd128_pd256(_mm_loadu_pd(rows[first] + from));
+    return _mm256_insertf128_pd(v, _mm_loadu_pd(rows[first + 2] + from), 1);
+}
+LANES_INLINE void read_columns(const double *const rows[PAIR8], int from, int count, lane_column *out) {
+    for (int k = 0; k < count; k += 2)
+        for (int at = 0; at < PAIR8; at += LANES) {
+            __m256d even = read_two(rows, at, from + k), odd = read_two(rows, at + 1, from + k);
+            _mm256_store_pd(out[k].lane + at, _mm256_unpacklo_pd(even, odd));
+            _mm256_store_pd(out[k + 1].lane + at, _mm256_unpackhi_pd(even, odd));
+        }
+}
 #else
 LANES_INLINE void read_columns(const double *const rows[PAIR8], int from, int count, lane_column *out) {
     for (int i = 0; i < PAIR8; i++)
@@ -48,11 +61,17 @@ LANES_INLINE void read_columns(const double *const rows[PAIR8], int from, int co
 
 // ---- poses and spheres
 
-// quat_to_mat3. *good loses the lanes whose quaternion would be scaled first.
-LANES_INLINE lane9 make_rotation(const lane_column *q, int at, lane_mask *good) {
+// The lanes whose quaternion need not be scaled.
+LANES_INLINE lane_mask is_plain(const lane_column *q, int at) {
+    lane w = get(q, at), x = get(q + 1, at), y = get(q + 2, at), z = get(q + 3, at);
+    lane norm = (w * w + x * x) + (y * y + z * z);
+    return lane_and(lane_greater(norm, lane_set(0x1p-60)), lane_less(norm, lane_set(0x1p60)));
+}
+
+// quat_to_mat3, of plain quaternions.
+LANES_INLINE lane9 make_rotation(const lane_column *q, int at) {
     lane w = get(q, at), x = get(q + 1, at), y = get(q + 2, at), z = get(q + 3, at);
     lane ww = w * w, xx = x * x, yy = y * y, zz = z * z, norm = (ww + xx) + (yy + zz);
-    *good = lane_and(*good, lane_and(lane_greater(norm, lane_set(0x1p-60)), lane_less(norm, lane_set(0x1p60))));
     lane s = lane_set(2) / norm, one = lane_set(1);
     lane xy = x * y, xz = x * z, yz = y * z, wx = w * x, wy = w * y, wz = w * z;
     return (lane9){{one - s * (yy + zz), s * (xy - wz), s * (xz + wy)},
@@ -78,55 +97,72 @@ typedef struct pair_columns {
     body_columns a, b;
 } pair_columns;
 
-// frame_place, reject_by_spheres and the bounds of rejection_make_answer.
-LANES_INLINE pair8_found compute_spheres(const pair_columns *from, const pair8_query *query, pair8 *o, int at) {
+// The claim of reject_by_spheres.
+LANES_INLINE lane compute_claim(const pair8_query *query, lane size) {
+    return lane_set(query->reject) * size + lane_set(3 * query->hidden);
+}
+
+// The numbers of frame_place that need no rotation, and the bounds of the spheres around the origins of the body
+// frames. No two vertices are farther apart than the far sides of these spheres.
+LANES_INLINE pair8_found compute_origins(const pair_columns *from, const pair8_query *query, pair8 *o, int at) {
     const body_columns *a = &from->a, *b = &from->b;
     lane3 origin = get3(a->position, at), origin_b = get3(b->position, at);
     lane_mask good = lane_and(is_in_reach(origin, query->length_most), is_in_reach(origin_b, query->length_most));
-    lane9 world = make_rotation(a->rotation, at, &good), world_b = make_rotation(b->rotation, at, &good);
+    good = lane_and(good, lane_and(is_plain(a->rotation, at), is_plain(b->rotation, at)));
     lane3 offset = lane3_sub(origin_b, origin);
-    lane radii = get(a->head + 1, at) + get(b->head + 1, at), reach = get(a->head, at) + get(b->head, at);
-    lane size = get(a->head + 5, at) + get(b->head + 5, at) + lane3_norm(offset) + radii;
+    lane radii = get(a->head + 1, at) + get(b->head + 1, at), extents = get(a->head + 5, at) + get(b->head + 5, at);
+    lane distance = lane3_norm(offset), size = extents + distance + radii, claim = compute_claim(query, size);
+    lane lower = distance - extents - radii - claim, upper = distance + extents - radii + claim;
+    lane tolerance =
+        lane_max(lane_set(query->absolute), lane_set(query->relative) * size) + lane_set(8 * query->hidden);
+    unsigned apart = lane_bits(lane_and(good, lane_greater(lower, lane_set(query->far))));
+    put3(o->offset, at, offset);
+    put(&o->radii, at, radii);
+    put(&o->size, at, size);
+    put(&o->tolerance, at, tolerance);
+    put(&o->lower, at, lower);
+    put(&o->upper, at, upper);
+    return (pair8_found){lane_bits(lane_not(good)), 0, apart, apart, lane_bits(lane_at_most(upper - lower, tolerance))};
+}
+
+// The rest of frame_place, reject_by_spheres and the bounds of rejection_make_answer. Lanes that the origins' spheres
+// part keep the bounds of these.
+LANES_INLINE pair8_found compute_spheres(const pair_columns *from, const pair8_query *query, pair8 *o, int at) {
+    const body_columns *a = &from->a, *b = &from->b;
+    lane far = lane_set(query->far), size = get(&o->size, at), radii = get(&o->radii, at);
+    lane3 offset = get3(o->offset, at);
+    lane9 world = make_rotation(a->rotation, at), world_b = make_rotation(b->rotation, at);
+    lane reach = get(a->head, at) + get(b->head, at), claim = compute_claim(query, size);
 
     // The enclosing spheres.
     lane3 center_a = get3(a->head + 2, at), center_b = get3(b->head + 2, at);
     lane3 d = lane3_add(offset, lane3_sub(lane9_mul3(world_b, center_b), lane9_mul3(world, center_a)));
-    lane claim = lane_set(query->reject) * size + lane_set(3 * query->hidden);
-    lane lower = lane3_norm(d) - reach - radii - claim;
-    lane_mask apart = lane_and(good, lane_greater(lower, lane_set(query->far)));
+    lane_mask origin = lane_greater(get(&o->lower, at), far);
+    lane lower = lane_select(origin, get(&o->lower, at), lane3_norm(d) - reach - radii - claim);
 
     // Any two vertices, for the upper bound.
     lane3 first_a = get3(a->first, at), first_b = get3(b->first, at);
     lane3 any = lane3_add(offset, lane3_sub(lane9_mul3(world_b, first_b), lane9_mul3(world, first_a)));
-    lane upper = lane3_norm(any) - radii + claim;
-    lane tolerance =
-        lane_max(lane_set(query->absolute), lane_set(query->relative) * size) + lane_set(8 * query->hidden);
+    lane upper = lane_select(origin, get(&o->upper, at), lane3_norm(any) - radii + claim);
     put(&o->lower, at, lower);
     put(&o->upper, at, upper);
-    pair8_found found = {lane_bits(lane_not(good)), 0, lane_bits(apart),
-                         lane_bits(lane_at_most(upper - lower, tolerance))};
-    if (!query->keeps_all && found.apart == (1u << LANES) - 1) return found;
-
-    // For the lanes that go on to the ellipsoids.
     put3(o->center_a, at, center_a);
     put3(o->center_b, at, center_b);
     put3(o->first_a, at, first_a);
     put3(o->first_b, at, first_b);
     put(&o->reach, at, reach);
-    put(&o->radii, at, radii);
-    put(&o->size, at, size);
     put9(o->world_a, at, world);
     put9(o->world_b, at, world_b);
-    put3(o->offset, at, offset);
     put3(o->between, at, d);
-    put(&o->tolerance, at, tolerance);
-    return found;
+    return (pair8_found){0, 0, lane_bits(lane_greater(lower, far)), 0,
+                         lane_bits(lane_at_most(upper - lower, get(&o->tolerance, at)))};
 }
 
 static void add_found(pair8_found *all, pair8_found some, int at) {
     all->odd |= some.odd << at;
     all->inner |= some.inner << at;
     all->apart |= some.apart << at;
+    all->origin |= some.origin << at;
     all->narrow |= some.narrow << at;
 }
 
@@ -136,13 +172,19 @@ LANES_TARGET static pair8_found run_spheres(const pair8_places *from, const pair
     read_columns(from->pose_b, 0, 4, c.b.position);
     read_columns(from->pose_a, 3, 4, c.a.rotation);
     read_columns(from->pose_b, 3, 4, c.b.rotation);
-    read_columns(from->shape_a, 0, 6, c.a.head);
-    read_columns(from->shape_b, 0, 6, c.b.head);
+    read_columns(from->shape_a, 0, 2, c.a.head);
+    read_columns(from->shape_b, 0, 2, c.b.head);
+    read_columns(from->shape_a, 4, 2, c.a.head + 4);
+    read_columns(from->shape_b, 4, 2, c.b.head + 4);
+    pair8_found origins = {0, 0, 0, 0, 0}, all = {0, 0, 0, 0, 0};
+    for (int at = 0; at < PAIR8; at += LANES) add_found(&origins, compute_origins(&c, query, o, at), at);
+    if (!query->keeps_all && origins.apart == PAIR8_ALL) return origins;
+    read_columns(from->shape_a, 2, 2, c.a.head + 2);
+    read_columns(from->shape_b, 2, 2, c.b.head + 2);
     read_columns(from->shape_a, 8, 4, c.a.first);
     read_columns(from->shape_b, 8, 4, c.b.first);
-    pair8_found all = {0, 0, 0, 0};
     for (int at = 0; at < PAIR8; at += LANES) add_found(&all, compute_spheres(&c, query, o, at), at);
-    return all;
+    return (pair8_found){origins.odd, 0, all.apart & ~origins.odd, origins.apart, all.narrow};
 }
 
 // ---- ellipsoids
@@ -321,7 +363,7 @@ LANES_INLINE pair8_found compute_outer(const ellipsoid_work *w, int at) {
     // Lanes that took the line of centres have not measured the outer ellipsoids.
     lane_mask passed = lane_or(inner, get_mask(&o->line, at));
     lane_mask apart = lane_and(lane_and(good, lane_not(passed)), lane_greater(lower, lane_set(w->query->far)));
-    return (pair8_found){lane_bits(lane_not(good)), lane_bits(inner), lane_bits(apart),
+    return (pair8_found){lane_bits(lane_not(good)), lane_bits(inner), lane_bits(apart), 0,
                          lane_bits(lane_at_most(upper - lower, get(&o->tolerance, at)))};
 }
 
@@ -356,7 +398,7 @@ LANES_TARGET static void run_ellipsoids(pair8_group *groups, unsigned count, con
         for (unsigned i = 0; i < count; i++)
             for (int at = 0; at < PAIR8 && w[i].is_searching; at += LANES) improve_direction(&w[i], round == 1, at);
     for (unsigned i = 0; i < count; i++) {
-        groups[i].found = (pair8_found){0, 0, 0, 0};
+        groups[i].found = (pair8_found){0, 0, 0, 0, 0};
         for (int at = 0; at < PAIR8; at += LANES) add_found(&groups[i].found, compute_outer(&w[i], at), at);
     }
 }

@@ -220,6 +220,29 @@ static void check_needles(uint64_t *s) {
     for (int i = 0; i < SHAPES; i++) ovoid_shape_destroy(shapes[i]);
 }
 
+// A body whose frame's origin is not in it, and a point beyond one of its vertices, on the line of both origins: this
+// line gives the whole gap, the line of the spheres' centres does not.
+static void check_origins(void) {
+    static const double xyz[12] = {1, 1, 0, 1, -1, 0, 1, 0, 0.5, 1, 0, -0.5}, point[3] = {0, 0, 0};
+    ovoid_shape *hull = ovoid_shape_create_from_points(xyz, 4, NULL, NULL),
+                *other = ovoid_shape_create_from_points(point, 1, NULL, NULL);
+    if (!CHECK(hull && other)) return;
+    ovoid_posed_shape both[2] = {{hull, {{0, 0, 0}, {1, 0, 0, 0}}}, {other, {{3, 3, 0}, {1, 0, 0, 0}}}};
+    ovoid_couple couple = {0, 1};
+    ovoid_answer found;
+    ovoid_batch batch = {both, 2, &couple, 1, NULL, NULL, NULL, &found, NULL};
+    ovoid_pair pair = {hull, other, both[0].pose, both[1].pose};
+    CHECK(ovoid_collide_batch(&batch, NULL) == OVOID_OK);
+    CHECK(found.stage == OVOID_STAGE_SPHERE);
+    // The constants of the bound are some 1e-13 of the size.
+    CHECK_NEAR(found.lower, 2 * sqrt(2), 1e-12);
+    CHECK_NEAR(found.upper, 4 * sqrt(2), 1e-12);
+    CHECK_NEAR(found.normal.x, sqrt(0.5), 1e-15);
+    CHECK(ovoid_answer_verify(&pair, &found, NULL, NULL) == OVOID_OK);
+    ovoid_shape_destroy(hull);
+    ovoid_shape_destroy(other);
+}
+
 // A couple that names no body; nothing at all.
 static void check_refusals(void) {
     couples[7].b = BODIES;
@@ -262,6 +285,7 @@ int main(void) {
     check_widths();
     for (int i = 0; i < SHAPES; i++) ovoid_shape_destroy(shapes[i]);
     check_needles(&s);
+    check_origins();
     // So small that what underflow can hide is a part of every bound.
     scale = 1e-115;
     if (!make_shapes(shapes, &s)) return check_end();

@@ -9,6 +9,9 @@
 
 enum { SHAPES = 24, ROUNDS = 400 };
 
+/// How many columns, from the first one on, `spheres` writes.
+enum { SPHERE_COLUMNS = offsetof(pair8, line) / sizeof(lane_column) };
+
 static ovoid_shape *shapes[SHAPES];
 
 // What the kernels read and write; two sets of columns, one for each contestant.
@@ -79,7 +82,7 @@ static void compare(const lane_column *a, const lane_column *b, int count, unsig
 static int same_found(const pair8_found *a, const pair8_found *b) {
     unsigned meant = ~a->odd & PAIR8_ALL;
     return a->odd == b->odd && ((a->inner ^ b->inner) & meant) == 0 && ((a->apart ^ b->apart) & meant) == 0 &&
-           ((a->narrow ^ b->narrow) & meant) == 0;
+           ((a->origin ^ b->origin) & meant) == 0 && ((a->narrow ^ b->narrow) & meant) == 0;
 }
 
 static void check_place(const pair8_kernels *scalar, const pair8_kernels *kernels, pair8_query *ask) {
@@ -88,7 +91,7 @@ static void check_place(const pair8_kernels *scalar, const pair8_kernels *kernel
         CHECK(same_found(&a, &b));
         unsigned meant = ~a.odd & PAIR8_ALL;
         compare(&truth[i].lower, &other[i].lower, 2, meant);
-        if (ask->keeps_all) compare((lane_column *)&truth[i], (lane_column *)&other[i], PAIR8_SPHERE_COLUMNS, meant);
+        if (ask->keeps_all) compare((lane_column *)&truth[i], (lane_column *)&other[i], SPHERE_COLUMNS, meant);
     }
 }
 
