@@ -27,7 +27,7 @@ tests_of() {
     allowance) echo "test_allowance test_allowance_axis test_judge_allowance test_judge_round" ;;
     query) echo "$query" ;;
     prepared) echo "test_prepared test_environment" ;;
-    depth_memory) echo "test_query_memory" ;;
+    depth_memory) echo "test_query_memory test_query_surface" ;;
     growth) echo "test_simd_epa8 test_judge_capacity $query" ;;
     boxes) echo "test_simd_box_axes test_query_boxes $query" ;;
     closed) echo "test_query_closed test_judge_closed test_query_batch test_prepared test_allowance test_query_boxes $query" ;;

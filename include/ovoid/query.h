@@ -189,7 +189,7 @@ OVOID_API ovoid_answer ovoid_distance(const ovoid_pair *pair, const ovoid_option
 OVOID_API ovoid_answer ovoid_depth(const ovoid_pair *pair, const ovoid_options *options, const ovoid_proof *earlier,
                                    ovoid_cover *cover);
 
-/** Bytes of working memory for a search of up to that many points: 144 a point and 10 KB. 0: too many points. */
+/** Bytes of working memory for a search of up to that many points: 150 a point and 10 KB. 0: too many points. */
 OVOID_API size_t ovoid_depth_get_memory_size(uint32_t point_count);
 
 /**

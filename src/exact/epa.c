@@ -7,7 +7,7 @@
 //   the radius that the whole surface keeps from the origin, checked at the end as a proof (cover.c).
 // - A depth's first points are joined in lanes (epa_lanes.c); this goes on from there where it must.
 // Working memory is on the stack, about 80 KB; beyond 512 points the surface goes on in the caller's, if there is any.
-// Cost: for each new point one support and a scan of the faces that may be the nearest.
+// Cost: for each new point one support and a scan of the faces that may be the nearest; in the caller's memory no scan.
 #include "exact/epa.h"
 
 #include "base/compiler.h"
@@ -48,9 +48,7 @@ typedef struct growth {
 } growth;
 
 static int has_point(const expansion *e, const frame_support *support) {
-    for (uint32_t i = 0; i < e->points; i++)
-        if (e->a[i] == support->a && e->b[i] == support->b) return 1;
-    return 0;
+    return expansion_has_point(e, support->a, support->b);
 }
 
 static void push(expansion *e, frame_support w) { (void)expansion_add_point(e, w.w, w.a, w.b); }

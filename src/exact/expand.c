@@ -1,8 +1,13 @@
 // The hull grows point by point: the faces visible from a new point are replaced by the cone from it to their horizon.
 // The planes are rounded; what rests on the surface is proven elsewhere (cover.c).
+//
+// A surface of few points is searched from end to end. One that was moved to the caller's memory has a tournament of
+// its faces (D. E. Knuth, The Art of Computer Programming 3, 5.4.1) and a hash table of its points, so that a point is
+// joined in a time that does not grow with their number.
 #include "exact/expand.h"
 
 #include "pair/simplex.h"
+#include "tools/hash.h"
 
 #include <string.h>
 
@@ -19,7 +24,7 @@ void expansion_clear(expansion *p, double slack) {
 
 static void open_face(expansion *p, uint16_t g) {
     p->f[g].alive = 1;
-    if (p->f[g].low < p->bound) p->open[p->open_count++] = g;
+    if (!p->leaves && p->f[g].low < p->bound) p->open[p->open_count++] = g;
 }
 
 // A sliver's normal is orthogonalised; a face without area takes its neighbour's normal: any direction gives true
@@ -71,12 +76,85 @@ static uint16_t add_face(expansion *p) {
     return p->faces < p->most_faces ? (uint16_t)p->faces++ : NONE;
 }
 
+// ---- the index of the points, and the tournament of the faces
+
+typedef struct origin {
+    uint32_t a, b;
+} origin;
+
+static int is_end(const void *table, size_t slot, const void *key) {
+    const expansion *p = table;
+    const origin *wanted = key;
+    uint16_t i = p->index[slot];
+    return i == NONE || (p->a[i] == wanted->a && p->b[i] == wanted->b);
+}
+
+static size_t find_slot(const expansion *p, uint32_t a, uint32_t b) {
+    return hash_find(hash_pair(a, b), p->slots, p, &(origin){a, b}, is_end);
+}
+
+int expansion_has_point(const expansion *p, uint32_t a, uint32_t b) {
+    if (p->leaves) return p->index[find_slot(p, a, b)] < p->points;
+    for (uint32_t i = 0; i < p->points; i++)
+        if (p->a[i] == a && p->b[i] == b) return 1;
+    return 0;
+}
+
+static double get_key(const expansion *p, uint16_t g) { return g < p->faces && p->f[g].alive ? p->f[g].low : INFINITY; }
+
+// The winner of a node's two children, of which those from `leaves` on are faces.
+static uint16_t play(const expansion *p, uint32_t node) {
+    uint16_t player[2];
+    for (uint32_t i = 0; i < 2; i++) {
+        uint32_t child = 2 * node + i;
+        player[i] = child < p->leaves ? p->winners[child] : (uint16_t)(child - p->leaves);
+    }
+    return player[get_key(p, player[1]) < get_key(p, player[0])];
+}
+
+// Plays a face's games again, up to the first one whose winner stays and is another face.
+static void replay(expansion *p, uint16_t g) {
+    for (uint32_t node = (p->leaves + g) / 2; node > 0; node /= 2) {
+        uint16_t winner = play(p, node);
+        if (winner == p->winners[node] && winner != g) return;
+        p->winners[node] = winner;
+    }
+}
+
+// The tournament anew, with room for twice the faces.
+static void make_tournament(expansion *p) {
+    p->leaves = 2 * p->faces < p->most_faces ? 2 * p->faces : p->most_faces;
+    for (uint32_t node = p->leaves - 1; node > 0; node--) p->winners[node] = play(p, node);
+}
+
+// After a point was joined: the faces that it saw, the last ones to become free, and its own take part anew.
+static void update_tournament(expansion *p, uint32_t seen) {
+    if (p->faces > p->leaves) {
+        make_tournament(p);
+        return;
+    }
+    for (uint32_t i = 0; i < seen; i++) replay(p, p->free[p->free_count - 1 - i]);
+    for (uint32_t i = 0; i < p->ring_count; i++) replay(p, p->ring[i]);
+}
+
+// The index anew, four slots or more for each point; two of each point that there is room for.
+static void make_index(expansion *p) {
+    for (p->slots = 1; p->slots < 4 * p->points && p->slots <= 2 * p->most_points;) p->slots *= 2;
+    memset(p->index, 0xff, p->slots * sizeof *p->index);
+    for (uint32_t i = 0; i < p->points; i++) p->index[find_slot(p, p->a[i], p->b[i])] = (uint16_t)i;
+}
+
 uint16_t expansion_add_point(expansion *p, vec3 w, uint32_t a, uint32_t b) {
-    p->w[p->points] = w;
-    p->a[p->points] = a;
-    p->b[p->points] = b;
-    p->stamp[p->points] = 0;
-    return (uint16_t)p->points++;
+    uint16_t i = (uint16_t)p->points++;
+    p->w[i] = w;
+    p->a[i] = a;
+    p->b[i] = b;
+    p->stamp[i] = 0;
+    if (p->leaves && 2 * p->points > p->slots)
+        make_index(p);
+    else if (p->leaves)
+        p->index[find_slot(p, a, b)] = i;
+    return i;
 }
 
 // The four faces of the first tetrahedron, outward: a base, and a cone from point 3 over it.
@@ -139,8 +217,10 @@ static uint16_t find_least(const expansion *p) {
     return best;
 }
 
-// Searches the open faces and drops those that were replaced; if none is left, searches all faces.
+// Without a tournament: searches the open faces and drops those that were replaced; if none is left, searches all
+// faces.
 uint16_t expansion_find_nearest(expansion *p) {
+    if (p->leaves) return p->winners[1];
     uint32_t kept = 0;
     uint16_t best = NONE;
     double least = INFINITY;
@@ -247,6 +327,7 @@ int expansion_join(expansion *p, uint16_t first, uint16_t apex) {
     }
     free_faces(p, seen, (uint32_t)(end - seen));
     set_ring(p, apex);
+    if (p->leaves) update_tournament(p, (uint32_t)(end - seen));
     return 1;
 }
 
@@ -267,11 +348,13 @@ static void carve(expansion *p, char *base, size_t points) {
     p->triangles = (uint16_t(*)[3])(void *)(base + at);
     p->ring = (uint16_t *)(void *)(base + at), at += points * sizeof *p->ring;
     p->free = (uint16_t *)(void *)(base + at), at += faces * sizeof *p->free;
-    p->open = (uint16_t *)(void *)(base + at);
+    p->winners = (uint16_t *)(void *)(base + at), at += faces * sizeof *p->winners;
+    p->index = (uint16_t *)(void *)(base + at);
 }
 
+// Ring, free faces, tournament, and up to four slots of the index for each point.
 size_t expansion_get_room_size(uint32_t points) {
-    const size_t lists = points + 2 * (size_t)points + 3 * (size_t)points;
+    const size_t lists = (1 + 2 + 2 + 4) * (size_t)points;
     return points * (sizeof(vec3) + 2 * sizeof(uint32_t) + 2 * sizeof(uint16_t)) + 2 * points * sizeof(face) +
            lists * sizeof(uint16_t);
 }
@@ -286,7 +369,9 @@ void expansion_move(expansion *p, void *room, uint32_t points) {
     // The stamps of a point that was not joined are not kept.
     memset(p->stamp, 0, from.points * sizeof *p->stamp);
     memcpy(p->free, from.free, from.free_count * sizeof *p->free);
-    memcpy(p->open, from.open, from.open_count * sizeof *p->open);
+    p->open = NULL;
+    make_tournament(p);
+    make_index(p);
 }
 
 uint32_t expansion_pack(expansion *p) {

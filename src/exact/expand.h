@@ -34,6 +34,9 @@ typedef struct expansion {
     uint16_t *ring;           ///< the last point's new faces, around it
     uint16_t *free;           ///< faces that can be used again; from its end down those that the last point saw
     uint16_t *open;           ///< faces nearer than `bound`; some may have been replaced
+    uint32_t leaves, slots;   ///< of the next two; 0: the expansion was not moved, and the lists are searched
+    uint16_t *winners;        ///< a tournament of the faces: the nearer one of two children, the nearest at 1
+    uint16_t *index;          ///< of the points, by where they came from
     uint16_t (*triangles)[3]; ///< of the surface, by expansion_pack
 } expansion;
 
@@ -60,6 +63,7 @@ typedef struct expansion {
         p->w = room->w, p->a = room->a, p->b = room->b, p->leaving = room->leaving, p->stamp = room->stamp;            \
         p->f = room->f, p->ring = room->ring, p->free = room->free, p->open = room->open;                              \
         p->triangles = room->triangles;                                                                                \
+        p->leaves = p->slots = 0;                                                                                      \
     }                                                                                                                  \
     typedef NAME NAME
 // NOLINTEND(bugprone-macro-parentheses)
@@ -78,6 +82,9 @@ void expansion_clear(expansion *p, double slack);
 
 /// Adds a point without joining it to the surface; there must be room.
 uint16_t expansion_add_point(expansion *p, vec3 w, uint32_t a, uint32_t b);
+
+/// 1 if a point came from there already.
+int expansion_has_point(const expansion *p, uint32_t a, uint32_t b);
 
 /// The surface of the first four points, which must span space.
 void expansion_make_tetrahedron(expansion *p);

@@ -133,12 +133,13 @@ static int is_end(const void *table, size_t slot, const void *key) {
     return held == UINT32_MAX || held == *(const uint32_t *)key;
 }
 
-// Edges are taken in parts that fit the table: an edge and its reverse are in one part.
+// Edges are taken in parts that fit the table: an edge and its reverse are in one part. The hash by which they are
+// shared out is one product, as each edge is looked at once for each part.
 enum { SLOTS = 8192, EDGES_OF_PART = SLOTS / 2, EDGES_MOST = SLOTS / 4 * 3 };
 
 static uint32_t find_part(uint32_t from, uint32_t to, uint32_t parts) {
     uint32_t low = from < to ? from : to, high = from < to ? to : from;
-    return parts == 1 ? 0 : (uint32_t)((hash_number(low << 16 | high) >> 13) % parts);
+    return (uint32_t)((uint64_t)((low << 16 | high) * 0x9e3779b1u) * parts >> 32);
 }
 
 // Directed edges of one part in a hash table with open addressing; each must be new, and have its reverse in the end.
@@ -148,9 +149,9 @@ static int is_part_closed(const surface *s, uint32_t part, uint32_t parts) {
     for (int pass = 0; pass < 2; pass++)
         for (uint32_t t = 0; t < s->triangle_count; t++)
             for (int e = 0; e < 3; e++) {
-                uint32_t from = s->triangles[t][e], to = s->triangles[t][(e + 1) % 3];
-                if (from >= s->point_count || to >= s->point_count || from == to) return 0;
+                uint32_t from = s->triangles[t][e], to = s->triangles[t][e == 2 ? 0 : e + 1];
                 if (find_part(from, to, parts) != part) continue;
+                if (from >= s->point_count || to >= s->point_count || from == to) return 0;
                 if (pass == 0 && ++count > EDGES_MOST) return 0;
                 uint32_t key = pass == 0 ? from << 16 | to : to << 16 | from;
                 size_t slot = hash_find(hash_number(key), SLOTS, table, &key, is_end);

@@ -77,7 +77,7 @@ inline answer depth(const pair &p, const ovoid_options &o = options(), const ovo
 /** Working memory of depth and the cover that it leaves there. The memory is owned. */
 class depth_memory {
   public:
-    /** For a search of up to that many points: 144 bytes each. Throws std::bad_alloc. */
+    /** For a search of up to that many points: 150 bytes each. Throws std::bad_alloc. */
     explicit depth_memory(std::uint32_t points = OVOID_COVER_POINTS_MAX)
         : data_(new unsigned char[ovoid_depth_get_memory_size(points)]), memory_{data_.get(),
                                                                                  ovoid_depth_get_memory_size(points),

@@ -257,6 +257,67 @@ static void check_convex(uint64_t *s) {
         for (int i = 0; i < 32 && e.f[f].alive; i++) CHECK_LE(vec3_dot(e.f[f].n, w[i]) - e.f[f].low, 1e-12);
 }
 
+// ---- in the caller's memory
+
+enum { BALL = 900, MOVED_AT = 40 };
+
+/// What the expansion finds by its tournament and its index, and what a look at each face and point finds.
+static void check_found(expansion *e) {
+    double least = INFINITY;
+    for (uint32_t i = 0; i < e->faces; i++)
+        if (e->f[i].alive) least = fmin(least, e->f[i].low);
+    uint16_t nearest = expansion_find_nearest(e);
+    CHECK(e->f[nearest].alive && e->f[nearest].low == least);
+    for (uint32_t a = 0; a < BALL; a += 7) {
+        int is_there = 0;
+        for (uint32_t i = 0; i < e->points; i++) is_there |= e->a[i] == a && e->b[i] == a % 5;
+        CHECK_EQ(expansion_has_point(e, a, a % 5), is_there);
+        CHECK(!expansion_has_point(e, a, 5));
+    }
+}
+
+static uint32_t find_farthest(const vec3 *w, vec3 n) {
+    uint32_t best = 0;
+    for (uint32_t i = 1; i < BALL; i++)
+        if (vec3_dot(w[i], n) > vec3_dot(w[best], n)) best = i;
+    return best;
+}
+
+/// A ball of random points that grows as EPA would have it, moved on the way. `most`: points that the memory holds;
+/// some of a ball whose points nearly all are needed are too many for little memory.
+static void check_moved(uint64_t *s, uint32_t most) {
+    static vec3 w[BALL];
+    static expansion e;
+    static expansion_room room;
+    void *memory = malloc(expansion_get_room_size(most));
+    for (int i = 0; i < BALL; i++) {
+        vec3 v = {random_normal(s), random_normal(s), random_normal(s)};
+        w[i] = vec3_unit(v);
+    }
+    expansion_room_give(&room, &e);
+    expansion_clear(&e, 1e-14);
+    for (uint32_t i = 0; i < 4; i++) {
+        uint32_t k = find_farthest(w, (vec3[4]){{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}}[i]);
+        (void)expansion_add_point(&e, w[k], k, k % 5);
+    }
+    expansion_make_tetrahedron(&e);
+    while (e.points < most) {
+        if (e.points == MOVED_AT) expansion_move(&e, memory, most);
+        if (e.points % 16 == 0) check_found(&e);
+        uint16_t nearest = expansion_find_nearest(&e);
+        uint32_t k = find_farthest(w, e.f[nearest].n);
+        if (expansion_has_point(&e, k, k % 5)) break;
+        uint32_t faces = e.faces;
+        if (!expansion_join(&e, nearest, expansion_add_point(&e, w[k], k, k % 5))) {
+            CHECK(faces + 8 > e.most_faces);
+            break;
+        }
+    }
+    check_found(&e);
+    CHECK_LE(2 * MOVED_AT, e.points);
+    free(memory);
+}
+
 // A corner that is none of the surface's points, though the memory behind them may hold one; and edges that nothing
 // closes.
 static void check_closed(void) {
@@ -298,6 +359,7 @@ int main(void) {
         check_plain(&s);
         check_holes(&s);
         check_convex(&s);
+        if (seed % 100 == 0) check_moved(&s, seed % 200 ? 2 * BALL : 100);
     }
     printf("%ld proven, %ld refused\n", proven, refused);
     CHECK(proven > 1000 && refused > 1000);
