@@ -36,7 +36,7 @@ typedef struct rounder {
 
 static double find_support(const ovoid_shape *s, vec3 n, vec3 *point, uint32_t *vertex) {
     *vertex = 0;
-    if (s->round.kind != OVOID_ROUND_NONE) return round_find_support(s, n, point);
+    if (shape_is_round(s)) return round_find_support(s, n, point);
     simd_extreme x = shape_find_extreme(s, n);
     *point = (vec3){x.x, x.y, x.z};
     *vertex = x.index;
@@ -200,10 +200,10 @@ static void take_point_along(rounder *r, int is_round_a, vec3 x, vec3 n) {
 // The bounds of a round body and a point, or a sphere; 0 of other pairs.
 static int take_point(rounder *r) {
     const pair_frame *f = r->frame;
-    if (f->b->vertex_count == 1 && f->a->round.kind != OVOID_ROUND_NONE) {
+    if (f->b->vertex_count == 1 && shape_is_round(f->a)) {
         vec3 x = frame_b(f, f->b->first);
         take_point_along(r, 1, x, vec3_unit(find_point_normal(f->a, x)));
-    } else if (f->a->vertex_count == 1 && f->b->round.kind != OVOID_ROUND_NONE) {
+    } else if (f->a->vertex_count == 1 && shape_is_round(f->b)) {
         vec3 x = move_to_b(f, f->a->first);
         take_point_along(r, 0, x, vec3_unit(mat3_mul_vec3(f->rotation, find_point_normal(f->b, x))));
     } else {

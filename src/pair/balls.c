@@ -47,15 +47,15 @@ static vec3 cut_off_at_box(const parallelepiped *box, vec3 off) {
 }
 
 vec3 balls_cut_off(const ovoid_shape *s, vec3 x) {
-    vec3 from = s->round.kind != OVOID_ROUND_NONE ? vec3_neg(s->origin) : s->box.center, v = vec3_sub(x, from);
-    vec3 held = s->round.kind != OVOID_ROUND_NONE ? cut_off_at_round(&s->round, v) : cut_off_at_box(&s->box, v);
+    vec3 from = shape_is_round(s) ? vec3_neg(s->origin) : s->box.center, v = vec3_sub(x, from);
+    vec3 held = shape_is_round(s) ? cut_off_at_round(&s->round, v) : cut_off_at_box(&s->box, v);
     return vec3_add(from, held);
 }
 
 // The radius of the largest ball about x, in the body frame.
 static double find_room(const ovoid_shape *s, vec3 x) {
     if (!balls_fit(s)) return -INFINITY;
-    int is_round = s->round.kind != OVOID_ROUND_NONE;
+    int is_round = shape_is_round(s);
     double room = is_round ? find_room_in_round(&s->round, vec3_add(x, s->origin))
                            : find_room_in_box(&s->box, vec3_sub(x, s->box.center));
     return room >= 0 ? room : -vec3_norm(vec3_sub(balls_cut_off(s, x), x));
@@ -70,9 +70,7 @@ double balls_measure(const pair_frame *f, const ball_centers *c, double error) {
     return vec3_norm(vec3_sub(frame_b(f, c->b), c->a)) - room_a - room_b + error;
 }
 
-static double find_radius(const ovoid_shape *s) {
-    return s->round.kind != OVOID_ROUND_NONE ? s->radius : s->upper_radius;
-}
+static double find_radius(const ovoid_shape *s) { return shape_is_round(s) ? s->radius : s->upper_radius; }
 
 double balls_compute_radii(const pair_frame *f) { return find_radius(f->a) + find_radius(f->b); }
 
@@ -88,8 +86,8 @@ static vec3 find_mean(const ovoid_shape *s, const uint32_t *v, const double *w, 
 
 ball_centers balls_find_centers(const pair_frame *f, const ovoid_proof *p) {
     ball_centers c = {p->inner_a, p->inner_b, 0, 0};
-    c.is_point_a = p->count > 0 && f->a->round.kind == OVOID_ROUND_NONE;
-    c.is_point_b = p->count > 0 && f->b->round.kind == OVOID_ROUND_NONE;
+    c.is_point_a = p->count > 0 && !shape_is_round(f->a);
+    c.is_point_b = p->count > 0 && !shape_is_round(f->b);
     if (c.is_point_a) c.a = find_mean(f->a, p->a, p->weight_a, p->count);
     if (c.is_point_b) c.b = find_mean(f->b, p->b, p->weight_b, p->count);
     return c;

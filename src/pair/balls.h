@@ -17,7 +17,7 @@ typedef struct ball_centers {
 } ball_centers;
 
 /// 1 if the balls in a shape are known in closed form: a true cylinder or cone, or a box.
-static inline int balls_fit(const ovoid_shape *s) { return s->round.kind != OVOID_ROUND_NONE || s->box.is_right; }
+static inline int balls_fit(const ovoid_shape *s) { return shape_is_round(s) || s->box.is_right; }
 
 /// The point of such a body that x becomes when it is cut off at the body, to rounding; x where it is inside.
 vec3 balls_cut_off(const ovoid_shape *shape, vec3 x);

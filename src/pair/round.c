@@ -16,14 +16,14 @@ double round_find_support(const ovoid_shape *s, vec3 n, vec3 *point) {
 
 double round_compute_radii(const pair_frame *f, vec3 n, double error) {
     vec3 in_b = mat3_mul_transposed_vec3(f->rotation, n);
-    double a = f->a->round.kind != OVOID_ROUND_NONE ? f->a->radius : shape_compute_lower_radius(f->a, n, error);
-    double b = f->b->round.kind != OVOID_ROUND_NONE ? f->b->radius : shape_compute_lower_radius(f->b, in_b, error);
+    double a = shape_is_round(f->a) ? f->a->radius : shape_compute_lower_radius(f->a, n, error);
+    double b = shape_is_round(f->b) ? f->b->radius : shape_compute_lower_radius(f->b, in_b, error);
     return a + b;
 }
 
 static double measure_support(const ovoid_shape *s, vec3 n) {
     vec3 point;
-    if (s->round.kind != OVOID_ROUND_NONE) return round_find_support(s, n, &point);
+    if (shape_is_round(s)) return round_find_support(s, n, &point);
     simd_points points = shape_get_points(s);
     return simd_find_support(&points, n).value;
 }

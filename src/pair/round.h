@@ -12,9 +12,7 @@
 #define ROUND_CLAIM (64 * 0x1p-53)
 #define ROUND_CHECK (32 * 0x1p-53)
 
-static inline int frame_has_round(const pair_frame *f) {
-    return (f->a->round.kind != OVOID_ROUND_NONE) | (f->b->round.kind != OVOID_ROUND_NONE);
-}
+static inline int frame_has_round(const pair_frame *f) { return shape_is_round(f->a) | shape_is_round(f->b); }
 
 /// The support of a round body along the unit n, both in its body frame; its point.
 double round_find_support(const ovoid_shape *shape, vec3 n, vec3 *point);

@@ -105,6 +105,9 @@ void block_fill(ovoid_shape *shape, const ovoid_polytope *polytope, uint32_t *ro
 /// else is then known about the true body.
 void block_set_radius(ovoid_shape *shape, double radius, ovoid_allowance allowance);
 
+/// 1 for a true cylinder or cone.
+static inline int shape_is_round(const ovoid_shape *s) { return s->round.kind != OVOID_ROUND_NONE; }
+
 /// The largest width that the allowance adds to a bracket.
 static inline double shape_get_width(const ovoid_shape *s) { return s->lower_radius - s->upper_radius; }
 

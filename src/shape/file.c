@@ -139,7 +139,7 @@ size_t shape_write_version(const ovoid_shape *shape, uint32_t version, void *buf
 // The proof of the triangles needs a point inside: the centre of an inner ellipsoid that is more than a point.
 static uint32_t choose_version(const ovoid_shape *s) {
     int is_large = s->rank == 3 && s->vertex_count >= SHAPE_TRIANGLES_LEAST && s->inner.q.xx != 0;
-    if (s->round.kind != OVOID_ROUND_NONE) return is_large ? 7 : 6;
+    if (shape_is_round(s)) return is_large ? 7 : 6;
     if (shape_has_axis(s)) return is_large ? 5 : 4;
     return is_large ? 3 : s->has_allowance ? 2 : 1;
 }

@@ -309,9 +309,9 @@ static vec3 find_start(const pair_frame *f, const ovoid_proof *proof, int is_swa
 void gradient_refine_round(const pair_frame *f, const ovoid_pair *pair, const ovoid_proof *proof, ovoid_gradient *out) {
     const ovoid_shape *shapes[2] = {f->a, f->b};
     for (int k = 0; k < 2; k++)
-        if (shapes[k]->has_allowance && shapes[k]->round.kind == OVOID_ROUND_NONE) return;
+        if (shapes[k]->has_allowance && !shape_is_round(shapes[k])) return;
     // The first body is round.
-    int is_swapped = f->a->round.kind == OVOID_ROUND_NONE;
+    int is_swapped = !shape_is_round(f->a);
     round_body bodies[2];
     bodies[is_swapped] = make_body(f->a, &f->world, pair->pose_a.rotation, (vec3){0, 0, 0});
     bodies[!is_swapped] = make_body(f->b, &f->world_b, pair->pose_b.rotation, f->offset);

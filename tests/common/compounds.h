@@ -4,6 +4,7 @@
 
 #include "check.h"
 #include "ovoid/body.h"
+#include "places.h"
 
 enum { SHAPES = 12 };
 
@@ -29,14 +30,6 @@ static inline int make_shapes(ovoid_shape *shapes[SHAPES], double scale, uint64_
 }
 static inline void destroy_shapes(ovoid_shape *shapes[SHAPES]) {
     for (int i = 0; i < SHAPES; i++) ovoid_shape_destroy(shapes[i]);
-}
-
-static inline ovoid_quat random_quat(uint64_t *s) {
-    return (ovoid_quat){random_normal(s), random_normal(s), random_normal(s), random_normal(s)};
-}
-static inline ovoid_vec3 random_vec3(uint64_t *s, double reach) {
-    return (ovoid_vec3){random_uniform(s, -reach, reach), random_uniform(s, -reach, reach),
-                        random_uniform(s, -reach, reach)};
 }
 
 /// A compound of parts spread over +-reach.

@@ -3,16 +3,8 @@
 #define OVOID_TESTS_SOLIDS_H
 
 #include "check.h"
+#include "places.h"
 #include <ovoid/ovoid.h>
-
-static inline ovoid_quat random_quat(uint64_t *s) {
-    double w = random_normal(s), x = random_normal(s), y = random_normal(s);
-    return (ovoid_quat){w, x, y, random_normal(s)};
-}
-static inline ovoid_vec3 random_vec3(uint64_t *s, double reach) {
-    double x = random_uniform(s, -reach, reach), y = random_uniform(s, -reach, reach);
-    return (ovoid_vec3){x, y, random_uniform(s, -reach, reach)};
-}
 
 /// A mesh under construction.
 typedef struct mesh {

@@ -4,6 +4,7 @@
 
 #include "bits.h"
 #include "ovoid/ovoid.h"
+#include "places.h"
 
 enum { WORLD_SHAPES = 12 };
 
@@ -36,9 +37,6 @@ static inline ovoid_compound *world_make_compound(uint64_t *s, ovoid_shape *cons
     return ovoid_compound_create(parts, 5, NULL, NULL);
 }
 
-static inline ovoid_quat random_quat(uint64_t *s) {
-    return (ovoid_quat){random_normal(s), random_normal(s), random_normal(s), random_normal(s)};
-}
 static inline ovoid_vec3 random_place(uint64_t *s, double side) {
     return (ovoid_vec3){random_uniform(s, -side, side), random_uniform(s, -side, side), random_uniform(s, -side, side)};
 }

@@ -10,6 +10,7 @@
 #include "judge.h"
 #include "options.h"
 #include "ovoid/ovoid.h"
+#include "places.h"
 
 static judge *court;
 
@@ -23,11 +24,6 @@ static ovoid_vec3 random_place(uint64_t *r, double size) {
     double x = random_normal(r), y = random_normal(r), z = random_normal(r);
     return (ovoid_vec3){size * x, size * y, size * z};
 }
-static ovoid_quat random_turn(uint64_t *r) {
-    double w = random_normal(r), x = random_normal(r), y = random_normal(r), z = random_normal(r);
-    return (ovoid_quat){w, x, y, z};
-}
-
 enum { SPHERE, CAPSULE, BOX, KINDS };
 
 static ovoid_shape *make_shape(uint64_t *r, double size, unsigned *kind) {
@@ -53,8 +49,8 @@ static void place(uint64_t *r, ovoid_pair *p) {
     double size = get_size(p->shape_a) + get_size(p->shape_b);
     const double far[6] = {2, 0.6, 0.3, 0.15, 0.03, 0};
     ovoid_vec3 d = random_place(r, size * far[random_below(r, 6)]);
-    p->pose_a = (ovoid_pose){random_place(r, size), random_turn(r)};
-    p->pose_b = (ovoid_pose){p->pose_a.position, random_turn(r)};
+    p->pose_a = (ovoid_pose){random_place(r, size), random_quat(r)};
+    p->pose_b = (ovoid_pose){p->pose_a.position, random_quat(r)};
     unsigned how = random_below(r, 8);
     if (how < 3) p->pose_b.rotation = p->pose_a.rotation;
     if (how == 1) p->pose_b.rotation.y += random_log(r, 1e-17, 1e-3);

@@ -6,6 +6,7 @@
 #include "judge.h"
 #include "manifolds.h"
 #include "options.h"
+#include "places.h"
 
 enum { SHAPES = 72, KINDS = 12, FRAMES = 4 };
 static ovoid_shape *shapes[SHAPES];
@@ -36,10 +37,6 @@ static ovoid_shape *create(int kind, uint64_t *s) {
     return ovoid_shape_create_from_points(xyz, (size_t)count, NULL, &error);
 }
 
-static ovoid_quat random_turn(uint64_t *s) {
-    return (ovoid_quat){random_normal(s), random_normal(s), random_normal(s), random_normal(s)};
-}
-
 // A turn in which faces or edges of A and B are parallel but for a small angle, from 1e-1 down to rounding, or none.
 static ovoid_quat small_turn(uint64_t *s) {
     double angle = random_next(s) % 4 ? pow(10, random_uniform(s, -17, -1)) : 0;
@@ -53,11 +50,11 @@ static ovoid_quat small_turn(uint64_t *s) {
 static void place(ovoid_pair *pair, uint64_t *s) {
     uint64_t way = random_next(s) % 4;
     ovoid_pose home = ovoid_pose_make_identity(),
-               by = {{random_normal(s), random_normal(s), random_normal(s)}, random_turn(s)};
+               by = {{random_normal(s), random_normal(s), random_normal(s)}, random_quat(s)};
     pair->pose_a = pair->pose_b = home;
     pair->pose_b.rotation = way == 0   ? (ovoid_quat){1, 0, 0, random_normal(s)}
                             : way == 1 ? small_turn(s)
-                                       : random_turn(s);
+                                       : random_quat(s);
     double aside = random_next(s) & 1 ? 0.3 : 1;
     vec3 d = vec3_unit((vec3){aside * random_normal(s), aside * random_normal(s), 1});
     double near = 0, far = 6, want = random_uniform(s, -0.03, 0.01);

@@ -5,6 +5,7 @@
 #include "check.h"
 #include "judge.h"
 #include "options.h"
+#include "places.h"
 
 #include "ovoid/ovoid.h"
 
@@ -15,12 +16,7 @@ static long accepted, refused, compared;
 static ovoid_quat random_turn(uint64_t *s) {
     static const ovoid_quat simple[] = {{1, 0, 0, 0}, {1, 1, 0, 0}, {1, 0, 1e-6, 0}, {0, 1, 0, 0}, {1, 1, 1, 1}};
     if (random_next(s) % 3 == 0) return simple[random_next(s) % 5];
-    return (ovoid_quat){random_normal(s), random_normal(s), random_normal(s), random_normal(s)};
-}
-
-static ovoid_vec3 random_point(uint64_t *s, double size) {
-    return (ovoid_vec3){size * random_uniform(s, -1, 1), size * random_uniform(s, -1, 1),
-                        size * random_uniform(s, -1, 1)};
+    return random_quat(s);
 }
 
 static ovoid_shape *make_round(uint64_t *s) {
@@ -105,7 +101,7 @@ static void check_best(const ovoid_pair *p, const ovoid_answer *x, uint64_t *s) 
     if (!(x->lower > 1e-6)) return;
     for (int i = 0; i < 60; i++) {
         double size = pow(10, -1 - i % 6);
-        ovoid_vec3 turn = random_point(s, size), n = x->normal;
+        ovoid_vec3 turn = random_vec3(s, size), n = x->normal;
         n = (ovoid_vec3){n.x + turn.x, n.y + turn.y, n.z + turn.z};
         double length = sqrt(n.x * n.x + n.y * n.y + n.z * n.z);
         CHECK_LE(find_gap(p, (ovoid_vec3){n.x / length, n.y / length, n.z / length}), x->lower + 2e-8);
@@ -164,7 +160,7 @@ int main(int count, char **arguments) {
         judge *context = judge_create();
         ovoid_shape *a = make_round(&s), *b = make_other(&s);
         double far = i % 3 == 0 ? 0.6 : 2;
-        ovoid_pair p = {a, b, {random_point(&s, 1), random_turn(&s)}, {random_point(&s, far), random_turn(&s)}};
+        ovoid_pair p = {a, b, {random_vec3(&s, 1), random_turn(&s)}, {random_vec3(&s, far), random_turn(&s)}};
         // Some about 1e-7 apart or deep.
         if (i % 4 == 0) {
             ovoid_answer x = ovoid_distance(&p, NULL, NULL);

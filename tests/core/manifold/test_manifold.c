@@ -1,6 +1,7 @@
 // Contacts of plain bodies. Truth: positions by hand; for random pairs the bracket of ovoid_depth, which has its own
 // judge, and the verifier.
 #include "manifolds.h"
+#include "places.h"
 
 static ovoid_quat turn_z(double angle) { return (ovoid_quat){cos(angle / 2), 0, 0, sin(angle / 2)}; }
 #define PI 3.14159265358979323846
@@ -237,10 +238,6 @@ static void place(ovoid_pair *pair, double want, uint64_t *s) {
     }
 }
 
-static ovoid_quat random_turn(uint64_t *s) {
-    return (ovoid_quat){random_normal(s), random_normal(s), random_normal(s), random_normal(s)};
-}
-
 static void check_against_depth(const ovoid_pair *pair, const ovoid_manifold *m) {
     ovoid_answer truth = ovoid_depth(pair, NULL, NULL, NULL);
     CHECK_LE(m->lower, truth.upper);
@@ -254,7 +251,7 @@ static void test_random(void) {
     for (uint64_t seed = 1; seed <= 200; seed++) {
         uint64_t s = check_seed = seed;
         ovoid_shape *a = create_hull(&s), *b = create_hull(&s);
-        ovoid_pair pair = {a, b, {{1, 2, 3}, random_turn(&s)}, {{0, 0, 0}, random_turn(&s)}};
+        ovoid_pair pair = {a, b, {{1, 2, 3}, random_quat(&s)}, {{0, 0, 0}, random_quat(&s)}};
         pair.pose_a.position = (vec3){0, 0, 0};
         place(&pair, random_uniform(&s, -0.1, 0.03), &s);
         o.tolerance = 0;
@@ -287,7 +284,7 @@ static void test_depth_of_points(void) {
     for (uint64_t seed = 1; seed <= 200; seed++) {
         uint64_t s = check_seed = seed;
         ovoid_shape *a = create_hull(&s), *b = create_hull(&s);
-        ovoid_pair pair = {a, b, {{0, 0, 0}, random_turn(&s)}, {{0, 0, 0}, random_turn(&s)}};
+        ovoid_pair pair = {a, b, {{0, 0, 0}, random_quat(&s)}, {{0, 0, 0}, random_quat(&s)}};
         place(&pair, random_uniform(&s, -0.1, -0.01), &s);
         ovoid_manifold m = {0};
         for (int k = 0; k < 5; k++) {
@@ -513,7 +510,7 @@ static void test_features_alone(void) {
                    half_b = {random_uniform(&s, 0.3, 2), random_uniform(&s, 0.3, 2), random_uniform(&s, 0.3, 2)};
         ovoid_shape *a = seed % 4 ? ovoid_shape_create_box(half_a, NULL, &error) : create_hull(&s),
                     *b = seed % 4 ? ovoid_shape_create_box(half_b, NULL, &error) : create_hull(&s);
-        ovoid_pair pair = {a, b, {{0, 0, 0}, random_turn(&s)}, {{0, 0, 0}, random_turn(&s)}};
+        ovoid_pair pair = {a, b, {{0, 0, 0}, random_quat(&s)}, {{0, 0, 0}, random_quat(&s)}};
         if (seed % 4 == 1) pair.pose_a.rotation = pair.pose_b.rotation = straight;
         place(&pair, -0.1, &s);
         ovoid_manifold m = ovoid_manifold_find(&pair, NULL, NULL);

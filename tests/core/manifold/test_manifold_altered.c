@@ -2,6 +2,7 @@
 // true by manifolds.h, which does not use the proof; the polygon's corners and share are compared with those before.
 #include "alter.h"
 #include "manifolds.h"
+#include "places.h"
 
 #define VEC3(member)                                                                                                   \
     ALTER_FIELD(ovoid_manifold, member.x, ALTER_REAL, 1e-9), ALTER_FIELD(ovoid_manifold, member.y, ALTER_REAL, 1e-9),  \
@@ -87,10 +88,6 @@ static ovoid_shape *create(int kind, uint64_t *s) {
     return ovoid_shape_create_from_points(xyz, 20, NULL, &error);
 }
 
-static ovoid_quat random_turn(uint64_t *s) {
-    return (ovoid_quat){random_normal(s), random_normal(s), random_normal(s), random_normal(s)};
-}
-
 static void place(ovoid_pair *pair, double want, uint64_t *s) {
     vec3 d = vec3_unit((vec3){0.2 * random_normal(s), 0.2 * random_normal(s), 1});
     double near = 0, far = 6;
@@ -111,7 +108,7 @@ int main(void) {
         int kind = (int)(seed % 4), is_face = seed % 8 < 4;
         ovoid_shape *a = create(kind, &s), *b = create((int)(seed / 8) % 4, &s);
         ovoid_pair pair = {a, b, ovoid_pose_make_identity(), ovoid_pose_make_identity()};
-        pair.pose_b.rotation = is_face ? (ovoid_quat){1, 0, 0, random_normal(&s)} : random_turn(&s);
+        pair.pose_b.rotation = is_face ? (ovoid_quat){1, 0, 0, random_normal(&s)} : random_quat(&s);
         place(&pair, random_uniform(&s, -0.05, 0.03), &s);
         ovoid_manifold_options o = {.margin = 0.02, .keep = seed % 3 ? 0 : 0.005, .cover = &cover};
         asked_manifold q = ask_manifold(&pair, &o, NULL);

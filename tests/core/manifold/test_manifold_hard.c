@@ -3,6 +3,7 @@
 // what manifolds.h finds without the contact's proof, the verifier, and bits.
 #include "bits.h"
 #include "manifolds.h"
+#include "places.h"
 
 enum { SHAPES = 14 };
 
@@ -43,10 +44,6 @@ static ovoid_shape *create_shape(int kind, double l, uint64_t *s) {
     case 12: return random_hull(12, l, s);
     default: return random_hull(100, l, s);
     }
-}
-
-static ovoid_quat random_turn(uint64_t *s) {
-    return (ovoid_quat){random_normal(s), random_normal(s), random_normal(s), random_normal(s)};
 }
 
 // Moves B along d until it is about that far.
@@ -107,7 +104,7 @@ static void test_pairs(void) {
                     uint64_t s = check_seed = (uint64_t)(((k * SHAPES + i) * SHAPES + j) * 3 + gap + 2);
                     double l = scales[k];
                     ovoid_shape *a = create_shape(i, l, &s), *b = create_shape(j, l, &s);
-                    ovoid_pair pair = {a, b, {{l, 2 * l, 0}, random_turn(&s)}, {{0, 0, 0}, random_turn(&s)}};
+                    ovoid_pair pair = {a, b, {{l, 2 * l, 0}, random_quat(&s)}, {{0, 0, 0}, random_quat(&s)}};
                     vec3 d = vec3_unit((vec3){random_normal(&s), random_normal(&s), random_normal(&s)});
                     if (s & 1) pair.pose_b.rotation = pair.pose_a.rotation;
                     place(&pair, d, 0.02 * l * gap, 12 * l);
@@ -126,7 +123,7 @@ static void test_positions(void) {
         for (int j = 0; j < SHAPES; j++) {
             uint64_t s = check_seed = (uint64_t)(1000 + i * SHAPES + j);
             ovoid_shape *a = create_shape(i, 1, &s), *b = create_shape(j, 1, &s);
-            ovoid_pose pose = {{1e6, -2e6, 3}, random_turn(&s)}, home = ovoid_pose_make_identity();
+            ovoid_pose pose = {{1e6, -2e6, 3}, random_quat(&s)}, home = ovoid_pose_make_identity();
             ovoid_pair same = {a, b, pose, pose}, plain = {a, b, home, home},
                        far = {a, b, home, {{30, 20, 10}, pose.rotation}};
             ovoid_manifold_options o = {.cover = &cover}, wide = {.margin = 100, .cover = &cover};

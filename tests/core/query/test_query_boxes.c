@@ -6,6 +6,7 @@
 #include "shape/parallelepiped.h"
 
 #include "check.h"
+#include "places.h"
 
 typedef long double real;
 typedef struct point {
@@ -61,10 +62,6 @@ static real find_depth(const ovoid_pair *p) {
     return least;
 }
 
-static ovoid_quat random_turn(uint64_t *s) {
-    return (ovoid_quat){random_normal(s), random_normal(s), random_normal(s), random_normal(s)};
-}
-
 static ovoid_shape *make_slanted(const ovoid_vec3 axis[3], ovoid_vec3 c, double off) {
     double xyz[24];
     for (int i = 0; i < 8; i++) {
@@ -111,8 +108,8 @@ static void test_random(void) {
     int here = 0, over = 0;
     for (int i = 0; i < 400; i++) {
         ovoid_shape *a = make_random(&s, 0), *b = make_random(&s, 0);
-        ovoid_pose at_a = {{random_normal(&s), 0, 0}, random_turn(&s)};
-        ovoid_pose at_b = {{at_a.position.x, 0.5 * random_normal(&s), 0.5 * random_normal(&s)}, random_turn(&s)};
+        ovoid_pose at_a = {{random_normal(&s), 0, 0}, random_quat(&s)};
+        ovoid_pose at_b = {{at_a.position.x, 0.5 * random_normal(&s), 0.5 * random_normal(&s)}, random_quat(&s)};
         ovoid_pair p = {a, b, at_a, at_b};
         int is_here = check_depth(&p);
         ovoid_answer x = ovoid_depth(&p, NULL, NULL, NULL);

@@ -6,6 +6,7 @@
 #include "ovoid/prepared.h"
 
 #include "check.h"
+#include "places.h"
 
 #include <string.h>
 
@@ -13,10 +14,6 @@ typedef long double real;
 
 static const ovoid_quat upright = {1, 0, 0, 0};
 
-static ovoid_quat random_turn(uint64_t *r) {
-    double w = random_normal(r), x = random_normal(r), y = random_normal(r), z = random_normal(r);
-    return (ovoid_quat){w, x, y, z};
-}
 static ovoid_vec3 random_place(uint64_t *r) {
     double x = random_normal(r), y = random_normal(r), z = random_normal(r);
     return (ovoid_vec3){x, y, z};
@@ -41,7 +38,7 @@ static ovoid_answer ask(const ovoid_pair *pair, int is_depth, int is_quick) {
 static void check_known(const ovoid_shape *a, const ovoid_shape *b, ovoid_pose b_in_a, double d) {
     uint64_t r = 5;
     for (int i = 0; i < 12; i++) {
-        ovoid_pose move = {random_place(&r), random_turn(&r)};
+        ovoid_pose move = {random_place(&r), random_quat(&r)};
         ovoid_pair pair = {a, b, {{0, 0, 0}, upright}, b_in_a};
         if (i > 0) pair.pose_a = move, pair.pose_b = ovoid_pose_compute_product(&move, &b_in_a);
         if (i % 2) pair = (ovoid_pair){pair.shape_b, pair.shape_a, pair.pose_b, pair.pose_a};
@@ -60,7 +57,7 @@ static void check_known(const ovoid_shape *a, const ovoid_shape *b, ovoid_pose b
 static void check_depth(const ovoid_shape *a, const ovoid_shape *b, ovoid_pose b_in_a, double d) {
     uint64_t r = 31;
     for (int i = 0; i < 12; i++) {
-        ovoid_pose move = i > 1 ? (ovoid_pose){random_place(&r), random_turn(&r)} : (ovoid_pose){{0, 0, 0}, upright};
+        ovoid_pose move = i > 1 ? (ovoid_pose){random_place(&r), random_quat(&r)} : (ovoid_pose){{0, 0, 0}, upright};
         ovoid_pair pair = {a, b, move, ovoid_pose_compute_product(&move, &b_in_a)};
         if (i % 2) pair = (ovoid_pair){pair.shape_b, pair.shape_a, pair.pose_b, pair.pose_a};
         ovoid_answer answer = ask(&pair, 1, 1);
@@ -191,7 +188,7 @@ static void test_same_bits(void) {
         check_seed = (uint64_t)i;
         double at[6];
         for (int k = 0; k < 6; k++) at[k] = grid[(size_t)random_uniform(&r, 0, 4.999)];
-        ovoid_quat q = random_turn(&r), p = i % 2 ? random_turn(&r) : (ovoid_quat){-1, -0.0, 0, 0};
+        ovoid_quat q = random_quat(&r), p = i % 2 ? random_quat(&r) : (ovoid_quat){-1, -0.0, 0, 0};
         if (i % 7 == 0) p = (ovoid_quat){1e-200, 0, 3e-200, 0};
         ovoid_pair pair = {shapes[i % 5], shapes[i / 5 % 5], {{at[0], at[1], at[2]}, q}, {{at[3], at[4], at[5]}, p}};
         for (int question = 0; question < 3; question++) check_same(&pair, question);
@@ -230,7 +227,7 @@ static void test_refused(void) {
 static void check_middle(const ovoid_shape *a, const ovoid_shape *b, ovoid_pose b_in_a, ovoid_vec3 on_a) {
     uint64_t r = 29;
     for (int i = 0; i < 12; i++) {
-        ovoid_pose move = {random_place(&r), random_turn(&r)};
+        ovoid_pose move = {random_place(&r), random_quat(&r)};
         ovoid_pair pair = {a, b, move, ovoid_pose_compute_product(&move, &b_in_a)};
         if (i % 2) pair = (ovoid_pair){pair.shape_b, pair.shape_a, pair.pose_b, pair.pose_a};
         ovoid_answer answer = ask(&pair, 0, 1);
@@ -275,7 +272,7 @@ static void test_slanted(void) {
         }
         ovoid_shape *a = ovoid_shape_create_from_points(xyz, 8, NULL, NULL),
                     *b = ovoid_shape_create_capsule(0.25, i % 2 ? 0.5 : 0, NULL, NULL);
-        ovoid_pair pair = {a, b, {{0, 0, 0}, random_turn(&r)}, {random_place(&r), random_turn(&r)}};
+        ovoid_pair pair = {a, b, {{0, 0, 0}, random_quat(&r)}, {random_place(&r), random_quat(&r)}};
         ovoid_answer answer = ask(&pair, i % 3 == 0, 0);
         CHECK(answer.limit == OVOID_LIMIT_NONE || answer.limit == OVOID_LIMIT_ANSWERED);
         CHECK(answer.status != OVOID_SEPARATED || answer.upper - answer.lower <= 1e-8);
@@ -341,7 +338,7 @@ static void test_random(void) {
         ovoid_shape *a = is_box ? ovoid_shape_create_box((ovoid_vec3){half[0], half[1], half[2]}, NULL, NULL)
                                 : ovoid_shape_create_capsule(0.25, half[2], NULL, NULL);
         ovoid_shape *b = ovoid_shape_create_capsule(radius, length, NULL, NULL);
-        ovoid_pair pair = {a, b, {random_place(&r), random_turn(&r)}, {random_place(&r), random_turn(&r)}};
+        ovoid_pair pair = {a, b, {random_place(&r), random_quat(&r)}, {random_place(&r), random_quat(&r)}};
         // One time in four of the same axes.
         if (i % 16 < 4) pair.pose_b.rotation = pair.pose_a.rotation;
         real d = find_distance(&pair, half, length);

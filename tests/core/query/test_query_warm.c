@@ -3,15 +3,12 @@
 // without a step of the search. Proofs of other pairs, cut off, or with any numbers change nothing but the way.
 #include "check.h"
 #include "ovoid/ovoid.h"
+#include "places.h"
 
 enum { SHAPES = 24, PAIRS = 60, FRAMES = 40, QUESTIONS = 3 };
 
 static const double margin = 0.2;
 static ovoid_shape *shapes[SHAPES];
-
-static ovoid_quat random_turn(uint64_t *s) {
-    return (ovoid_quat){random_normal(s), random_normal(s), random_normal(s), random_normal(s)};
-}
 
 static int make_shapes(uint64_t *s) {
     for (int i = 0; i < SHAPES; i++) {
@@ -75,8 +72,8 @@ static void move(uint64_t *s, ovoid_pose *p, double far) {
 static void follow(uint64_t *s, int pair, double far, int question, long at_once[QUESTIONS]) {
     ovoid_pair p = {shapes[pair % SHAPES],
                     shapes[random_next(s) % SHAPES],
-                    {{0, 0, 0}, random_turn(s)},
-                    {{far, 0.1 * far, 0}, random_turn(s)}};
+                    {{0, 0, 0}, random_quat(s)},
+                    {{far, 0.1 * far, 0}, random_quat(s)}};
     ovoid_proof last = ask(question, &p, NULL).proof;
     for (int i = 0; i < FRAMES; i++) {
         check_seed = (uint64_t)(pair * FRAMES + i);

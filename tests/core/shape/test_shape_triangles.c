@@ -25,7 +25,7 @@ static void check_body(ovoid_shape *s) {
     size_t size = ovoid_shape_write(s, NULL, 0), most = size + 24 * (size_t)s->vertex_count + 40;
     uint8_t *bytes = malloc(most);
     int is_large = solid && s->vertex_count >= SHAPE_TRIANGLES_LEAST, has_axis = shape_has_axis(s);
-    int is_round = s->round.kind != OVOID_ROUND_NONE;
+    int is_round = shape_is_round(s);
     uint32_t expected = has_axis ? (is_large ? 5 : 4) + 2 * is_round : is_large ? 3 : s->has_allowance ? 2 : 1;
     uint32_t other = has_axis ? 5 + 2 * is_round : 3;
     for (uint32_t k = 0; k < (solid ? 2u : 1u); k++) {
