@@ -24,7 +24,7 @@ tests_of() {
     query="test_query test_query_warm test_query_near test_simd_small_gjk test_judge_verify test_query_surface test_query_simplex test_judge test_query_trials:--rounds:5 test_query_trials_known test_query_trials:--family:near-coplanar:--trial:9537145888130744208"
     query="$query test_query_batch test_judge_capacity test_game_hulls test_query_refine test_query_altered"
     case $1 in
-    allowance) echo "test_allowance test_allowance_axis test_judge_allowance test_judge_round" ;;
+    allowance) echo "test_allowance test_allowance_axis test_judge_allowance test_judge_round test_robot_round" ;;
     query) echo "$query" ;;
     prepared) echo "test_prepared test_environment" ;;
     depth_memory) echo "test_query_memory test_query_surface" ;;

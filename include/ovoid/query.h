@@ -266,7 +266,8 @@ OVOID_API ovoid_code ovoid_depth_batch(const ovoid_batch *batch, ovoid_error *er
 /**
  * The gap along a direction from A to B (world, any length but zero): min over B of n.x - max over A of n.x - radii,
  * where n is the unit vector along the direction. It is a proven lower bound of the signed distance, with rounding and
- * allowances included; -infinity if a body, a pose or the direction is refused. Cost: a support of each body.
+ * allowances included, for true cylinders and cones that of the true bodies; -infinity if a body, a pose or the
+ * direction is refused. Cost: a support of each body.
  */
 OVOID_API double ovoid_pair_compute_gap(const ovoid_pair *pair, ovoid_vec3 direction);
 

@@ -230,9 +230,7 @@ static void search_normal(rounder *r, const search *s, vec3 n) {
 }
 
 static void take_lower(search *s, vec3 n, double gap) {
-    const pair_frame *f = s->frame;
-    double lower = nextafter(gap - round_compute_radii(f, n, AXIS_CLAIM), -INFINITY);
-    lower -= f->claim + ROUND_CLAIM * f->size;
+    double lower = round_compute_lower(s->frame, n, gap);
     if (!(lower > s->lower)) return;
     s->lower = lower;
     s->normal = n;

@@ -24,6 +24,9 @@ static int has_times(const ovoid_motion *m) {
     return m->kind != OVOID_MOTION_PATH || (m->times && m->poses && m->count >= 2);
 }
 
+// What a shape's allowance adds to the bracket of a distance: nothing if the true body is known.
+static double find_width(const ovoid_shape *s) { return shape_is_round(s) ? 0 : shape_get_width(s); }
+
 ovoid_limit sweep_make(sweep *s, moving_shapes shapes, const ovoid_motion_options *options, double tolerance) {
     static const ovoid_motion_options none = {0};
     const ovoid_motion_options *o = options ? options : &none;
@@ -34,7 +37,7 @@ ovoid_limit sweep_make(sweep *s, moving_shapes shapes, const ovoid_motion_option
     if (!o->steps) s->capacity = 0;
     if (!shapes.a->shape) return OVOID_LIMIT_SHAPE_A;
     if (!shapes.b->shape) return OVOID_LIMIT_SHAPE_B;
-    s->allowance = shape_get_width(shapes.a->shape) + shape_get_width(shapes.b->shape);
+    s->allowance = find_width(shapes.a->shape) + find_width(shapes.b->shape);
     if (!has_times(a)) return OVOID_LIMIT_POSE_A;
     if (!has_times(b)) return OVOID_LIMIT_POSE_B;
     if (!(s->tolerance >= 0 && s->tolerance < INFINITY) || isnan(o->begin) || isnan(o->end)) return OVOID_LIMIT_OPTIONS;

@@ -3,7 +3,7 @@
 
 #include "linear/rotation.h"
 #include "motion/motion_angle.h"
-#include "pair/frame.h"
+#include "pair/round.h"
 
 // A gap of two posed bodies in doubles is off by 60 u of their size (docs/error-analysis.md, the first rejections).
 #define GAP_CHECK (64 * ROUNDING)
@@ -27,19 +27,36 @@ static double compute_speed(const motion_body *b, vec3 n) {
     return b->piece.is_still ? 0 : vec3_dot(n, b->piece.travel) / b->piece.span;
 }
 
-// How fast a vertex moves along n, beside its pivot; both in the shape's axes.
-static double compute_turning(const motion_body *b, vec3 n, uint32_t vertex) {
-    vec3 y = vec3_sub(vec3_at(shape_vertices(b->moving->shape), vertex), b->pivot);
-    return vec3_dot(n, vec3_cross(b->axis, y)) * (b->piece.turn / b->piece.span);
+// How fast a point of the shape moves along n, beside its pivot; both in the shape's axes.
+static double compute_turning(const motion_body *b, vec3 n, vec3 point) {
+    return vec3_dot(n, vec3_cross(b->axis, vec3_sub(point, b->pivot))) * (b->piece.turn / b->piece.span);
+}
+
+// A support along a direction and a point that reaches it, in the shape's body frame.
+typedef struct reached {
+    double value;
+    vec3 point;
+} reached;
+
+// Of the true body along m if it is known, else of the vertices, whose support was found, and what stands out of them.
+static reached find_reached(const motion_body *b, vec3 m, support_result found) {
+    const ovoid_shape *s = b->moving->shape;
+    reached end;
+    if (shape_is_round(s)) {
+        end.value = round_find_support(s, m, &end.point);
+    } else {
+        end.value = found.value + shape_compute_across(s, m, AXIS_CLAIM);
+        end.point = vec3_at(shape_vertices(s), found.index);
+    }
+    return end;
 }
 
 // One body's supports along n; m is n along the body's axes.
-static void set_support(const motion_body *b, vec3 n, vec3 m, support_result found, double support[2],
-                        double speed[2]) {
-    support[0] = support[1] = found.value + shape_compute_across(b->moving->shape, m, AXIS_CLAIM);
+static void set_support(const motion_body *b, vec3 n, vec3 m, const reached *end, double support[2], double speed[2]) {
+    support[0] = support[1] = end->value;
     speed[0] = speed[1] = compute_speed(b, n);
     if (!(b->piece.turn > 0)) return;
-    speed[0] += compute_turning(b, m, found.index);
+    speed[0] += compute_turning(b, m, end->point);
     double along = vec3_dot(n, b->piece.axis), across = vec3_norm(vec3_cross(n, b->piece.axis));
     double cylinder = max2(along * b->low, along * b->high) + across * b->wide;
     support[1] = vec3_dot(m, b->pivot) + cylinder + (2 * b->axis_error + 512 * ROUNDING) * b->reach;
@@ -54,13 +71,13 @@ void motion_gap_find(const motion_pair *p, double time, vec3 n, motion_gap *g) {
     vec3 in_a = mat3_mul_transposed_vec3(f.world, n), in_b = vec3_neg(mat3_mul_transposed_vec3(f.world_b, n));
     simd_pair ends = frame_find_pair(&f, in_a, in_b);
     g->base = vec3_dot(n, f.offset) - (p->a.radius + p->b.radius);
-    set_support(&p->a, n, in_a, ends.high, g->support[0], g->speed[0]);
-    set_support(&p->b, vec3_neg(n), in_b, ends.low, g->support[1], g->speed[1]);
-    g->error = (shift + GAP_CHECK * f.size + f.hidden) * (1 + 16 * ROUNDING);
+    reached a = find_reached(&p->a, in_a, ends.high), b = find_reached(&p->b, in_b, ends.low);
+    set_support(&p->a, n, in_a, &a, g->support[0], g->speed[0]);
+    set_support(&p->b, vec3_neg(n), in_b, &b, g->support[1], g->speed[1]);
+    double check = frame_has_round(&f) ? GAP_CHECK + ROUND_CHECK : GAP_CHECK;
+    g->error = (shift + check * f.size + f.hidden) * (1 + 16 * ROUNDING);
     g->size = f.size;
-    vec3 xa = mat3_mul_vec3(f.world, frame_vertex_a(&f, ends.high.index));
-    vec3 xb = mat3_mul_vec3(f.world_b, vec3_at(shape_vertices(f.b), ends.low.index));
-    g->apart = vec3_add(f.offset, vec3_sub(xb, xa));
+    g->apart = frame_world_difference(&f, a.point, b.point);
 }
 
 // K of one body over a share of its piece.

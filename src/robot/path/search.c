@@ -66,22 +66,13 @@ static int may_be_free_by_ends(const path_search *s, const path_span *span, cons
     return p->motion.curved * width * width < 16 * (lower - s->margin);
 }
 
-// 1 for a true cylinder or cone. Its lower bounds are those of its own supports, but a step is checked by the supports
-// of the polyhedron and its allowance.
-static int is_round(const ovoid_shape *shape) { return ovoid_shape_get_round(shape).kind != OVOID_ROUND_NONE; }
-
-// 1 if the middle is to be measured as a check of the step would: the answer is the same whether steps are written.
-static int wants_measure(const path_search *s, const path_pair *p) {
-    return s->options->steps || is_round(p->pair.shape_a) || is_round(p->pair.shape_b);
-}
-
 static int is_proven(path_search *s, const path_span *span, uint32_t number, const path_pair *p,
                      const ovoid_answer *answer) {
     double near = add_up(s->margin, p->padding, p->error);
     if (!(answer->lower > near)) return 0;
     vec3 normal = path_turn_back(p, span->middle->frames, answer->normal);
     if (answer->lower > add_up(near, p->motion.moved, 0) &&
-        (!wants_measure(s, p) || is_free_by_middle(s, span, p, normal))) {
+        (!s->options->steps || is_free_by_middle(s, span, p, normal))) {
         add_step(s, span, number, OVOID_ROBOT_STEP_MIDDLE, 1, normal);
         return 1;
     }
