@@ -2,7 +2,7 @@
 #ifndef OVOID_BODY_BODY_FIND_H
 #define OVOID_BODY_BODY_FIND_H
 
-#include "body/body_tree.h"
+#include "body/first_look.h"
 #include "query/answer.h"
 
 static inline int body_pair_has_solid(const ovoid_body_pair *pair) { return pair->a.solid || pair->b.solid; }
@@ -20,10 +20,11 @@ typedef struct body_request {
     ovoid_exclusions *exclusions;    ///< room for what is left out, or NULL
 } body_request;
 
-/// Of a pair with a solid. The goal's depth is not searched for.
-void solid_find_internal(const ovoid_body_pair *pair, const body_request *request, ovoid_body_answer *out);
-/// Of a pair without a solid.
-void parts_find_internal(const ovoid_body_pair *pair, const body_request *request, ovoid_body_answer *out);
+/// Of a pair with a solid. The goal's depth is not searched for. 1: the bodies are farther apart than was asked, which
+/// is in *far, and *out is not written; 0: *out is the answer.
+int solid_find(const ovoid_body_pair *pair, const body_request *request, ovoid_body_answer *out, far_bodies *far);
+/// Of a pair without a solid; the same.
+int parts_find(const ovoid_body_pair *pair, const body_request *request, ovoid_body_answer *out, far_bodies *far);
 
 /// The pipeline of ovoid_body_collide and its sisters, for callers inside a public function, which has set the default
 /// floating-point environment already.

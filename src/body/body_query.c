@@ -1,4 +1,5 @@
 // The queries of two bodies: each goes to the search of its kind, chosen by whether one of them is a solid.
+#include "base/compiler.h"
 #include "base/environment.h"
 #include "base/error.h"
 #include "body/body_find.h"
@@ -22,18 +23,30 @@ ovoid_answer ovoid_body_answer_get_answer(const ovoid_body_answer *answer) {
     return own;
 }
 
+static int find_or_look(const ovoid_body_pair *pair, const body_request *request, ovoid_body_answer *out,
+                        far_bodies *far) {
+    return body_pair_has_solid(pair) ? solid_find(pair, request, out, far) : parts_find(pair, request, out, far);
+}
+
 void body_find_internal(const ovoid_body_pair *pair, const body_request *request, ovoid_body_answer *out) {
-    if (body_pair_has_solid(pair))
-        solid_find_internal(pair, request, out);
-    else
-        parts_find_internal(pair, request, out);
+    far_bodies far;
+    if (find_or_look(pair, request, out, &far)) *out = (ovoid_body_answer)FAR_ANSWER(&far);
+}
+
+// By value, from a function that is not inlined: the answer of far bodies is made in the caller's place, since its
+// copy would take longer than the look.
+COMPILER_NOINLINE static ovoid_body_answer find_by_value(const ovoid_body_pair *pair, const body_request *request) {
+    ovoid_body_answer out;
+    far_bodies far;
+    if (find_or_look(pair, request, &out, &far)) return (ovoid_body_answer)FAR_ANSWER(&far);
+    return out;
 }
 
 static ovoid_body_answer find(const ovoid_body_pair *pair, const ovoid_options *options, query_goal goal,
                               const ovoid_body_evidence *known) {
     OVOID_ASSERT(pair);
     const body_request request = {options, &goal, known ? known->earlier : NULL, known ? known->exclusions : NULL};
-    ENVIRONMENT_RETURN_FILLED(ovoid_body_answer, out, goal, body_find_internal(pair, &request, &out));
+    ENVIRONMENT_RETURN_CALL(find_by_value(pair, &request));
 }
 
 ovoid_body_answer ovoid_body_collide(const ovoid_body_pair *pair, const ovoid_options *options,

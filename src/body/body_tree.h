@@ -13,7 +13,7 @@ typedef struct body_tree {
     const ovoid_compound *compound;
     const ovoid_pose *pose;
     vec3 center;      ///< of the tree's frame, in the body's
-    vec3 half;        ///< of the shape's box around it
+    vec3 half;        ///< of a shape's box around it; of others not set
     double extent;    ///< no point is farther than this from the body's origin, radius included
     double allowance; ///< the width that it gives every bracket
     uint32_t count;   ///< of leaves

@@ -92,7 +92,7 @@ void moving_trees_ask(const moving_trees *trees, double margin, double time, mov
     out->shift = motion_pair_find_pair(&pieces, time, &at);
     out->pair = (ovoid_body_pair){get_body(trees->a.body, time), get_body(trees->b.body, time)};
     query_goal goal = query_goal_make_within(margin);
-    solid_find_internal(&out->pair, &(body_request){NULL, &goal, NULL, NULL}, &out->answer);
+    body_find_internal(&out->pair, &(body_request){NULL, &goal, NULL, NULL}, &out->answer);
 }
 
 int moving_answer_is_apart(const moving_answer *x, int linear) {

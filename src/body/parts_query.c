@@ -1,7 +1,6 @@
 // The search of two bodies without a solid: shapes and compounds. The bounds of nodes are those of node_bounds.c, two
 // parts are an ordinary query, which may stop beyond the best upper bound.
 #include "body/body_find.h"
-#include "body/first_look.h"
 #include "body/traverse.h"
 
 // ---- what is left out
@@ -161,7 +160,7 @@ static void find(body_search *state, const query_goal *goal, const ovoid_body_pr
     if (was_decided && x->status == OVOID_UNDECIDED) search_from(state, goal, earlier);
 }
 
-static void search_parts(body_search *state, const ovoid_body_pair *pair, const body_request *request) {
+static int search_parts(body_search *state, const ovoid_body_pair *pair, const body_request *request, far_bodies *far) {
     ovoid_body_answer *out = state->out;
     const query_goal *goal = request->goal;
     const ovoid_body_proof *earlier = request->earlier;
@@ -173,22 +172,23 @@ static void search_parts(body_search *state, const ovoid_body_pair *pair, const 
         refused = body_trees_make(pair, &state->a, &state->b);
     if (refused != OVOID_LIMIT_NONE) {
         out->deciding = answer_make_refused(refused);
-        return;
+        return 0;
     }
     if (pair->a.shape && pair->b.shape) {
         ovoid_pair shapes = {pair->a.shape, pair->b.shape, pair->a.pose, pair->b.pose};
         const query_request of_shapes = {request->options, goal, earlier ? &earlier->proof : NULL, cover};
         answer_find_internal(&shapes, &of_shapes, &out->deciding);
         out->tested = 1;
-        return;
+        return 0;
     }
     set_nodes(state->parts, 0, &state->a);
     set_nodes(state->parts, 1, &state->b);
-    if (goal->far < INFINITY && first_look(state, goal, NULL)) return;
+    if (goal->far < INFINITY && first_look(state, goal, NULL, far)) return 1;
     find(state, goal, earlier);
+    return 0;
 }
 
-void parts_find_internal(const ovoid_body_pair *pair, const body_request *request, ovoid_body_answer *out) {
+int parts_find(const ovoid_body_pair *pair, const body_request *request, ovoid_body_answer *out, far_bodies *far) {
     static const vec3 none = {0, 0, 0};
     parts_state parts;
     body_search state;
@@ -198,7 +198,7 @@ void parts_find_internal(const ovoid_body_pair *pair, const body_request *reques
     state.solids = NULL;
     state.out = out;
     state.exclusions = request->exclusions;
-    search_parts(&state, pair, request);
+    if (search_parts(&state, pair, request, far)) return 1;
     const ovoid_answer *x = &out->deciding;
     out->status = x->status;
     out->limit = x->limit;
@@ -207,4 +207,5 @@ void parts_find_internal(const ovoid_body_pair *pair, const body_request *reques
     out->inside = OVOID_BODY_INSIDE_NONE;
     out->component = 0;
     out->parting = out->common = none;
+    return 0;
 }

@@ -2,7 +2,6 @@
 // what.
 #include "base/compiler.h"
 #include "body/body_find.h"
-#include "body/first_look.h"
 #include "body/solid_search.h"
 
 // ---- the end of a query
@@ -70,6 +69,13 @@ static void finish(body_search *state) {
 
 // ---- the beginning
 
+// The options and the trees; why the query is refused.
+static ovoid_limit begin_trees(body_search *state, const ovoid_body_pair *pair, const body_request *request) {
+    exclusions_begin(state->exclusions);
+    if (!options_make(request->options, &state->options) || !(request->goal->far >= 0)) return OVOID_LIMIT_OPTIONS;
+    return body_trees_make(pair, &state->a, &state->b);
+}
+
 // The frame, and the boxes of the roots.
 static void begin_frame(body_search *state) {
     tree_frame_make(&state->a, &state->b, &state->frame);
@@ -78,43 +84,36 @@ static void begin_frame(body_search *state) {
     state->solids->roots = solids_find_roots_gap(state);
 }
 
-static void begin(body_search *state, const query_goal *goal) {
+// 1 where the balls, or the boxes of the roots, are farther apart than was asked; else the frame is made.
+static int look(body_search *state, const query_goal *goal, far_bodies *far) {
+    int is_asked = goal->far < INFINITY;
+    if (is_asked && first_look(state, goal, NULL, far)) return 1;
+    begin_frame(state);
+    return is_asked && state->solids->roots.lower > goal->far && first_look(state, goal, &state->solids->roots, far);
+}
+
+static void begin_tolerances(body_search *state) {
     state->tolerance = tree_frame_compute_tolerance(&state->frame, &state->options);
     // Half for a pair, half for what is left out beside it.
     state->slack = state->options.absolute_tolerance = state->tolerance / 2;
     state->options.relative_tolerance = OVOID_LENGTH_MIN;
     state->least_far = state->frame.claim;
+}
+
+// ---- the whole query
+
+static void search_from(body_search *state, const query_goal *goal, const ovoid_body_proof *earlier) {
+    *state->out = (ovoid_body_answer){.status = OVOID_UNDECIDED};
     search_begin(state, goal);
     solids_state *solids = state->solids;
+    solids->normal_count = 1;
     solids->flush.count = 0;
     solids->filter_support = -INFINITY;
     solids->kernels = solid8_get_kernels();
     if (state->a.solid) triangle_begin(&solids->rooms[0]);
     if (state->b.solid) triangle_begin(&solids->rooms[1]);
-}
-
-// The whole query; the limit is that of a refusal.
-static ovoid_limit search_from(body_search *state, const ovoid_body_pair *pair, const body_request *request) {
-    *state->out = (ovoid_body_answer){.status = OVOID_UNDECIDED};
-    exclusions_begin(state->exclusions);
-    const query_goal *goal = request->goal;
-    if (!options_make(request->options, &state->options) || !(goal->far >= 0)) return OVOID_LIMIT_OPTIONS;
-    ovoid_limit refused = body_trees_make(pair, &state->a, &state->b);
-    if (refused != OVOID_LIMIT_NONE) return refused;
-    int is_seen = goal->far < INFINITY && first_look(state, goal, NULL);
-    if (!is_seen) {
-        begin_frame(state);
-        // The balls' look is not made again where the boxes cannot say more.
-        is_seen = state->solids->roots.lower > goal->far && first_look(state, goal, &state->solids->roots);
-    }
-    if (is_seen) {
-        take_deciding(state->out);
-        return OVOID_LIMIT_NONE;
-    }
-    begin(state, goal);
-    search_run(state, request->earlier);
+    search_run(state, earlier);
     finish(state);
-    return OVOID_LIMIT_NONE;
 }
 
 // A search that began elsewhere might do better.
@@ -128,34 +127,41 @@ static int is_better(ovoid_status status, double width, const ovoid_body_answer 
     return status == than->status && width < than->upper - than->lower;
 }
 
-COMPILER_NOINLINE void solid_find_internal(const ovoid_body_pair *pair, const body_request *request,
-                                           ovoid_body_answer *out) {
+static void search_solids(body_search *state, const query_goal *goal, const ovoid_body_proof *earlier) {
+    const ovoid_body_answer *out = state->out;
+    begin_tolerances(state);
+    search_from(state, goal, earlier);
+    if (!earlier || !is_improvable(out)) return;
+    // No earlier proof makes an answer worse: the query alone, unless the one from the proof says more.
+    ovoid_status status = out->status;
+    double width = out->upper - out->lower;
+    search_from(state, goal, NULL);
+    if (is_better(status, width, out)) search_from(state, goal, earlier);
+}
+
+static void refuse(ovoid_limit refused, ovoid_body_answer *out) {
+    *out = (ovoid_body_answer){.limit = refused, .lower = -INFINITY, .upper = INFINITY};
+    out->deciding = answer_make_refused(refused);
+}
+
+COMPILER_NOINLINE int solid_find(const ovoid_body_pair *pair, const body_request *request, ovoid_body_answer *out,
+                                 far_bodies *far) {
     solids_state solids;
     body_search state;
-    query_goal goal = *request->goal;
-    goal.wants_depth = 0;
-    body_request warm = *request, cold;
-    warm.goal = &goal;
-    cold = warm;
-    cold.earlier = NULL;
     state.kind = &solids_kind;
     state.has_solid = 1;
     state.parts = NULL;
     state.solids = &solids;
     state.out = out;
     state.exclusions = request->exclusions;
-    ovoid_limit refused = search_from(&state, pair, &warm);
+    ovoid_limit refused = begin_trees(&state, pair, request);
     if (refused != OVOID_LIMIT_NONE) {
-        out->deciding = answer_make_refused(refused);
-        out->limit = refused;
-        out->lower = -INFINITY;
-        out->upper = INFINITY;
-        return;
+        refuse(refused, out);
+        return 0;
     }
-    if (!request->earlier || !is_improvable(out)) return;
-    // No earlier proof makes an answer worse: the query alone, unless the one from the proof says more.
-    ovoid_status status = out->status;
-    double width = out->upper - out->lower;
-    (void)search_from(&state, pair, &cold);
-    if (is_better(status, width, out)) (void)search_from(&state, pair, &warm);
+    if (look(&state, request->goal, far)) return 1;
+    query_goal goal = *request->goal;
+    goal.wants_depth = 0;
+    search_solids(&state, &goal, request->earlier);
+    return 0;
 }

@@ -2,7 +2,7 @@
 #ifndef OVOID_LINEAR_POSE_H
 #define OVOID_LINEAR_POSE_H
 
-#include "ovoid/linear.h"
+#include "linear/rotation.h"
 
 #include <math.h>
 
@@ -12,6 +12,11 @@ ovoid_code pose_validate(const ovoid_pose *pose);
 /// 1 for a position that pose_validate takes; NaN fails every comparison.
 static inline int position_is_valid(ovoid_vec3 p) {
     return (fabs(p.x) <= OVOID_LENGTH_MAX) & (fabs(p.y) <= OVOID_LENGTH_MAX) & (fabs(p.z) <= OVOID_LENGTH_MAX);
+}
+
+/// 1 for a pose that is valid, whose quaternion needs no scaling: most poses.
+static inline int pose_is_plain(const ovoid_pose *pose) {
+    return position_is_valid(pose->position) & quat_is_plain(quat_norm_squared(pose->rotation));
 }
 
 /// ovoid_pose_compute_product, for callers that have set up the floating-point environment. With u = 2^-53: a component

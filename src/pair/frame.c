@@ -45,19 +45,12 @@ static double place_origins(pair_frame *f, const ovoid_pair *pair) {
 // Sets both rotations to the world, with the operations of quat_to_mat3, and the difference of the spheres' centres. 0:
 // a quaternion needs scaling, and nothing is set.
 static int place_plain(pair_frame *f, ovoid_quat a, ovoid_quat b) {
-    both w = both_make(a.w, b.w), x = both_make(a.x, b.x), y = both_make(a.y, b.y), z = both_make(a.z, b.z);
-    both ww = w * w, xx = x * x, yy = y * y, zz = z * z, norm = (ww + xx) + (yy + zz);
-    if (!quat_is_plain(norm[0]) || !quat_is_plain(norm[1])) return 0;
-    both one = both_make(1, 1), s = both_make(2, 2) / norm;
-    both xy = x * y, xz = x * z, yz = y * z, wx = w * x, wy = w * y, wz = w * z;
-    both r[9] = {one - s * (yy + zz), s * (xy - wz), s * (xz + wy), s * (xy + wz),      one - s * (xx + zz),
-                 s * (yz - wx),       s * (xz - wy), s * (yz + wx), one - s * (xx + yy)};
-    f->world = (mat3){{r[0][0], r[1][0], r[2][0]}, {r[3][0], r[4][0], r[5][0]}, {r[6][0], r[7][0], r[8][0]}};
-    f->world_b = (mat3){{r[0][1], r[1][1], r[2][1]}, {r[3][1], r[4][1], r[5][1]}, {r[6][1], r[7][1], r[8][1]}};
-    vec3 p = f->a->center, q = f->b->center;
-    both cx = both_make(p.x, q.x), cy = both_make(p.y, q.y), cz = both_make(p.z, q.z), d[3];
-    for (int i = 0; i < 3; i++) d[i] = (r[3 * i] * cx + r[3 * i + 1] * cy) + r[3 * i + 2] * cz;
-    f->between = vec3_add(f->offset, (vec3){d[0][1] - d[0][0], d[1][1] - d[1][0], d[2][1] - d[2][0]});
+    both_mat3 r;
+    if (!both_quat_to_mat3(a, b, &r)) return 0;
+    f->world = both_mat3_get(&r, 0);
+    f->world_b = both_mat3_get(&r, 1);
+    both_vec3 d = both_mat3_mul_vec3(&r, both_vec3_make(f->a->center, f->b->center));
+    f->between = vec3_add(f->offset, (vec3){d.x[1] - d.x[0], d.y[1] - d.y[0], d.z[1] - d.z[0]});
     return 1;
 }
 

@@ -3,13 +3,7 @@
 #include "query/spheres.h"
 
 #include "linear/pose.h"
-#include "linear/rotation.h"
 #include "query/begin.h"
-
-// 1 for a pose that is valid, whose quaternion needs no scaling.
-static int is_plain(const ovoid_pose *pose) {
-    return position_is_valid(pose->position) & quat_is_plain(quat_norm_squared(pose->rotation));
-}
 
 // What frame_place sets, but for the rotations.
 static inline void place(const ovoid_pair *pair, pair_frame *f) {
@@ -27,8 +21,8 @@ ovoid_answer spheres_find(const ovoid_pair *pair, const query_request *request) 
     pair_frame f;
     rejection found;
     small_end end;
-    if (!options_make(request->options, &options) || !(goal.far >= 0) || !is_plain(&pair->pose_a) ||
-        !is_plain(&pair->pose_b))
+    if (!options_make(request->options, &options) || !(goal.far >= 0) || !pose_is_plain(&pair->pose_a) ||
+        !pose_is_plain(&pair->pose_b))
         return answer_find_by_value(pair, request);
     place(pair, &f);
     set_numbers(&goal, &options, &f);

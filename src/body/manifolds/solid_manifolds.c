@@ -259,7 +259,7 @@ COMPILER_NOINLINE static ovoid_limit search_bodies(const ovoid_body_pair *pair, 
     const ovoid_body_pair turned = {pair->b, pair->a};
     const query_goal goal = query_goal_make_within(request->options ? request->options->margin : 0);
     const body_request of_bodies = {.goal = &goal};
-    solid_find_internal(pair->a.solid ? &turned : pair, &of_bodies, &answer);
+    body_find_internal(pair->a.solid ? &turned : pair, &of_bodies, &answer);
     found->lower = answer.lower;
     found->upper = answer.upper;
     found->visited = answer.visited;

@@ -108,7 +108,7 @@ static int holds(const ray_search *state, double time, ovoid_body_answer *answer
     const ovoid_body_pair pair = {*state->body, {.shape = &point.shape, .pose = {at, {1, 0, 0, 0}}}};
     const query_goal goal = query_goal_make_collide();
     if (!(vec3_max_abs(at) <= OVOID_LENGTH_MAX)) return 0;
-    solid_find_internal(&pair, &(body_request){NULL, &goal, NULL, NULL}, answer);
+    body_find_internal(&pair, &(body_request){NULL, &goal, NULL, NULL}, answer);
     return answer->status == OVOID_OVERLAPPING;
 }
 

@@ -8,7 +8,7 @@
 // couple that names them.
 #include "base/environment.h"
 #include "base/error.h"
-#include "linear/rotation.h"
+#include "linear/pose.h"
 #include "world/find/bodies_query.h"
 #include "world/state.h"
 #include "world/tree/dynamic_tree_traverse.h"
@@ -57,9 +57,7 @@ static int are_apart(vec3 a, vec3 b, double reach) {
 
 // The checks of pose_validate, by comparisons alone, for most poses of shapes.
 static int is_plain(const ovoid_body *body) {
-    const ovoid_pose *p = &body->pose;
-    return !body->compound && !body->solid && body->shape && quat_is_plain(quat_norm_squared(p->rotation)) &&
-           vec3_max_abs(p->position) <= OVOID_LENGTH_MAX && vec3_is_finite(p->position);
+    return !body->compound && !body->solid && body->shape && pose_is_plain(&body->pose);
 }
 
 static ovoid_code validate_probe(const ovoid_body *body, size_t number, ovoid_error *error) {
