@@ -47,11 +47,14 @@ static void note_flush(body_search *state, uint32_t a, uint32_t b, double lower)
 
 // ---- the best pair
 
-// The direction of the best pair, for boxes, and for triangles beside a shape.
+// The direction of the best pair, for boxes, and for triangles beside a shape. A distance tries it on boxes: that costs
+// less than the axes across two boxes and leaves out as much. For a yes or no, or a margin, it does not help: what
+// parts two boxes that are far enough need not be near the direction of any pair, least of all of one that an earlier
+// answer names; long bodies then opened up to thirteen times as many nodes.
 static void set_filter(body_search *state) {
     if (!(vec3_norm_squared(state->best.normal) > 0.5)) return;
     solids_state *solids = state->solids;
-    if (solids->normal_count < SEARCH_REASONS)
+    if (state->goal.wants_bracket && state->goal.near == -INFINITY && solids->normal_count < SEARCH_REASONS)
         solids->normals[solids->normal_count++] =
             vec3_unit(mat3_mul_transposed_vec3(state->frame.world, state->best.normal));
     if (!(state->a.solid && state->b.shape) && !(state->a.shape && state->b.solid)) return;

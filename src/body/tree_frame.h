@@ -70,7 +70,7 @@ typedef struct framed_node {
     const turned_box *rest;
 } framed_node;
 /// The other body's box as the kernel wants it; the unit of the node's boxes is left to the caller. Where no normal is
-/// known, as of a yes or no before bodies touch, axes across one of each box are tried instead.
+/// tried, as of a yes or no, axes across one of each box are tried instead.
 solid8_other tree_frame_turn(const tree_frame *f, const framed_node *node, vec3 normal);
 
 /// The bound by the boxes of both roots, lowered by the claim, and its direction in the world: what parts the bodies.
