@@ -47,13 +47,15 @@ static const char help[] =
     "A number is the median of the repetitions; CSV has quartiles and minima too. A name with + starts from the last\n"
     "frame's result, and 'ovoid' with its last proof. '*': some of the answers are wrong, '!': more than 1 %.\n";
 
+enum { MODULES_MOST = 16 };
+
 typedef struct settings {
     plan what;
     effort much;
     field all;
     const char *csv, *svg;
     int alone, stages, scale, setup, many, robot, contacts;
-    const char *modules[ROBOT_PEERS_MOST];
+    const char *modules[MODULES_MOST];
     uint32_t module_count;
     robots_plan robots;
     uint32_t pairs;
@@ -146,7 +148,7 @@ static int read_count(const char *text, uint32_t *count) {
 
 /// A module is loaded once its queries are known.
 static int add_module(settings *how, const char *path) {
-    if (how->module_count == ROBOT_PEERS_MOST) return 0;
+    if (how->module_count == MODULES_MOST) return 0;
     how->modules[how->module_count++] = path;
     return 1;
 }

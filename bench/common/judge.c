@@ -90,5 +90,3 @@ faults faults_count(const workload *work, const truth *truths, question what, co
         judge_one(work, &work->pairs[i], &truths[i], what, &answers[i], &sum);
     return sum;
 }
-
-uint32_t faults_get_wrong(const faults *f) { return f->none + f->sign + f->off; }
