@@ -32,7 +32,9 @@ body_owner make_flat(double thickness) {
     return std::make_shared<const body>(
         shape_owner(ovoid_shape_create_box({flat_size, flat_size, thickness}, nullptr, nullptr)));
 }
-bool is_flat(const named &x) { return ovoid::fcl::detail::is_flat<double>(x.of.get()); }
+bool is_flat(const named &x) {
+    return x.of->getNodeType() == fcl::GEOM_HALFSPACE || x.of->getNodeType() == fcl::GEOM_PLANE;
+}
 
 /// A box of eight vertices as FCL's Convex.
 geometry make_convex(double half) {
@@ -133,18 +135,18 @@ poses make_poses(std::mt19937 &engine, int count, double spread) {
     return all;
 }
 
-/// The pose of a geometry's body.
-ovoid_pose place(const named &x, const fcl::Transform3d &at) {
+/// Places a geometry's body.
+void place(const named &x, const fcl::Transform3d &at, ovoid_prepared_shape &to) {
     fcl::Transform3d t = at;
     if (x.of->getNodeType() == fcl::GEOM_HALFSPACE) t.translation() -= at.linear() * fcl::Vector3d(0, 0, flat_size);
-    ovoid_pose pose;
-    ovoid::fcl::detail::to_pose<double>(t, pose);
-    return pose;
+    ovoid::fcl::detail::place<double>(x.body->shape(), t, to);
 }
 
 /// The proven bracket of the signed distance; meshes are their surfaces, whose overlaps have no depth here.
 ovoid_answer prove(const named &x, const named &y, const fcl::Transform3d &s, const fcl::Transform3d &t) {
-    const ovoid::fcl::detail::body_couple couple = {x.body.get(), y.body.get(), place(x, s), place(y, t)};
+    ovoid::fcl::detail::body_couple couple;
+    couple.a = x.body.get(), couple.b = y.body.get();
+    place(x, s, couple.at_a), place(y, t, couple.at_b);
     if (couple.has_mesh()) {
         const ovoid_body_pair pair = couple.bodies();
         return ovoid_body_distance(&pair, nullptr, nullptr).deciding;

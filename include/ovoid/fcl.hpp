@@ -51,36 +51,39 @@ struct fcl_itself {
     }
 };
 
-/// A geometry, its pose, and what owns it, where that is known.
+/// A geometry, its pose, and what owns it, where that is known, or NULL.
 template <class S> struct posed {
     const geometry<S> *of;
     const ::fcl::Transform3<S> &pose;
-    const std::shared_ptr<const geometry<S>> &owner;
+    const std::shared_ptr<const geometry<S>> *owner;
+    ::fcl::NODE_TYPE type = of->getNodeType();
+
+    bool is_flat() const { return type == ::fcl::GEOM_HALFSPACE || type == ::fcl::GEOM_PLANE; }
+    const body *find(table &in) const { return in.find<S>({of, type}, owner); }
+    bool place(const ovoid_shape *shape, ovoid_prepared_shape &to) const {
+        return type == ::fcl::GEOM_SPHERE ? place_sphere<S>(shape, pose, to) : detail::place<S>(shape, pose, to);
+    }
 };
-template <class S> const std::shared_ptr<const geometry<S>> &no_owner() {
-    static const std::shared_ptr<const geometry<S>> none;
-    return none;
-}
 template <class S> posed<S> pose_of(const ::fcl::CollisionObject<S> *o) {
-    return {o->collisionGeometry().get(), o->getTransform(), o->collisionGeometry()};
+    return {o->collisionGeometry().get(), o->getTransform(), &o->collisionGeometry()};
 }
 
 /// Fills the couple; false if FCL has to answer. What is in it stays until this thread's next call.
 template <class S> bool make_couple(const posed<S> &a, const posed<S> &b, body_couple &couple) {
-    if (!to_pose<S>(a.of, a.pose, couple.pose_a) || !to_pose<S>(b.of, b.pose, couple.pose_b)) return false;
     table &mine = table::get();
     mine.begin();
-    couple.a = mine.find<S>(a.of, a.owner);
-    couple.b = mine.find<S>(b.of, b.owner);
-    return couple.a && couple.b && !couple.a->is_empty() && !couple.b->is_empty();
+    couple.a = a.find(mine);
+    couple.b = b.find(mine);
+    return couple.a && couple.b && !couple.a->is_empty() && !couple.b->is_empty() &&
+           a.place(couple.a->shape(), couple.at_a) && b.place(couple.b->shape(), couple.at_b);
 }
 
 /// A plane and another geometry: the answer from a to b, or false if FCL has to answer.
 template <class S> bool make_plane_answer(const posed<S> &a, const posed<S> &b, plane_answer &answer) {
-    const bool is_a = is_flat(a.of);
+    const bool is_a = a.is_flat();
     const posed<S> &other = is_a ? b : a;
     ovoid_pose unused;
-    if (is_flat(other.of) || !to_pose<S>(a.pose, unused) || !to_pose<S>(b.pose, unused)) return false;
+    if (other.is_flat() || !to_pose<S>(a.pose, unused) || !to_pose<S>(b.pose, unused)) return false;
     answer = ask_plane(other.of, other.pose, is_a ? make_plane(a.of, a.pose) : make_plane(b.of, b.pose));
     return std::isfinite(answer.distance);
 }
@@ -110,7 +113,7 @@ template <class S> bool collide_plane(contact_list<S> &to, const posed<S> &a, co
     plane_answer answer;
     if (!make_plane_answer(a, b, answer)) return false;
     if (answer.distance > 0) return true;
-    const bool is_a = is_flat(a.of);
+    const bool is_a = a.is_flat();
     const posed<S> &flat = is_a ? a : b, &other = is_a ? b : a;
     plane_contacts<S> contacts(to, is_a);
     if (other.of->getObjectType() != ::fcl::OT_BVH || to.room() == 1)
@@ -129,7 +132,7 @@ std::size_t collide(const posed<S> &a, const posed<S> &b, const ::fcl::Collision
     body_couple couple;
     if (request.enable_cost || request.num_max_contacts == 0)
         return OVOID_FCL_ITSELF::template collide<S>(a.of, a.pose, b.of, b.pose, request, result);
-    if (is_flat(a.of) || is_flat(b.of)) {
+    if (a.is_flat() || b.is_flat()) {
         if (!collide_plane(to, a, b))
             return OVOID_FCL_ITSELF::template collide<S>(a.of, a.pose, b.of, b.pose, request, result);
     } else if (!make_couple(a, b, couple)) {
@@ -151,12 +154,13 @@ struct distance_answer {
 
 /// Of shapes that overlap FCL's distance is -1, unless the signed one is wanted.
 inline distance_answer measure_shapes(const body_couple &of, bool is_signed) {
-    const ovoid_pair pair = of.shapes();
-    const ovoid_answer x =
-        is_signed ? ovoid_depth(&pair, nullptr, nullptr, nullptr) : ovoid_distance(&pair, nullptr, nullptr);
+    ovoid_witness at;
+    const ovoid_evidence evidence = {nullptr, &at, nullptr};
+    const ovoid_verdict x = is_signed ? ovoid_prepared_depth(of.prepared(), nullptr, &evidence)
+                                      : ovoid_prepared_distance(of.prepared(), nullptr, &evidence);
     const bool is_apart = x.status == OVOID_SEPARATED || (x.status == OVOID_UNDECIDED && !is_hit(x));
     const double apart = is_apart || is_signed ? middle(x) : x.status == OVOID_TOUCHING ? 0 : -1;
-    return {apart, x.point_a, x.point_b, -1, -1};
+    return {apart, at.point_a, at.point_b, -1, -1};
 }
 
 /// Of meshes that cross the signed distance is minus the length of a translation that is proven to part them; the
@@ -184,10 +188,10 @@ S distance(const posed<S> &a, const posed<S> &b, const ::fcl::DistanceRequest<S>
     distance_answer found;
     plane_answer plane;
     body_couple couple;
-    if (is_flat(a.of) || is_flat(b.of)) {
+    if (a.is_flat() || b.is_flat()) {
         if (!make_plane_answer(a, b, plane))
             return OVOID_FCL_ITSELF::template distance<S>(a.of, a.pose, b.of, b.pose, request, result);
-        found = measure_plane(plane, is_flat(a.of), request.enable_signed_distance);
+        found = measure_plane(plane, a.is_flat(), request.enable_signed_distance);
     } else if (!make_couple(a, b, couple)) {
         return OVOID_FCL_ITSELF::template distance<S>(a.of, a.pose, b.of, b.pose, request, result);
     } else {
@@ -200,11 +204,10 @@ S distance(const posed<S> &a, const posed<S> &b, const ::fcl::DistanceRequest<S>
     return result.min_distance;
 }
 
-/// A moving geometry: how it moves, and what owns it.
+/// A moving geometry, and how it moves.
 template <class S> struct moved {
     const geometry<S> *of;
     ovoid_motion motion;
-    const std::shared_ptr<const geometry<S>> &owner;
 };
 
 /// The first time of contact, up to request.toc_err; false if FCL has to answer. The time is one of contact, or where
@@ -214,7 +217,8 @@ bool continuous_collide(const moved<S> &a, const moved<S> &b, const ::fcl::Conti
                         ::fcl::ContinuousCollisionResult<S> &result) {
     table &mine = table::get();
     mine.begin();
-    const body *x = mine.find<S>(a.of, a.owner), *y = mine.find<S>(b.of, b.owner);
+    const body *x = mine.find<S>({a.of, a.of->getNodeType()}, nullptr),
+               *y = mine.find<S>({b.of, b.of->getNodeType()}, nullptr);
     if (!x || !y || x->is_empty() || y->is_empty()) return false;
     const ovoid_moving_body_pair pair = {
         {x->shape(), nullptr, a.motion, x->solid()}, {y->shape(), nullptr, b.motion, y->solid()}, 0};
@@ -248,7 +252,7 @@ template <class S>
 std::size_t collide(const ::fcl::CollisionGeometry<S> *o1, const ::fcl::Transform3<S> &tf1,
                     const ::fcl::CollisionGeometry<S> *o2, const ::fcl::Transform3<S> &tf2,
                     const ::fcl::CollisionRequest<S> &request, ::fcl::CollisionResult<S> &result) {
-    return detail::collide<S>({o1, tf1, detail::no_owner<S>()}, {o2, tf2, detail::no_owner<S>()}, request, result);
+    return detail::collide<S>({o1, tf1, nullptr}, {o2, tf2, nullptr}, request, result);
 }
 /** fcl::collide of objects. */
 template <class S>
@@ -262,7 +266,7 @@ template <class S>
 S distance(const ::fcl::CollisionGeometry<S> *o1, const ::fcl::Transform3<S> &tf1,
            const ::fcl::CollisionGeometry<S> *o2, const ::fcl::Transform3<S> &tf2,
            const ::fcl::DistanceRequest<S> &request, ::fcl::DistanceResult<S> &result) {
-    return detail::distance<S>({o1, tf1, detail::no_owner<S>()}, {o2, tf2, detail::no_owner<S>()}, request, result);
+    return detail::distance<S>({o1, tf1, nullptr}, {o2, tf2, nullptr}, request, result);
 }
 /** fcl::distance of objects. */
 template <class S>
@@ -279,7 +283,7 @@ template <class S>
 S continuousCollide(const ::fcl::CollisionGeometry<S> *o1, const ::fcl::MotionBase<S> *motion1,
                     const ::fcl::CollisionGeometry<S> *o2, const ::fcl::MotionBase<S> *motion2,
                     const ::fcl::ContinuousCollisionRequest<S> &request, ::fcl::ContinuousCollisionResult<S> &result) {
-    detail::moved<S> a{o1, {}, detail::no_owner<S>()}, b{o2, {}, detail::no_owner<S>()};
+    detail::moved<S> a{o1, {}}, b{o2, {}};
     if (detail::make_motion(motion1, a.motion) && detail::make_motion(motion2, b.motion) &&
         detail::continuous_collide(a, b, request, result))
         return result.time_of_contact;
@@ -291,7 +295,7 @@ S continuousCollide(const ::fcl::CollisionGeometry<S> *o1, const ::fcl::Transfor
                     const ::fcl::Transform3<S> &tf1_end, const ::fcl::CollisionGeometry<S> *o2,
                     const ::fcl::Transform3<S> &tf2_beg, const ::fcl::Transform3<S> &tf2_end,
                     const ::fcl::ContinuousCollisionRequest<S> &request, ::fcl::ContinuousCollisionResult<S> &result) {
-    detail::moved<S> a{o1, {}, detail::no_owner<S>()}, b{o2, {}, detail::no_owner<S>()};
+    detail::moved<S> a{o1, {}}, b{o2, {}};
     if (detail::make_motion<S>(request.ccd_motion_type, tf1_beg, tf1_end, a.motion) &&
         detail::make_motion<S>(request.ccd_motion_type, tf2_beg, tf2_end, b.motion) &&
         detail::continuous_collide(a, b, request, result))

@@ -31,7 +31,8 @@ typedef struct ovoid_prepared_shape {
     double rotation[9]; /**< to the world, by rows */
     ovoid_vec3 center;  /**< of the enclosing sphere, relative to the origin of the body frame, in the world's axes */
     ovoid_vec3 first;   /**< vertex 0, relative to that origin, in those axes */
-    uint32_t is_ready;  /**< 0: the shape is refused, or each query has to place it (docs/query.md) */
+    uint32_t is_ready;  /**< 0: the shape is refused, or each query has to place it (docs/query.md); 3: the rotation is
+                             a matrix that was given, 1: that of the pose */
     uint32_t turned_count; /**< of `turned`, a multiple of 8; 0: none */
     double
         turned[3 * OVOID_PREPARED_VERTICES]; /**< x, then y, then z of the vertices, from that origin, in those axes */
@@ -42,6 +43,18 @@ typedef struct ovoid_prepared_shape {
  * shape. Cost: 15 to 40 ns.
  */
 OVOID_API void ovoid_prepared_shape_make(const ovoid_posed_shape *body, ovoid_prepared_shape *prepared);
+
+/**
+ * Prepares a shape at a rotation matrix, by rows, as transforms of Eigen and others hold it; NULL: not rotated. The
+ * matrix is used as it is where its columns are those of a rotation to a few roundings, else as ovoid_pose_make_matrix
+ * does; `body` has its pose, of which proofs of answers are. Bounds are wider by a part in 1e13 of the size than those
+ * of that pose, and vertices are not rotated before a query needs them.
+ *
+ * Returns OVOID_OK; ARGUMENT where `prepared` is NULL; NOT_FINITE, RANGE and ROTATION as ovoid_pose_make_matrix: then
+ * queries refuse the pose. Cost: 10 ns.
+ */
+OVOID_API ovoid_code ovoid_prepared_shape_make_matrix(const ovoid_shape *shape, const double rotation[9],
+                                                      ovoid_vec3 position, ovoid_prepared_shape *prepared);
 
 /**
  * What a query writes beside its verdict. All NULL, or NULL for the whole: nothing.

@@ -82,13 +82,13 @@ static vec3 find_segments_normal(vec3 w, vec3 u, vec3 v, int is_inside_u, int is
 }
 
 // The middle of a point or a segment, turned; that of a sphere around its frame's origin needs no turn.
-static vec3 turn_middle(mat3 turn, const ovoid_shape *s) {
-    return closed_is_origin(s) ? (vec3){0, 0, 0} : mat3_mul_vec3(turn, closed_get_middle(s));
+static inline vec3 turn_middle(const mat3 *turn, const ovoid_shape *s) {
+    return closed_is_origin(s) ? (vec3){0, 0, 0} : mat3_mul_vec3(*turn, closed_get_middle(s));
 }
 
 static void find_segments(const pair_frame *f, nearest_pair *out) {
-    vec3 middle = turn_middle(f->world, f->a);
-    vec3 d = vec3_add(f->offset, vec3_sub(turn_middle(f->world_b, f->b), middle));
+    vec3 middle = turn_middle(&f->world, f->a);
+    vec3 d = vec3_add(f->offset, vec3_sub(turn_middle(&f->world_b, f->b), middle));
     vec3 u = mat3_mul_vec3(f->world, closed_get_half(f->a)), v = mat3_mul_vec3(f->world_b, closed_get_half(f->b));
     double s, t;
     find_parameters(d, u, v, &s, &t);
@@ -104,8 +104,8 @@ static void find_segments(const pair_frame *f, nearest_pair *out) {
 
 // The same operations, without those of the half of a point, which is zero.
 static void find_point_and_segment(const pair_frame *f, int is_point_a, nearest_pair *out) {
-    vec3 middle = turn_middle(f->world, f->a);
-    vec3 d = vec3_add(f->offset, vec3_sub(turn_middle(f->world_b, f->b), middle));
+    vec3 middle = turn_middle(&f->world, f->a);
+    vec3 d = vec3_add(f->offset, vec3_sub(turn_middle(&f->world_b, f->b), middle));
     vec3 e =
         is_point_a ? mat3_mul_vec3(f->world_b, closed_get_half(f->b)) : mat3_mul_vec3(f->world, closed_get_half(f->a));
     double square = vec3_norm_squared(e), along = vec3_dot(e, d);
@@ -123,8 +123,8 @@ static void find_point_and_segment(const pair_frame *f, int is_point_a, nearest_
 }
 
 static void find_points(const pair_frame *f, nearest_pair *out) {
-    out->point_a = turn_middle(f->world, f->a);
-    out->difference = vec3_add(f->offset, vec3_sub(turn_middle(f->world_b, f->b), out->point_a));
+    out->point_a = turn_middle(&f->world, f->a);
+    out->difference = vec3_add(f->offset, vec3_sub(turn_middle(&f->world_b, f->b), out->point_a));
     closed_points found = closed_find_points(out->difference);
     out->normal = found.normal;
     out->gap = found.gap;
@@ -206,7 +206,7 @@ static void set_way(const ovoid_shape *thin, const mat3 *turn, in_box *q) {
 static void set_in_box(const pair_frame *f, int is_box_a, in_box *q) {
     const ovoid_shape *box = is_box_a ? f->a : f->b, *thin = is_box_a ? f->b : f->a;
     const mat3 *turn = is_box_a ? &f->world : &f->world_b, *turn_thin = is_box_a ? &f->world_b : &f->world;
-    vec3 middle = turn_middle(*turn_thin, thin);
+    vec3 middle = turn_middle(turn_thin, thin);
     q->is_point = thin->vertex_count == 1;
     q->center = mat3_mul_vec3(*turn, box->box.center);
     q->y =
@@ -306,15 +306,24 @@ static uint32_t get_vertex(const ovoid_shape *s, unsigned bits) {
     return s->vertex_count == 8 ? s->box.corner[bits & 7] : s->vertex_count == 2 ? bits & 1 : 0;
 }
 
+// The number of cuts.
+static uint32_t count_cuts(const double *t, uint32_t count) {
+    uint32_t sum = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        double weight = 0.5 * (1 + t[i]);
+        sum += (uint32_t)((weight > 0) & (weight < 1));
+    }
+    return sum;
+}
+
 // The two points as one convex combination of pairs of vertices: from the pair with the ends at -1 one parameter after
-// another goes to its end at 1, the one of the largest weight first. 0: there are more pairs than an answer holds.
-static int write_points(const pair_frame *f, const nearest_pair *found, simplex *points) {
+// another goes to its end at 1, the one of the largest weight first. There are at most three cuts.
+static void write_points(const pair_frame *f, const nearest_pair *found, simplex *points) {
     cut cuts[6];
     uint32_t count = 0, axes_a = count_axes(f->a), axes_b = count_axes(f->b);
     unsigned bits = 0;
     if (axes_a > 0) add_cuts(found->a, axes_a, 0, cuts, &count, &bits);
     if (axes_b > 0) add_cuts(found->b, axes_b, 3, cuts, &count, &bits);
-    if (count > 3) return 0;
     points->count = (int)count + 1;
     double left = 1;
     for (uint32_t i = 0; i < 4; i++) {
@@ -330,7 +339,6 @@ static int write_points(const pair_frame *f, const nearest_pair *found, simplex 
         if (i < count) bits |= cuts[i].bit;
         left = next;
     }
-    return 1;
 }
 
 // ---- the answer
@@ -361,7 +369,10 @@ int closed_run(const placed_query *query, small_end *end) {
     if (!closed_is_moderate(f)) return 0;
     find_nearest_pair(f, &found);
     double distance = vec3_norm(found.difference);
-    if (!closed_set_bounds(query, found.gap, distance, end) || !write_points(f, &found, &end->points)) return 0;
+    if (!closed_set_bounds(query, found.gap, distance, end)) return 0;
+    // Points inside a box and inside a segment take more pairs than an answer holds.
+    if (count_cuts(found.a, count_axes(f->a)) + count_cuts(found.b, count_axes(f->b)) > 3) return 0;
+    if (!query->is_bare) write_points(f, &found, &end->points);
     end->normal = vec3_clear_signs(found.normal);
     end->inner = (vec3){0, 0, 0};
     closed_cores cores = find_cores(f, &found, distance);

@@ -78,6 +78,23 @@ static inline void closed_set_witness(const pair_frame *f, const closed_cores *c
     end->point_b = vec3_clear_signs(vec3_add_scaled(cores->b, cores->n, -f->b->radius));
 }
 
+/// 1 for two bodies that no rotation changes.
+static inline int closed_are_origins(const ovoid_shape *a, const ovoid_shape *b) {
+    return closed_is_origin(a) && closed_is_origin(b) && !(a->has_allowance | b->has_allowance);
+}
+
+/// closed_run of two such bodies, bare; of the frame the rotations are not read.
+static inline int closed_run_origins(const placed_query *query, small_end *end) {
+    const pair_frame *f = query->frame;
+    if (!closed_is_moderate(f)) return 0;
+    closed_points points = closed_find_points(f->offset);
+    if (!closed_set_bounds(query, points.gap, points.distance, end)) return 0;
+    end->normal = vec3_clear_signs(points.normal);
+    // The difference's direction is the normal.
+    closed_set_witness(f, &(closed_cores){f->world_origin, vec3_add(f->world_origin, f->offset), points.normal}, end);
+    return 1;
+}
+
 /// The answer to the query, of a pair that fits: 1. 0: the sign is within rounding, or the depth of a box that a point
 /// or a segment enters is asked for, and nothing is known. The frame needs only frame_place.
 int closed_run(const placed_query *query, small_end *end);

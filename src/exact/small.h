@@ -34,6 +34,7 @@ typedef struct placed_query {
     const query_goal *goal;
     const ovoid_proof *earlier; ///< of an earlier call, or NULL; it may hold any bytes
     double sphere_gap;          ///< the lower bound of reject_by_spheres
+    int is_bare;                ///< no proof is wanted: closed_run leaves end->points as they are
 } placed_query;
 
 /// 1 if both bodies have few vertices and no allowance, and no depth is asked for. sphere_gap: the lower bound of

@@ -9,6 +9,9 @@
 /// ovoid_pose_validate, for callers that have set up the floating-point environment.
 ovoid_code pose_validate(const ovoid_pose *pose);
 
+/// ovoid_pose_make_matrix, for callers that have set up the floating-point environment.
+ovoid_code pose_make_matrix(const double *matrix, ovoid_vec3 position, ovoid_pose *pose, ovoid_error *error);
+
 /// 1 for a position that pose_validate takes; NaN fails every comparison.
 static inline int position_is_valid(ovoid_vec3 p) {
     return (fabs(p.x) <= OVOID_LENGTH_MAX) & (fabs(p.y) <= OVOID_LENGTH_MAX) & (fabs(p.z) <= OVOID_LENGTH_MAX);

@@ -75,7 +75,7 @@ static ovoid_code refuse_entry(int i, ovoid_error *error) {
     return error_set(error, OVOID_ERROR_NOT_FINITE, i, "entry %d of the matrix is not finite", i);
 }
 
-static ovoid_code make_matrix(const double *m, ovoid_vec3 position, ovoid_pose *pose, ovoid_error *error) {
+ovoid_code pose_make_matrix(const double *m, ovoid_vec3 position, ovoid_pose *pose, ovoid_error *error) {
     for (int i = 0; i < 9; i++)
         if (!isfinite(m[i]))
             return error_set(error, OVOID_ERROR_NOT_FINITE, i, "entry %d of the matrix is not finite", i);
@@ -99,7 +99,7 @@ static ovoid_code make_matrix(const double *m, ovoid_vec3 position, ovoid_pose *
 
 ovoid_code ovoid_pose_make_matrix(const double matrix[9], ovoid_vec3 position, ovoid_pose *pose, ovoid_error *error) {
     if (!matrix || !pose) return error_set(error, OVOID_ERROR_ARGUMENT, -1, "matrix and pose must not be NULL");
-    ENVIRONMENT_RETURN(ovoid_code, position, make_matrix(matrix, position, pose, error));
+    ENVIRONMENT_RETURN(ovoid_code, position, pose_make_matrix(matrix, position, pose, error));
 }
 
 static ovoid_code make_transform(const double *m, ovoid_pose *pose, ovoid_error *error) {
@@ -111,7 +111,7 @@ static ovoid_code make_transform(const double *m, ovoid_pose *pose, ovoid_error 
             "the last row of the matrix is %g %g %g %g, not 0 0 0 1: not stored row by row, or no rigid motion", m[12],
             m[13], m[14], m[15]);
     const double rotation[9] = {m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]};
-    return make_matrix(rotation, (vec3){m[3], m[7], m[11]}, pose, error);
+    return pose_make_matrix(rotation, (vec3){m[3], m[7], m[11]}, pose, error);
 }
 
 ovoid_code ovoid_pose_make_transform(const double matrix[16], ovoid_pose *pose, ovoid_error *error) {

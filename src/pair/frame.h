@@ -21,6 +21,12 @@
 #define FRAME_CLAIM (256 * 0x1p-53)
 #define FRAME_CHECK (148 * 0x1p-53)
 
+/// A matrix that prepares a shape (query/prepared.c) is off the rotation of its pose by at most 170 u, which moves the
+/// shape's points by that part of its extent. Bounds are widened by two or three times what is hidden.
+#define FRAME_MATRIX (128 * 0x1p-53)
+/// The bit of is_ready that says so.
+enum { FRAME_BY_MATRIX = 2 };
+
 /// The frame of a pair.
 typedef struct pair_frame {
     // By frame_place: both bodies in the world.
@@ -67,6 +73,7 @@ static inline void frame_place_prepared(const ovoid_prepared_shape *a, const ovo
     f->offset = vec3_sub(b->body.pose.position, a->body.pose.position);
     f->between = vec3_add(f->offset, vec3_sub(b->center, a->center));
     f->hidden = OVOID_LENGTH_MIN;
+    if ((a->is_ready | b->is_ready) & FRAME_BY_MATRIX) f->hidden += FRAME_MATRIX * (f->a->span + f->b->span);
     frame_set_lengths(f);
 }
 

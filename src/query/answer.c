@@ -283,7 +283,7 @@ COMPILER_NOINLINE static void find_sign(search *s) {
     small_end end;
     (void)reject_by_spheres(s->frame, INFINITY, &found);
     search_make(&t, s->frame, &sign);
-    const placed_query placed = {s->frame, &sign, NULL, found.lower};
+    const placed_query placed = {s->frame, &sign, NULL, found.lower, 0};
     if (begin_after_spheres(&placed, &found, &end) == BEGIN_SMALL) {
         s->iterations += end.iterations;
         if (end.upper < 0) take_small_overlap(s, &end);
@@ -335,7 +335,7 @@ static inline beginning begin(const ovoid_pair *pair, const query_request *reque
     if (s->refused != OVOID_LIMIT_NONE) return BEGIN_REFUSED;
     set_numbers(&s->goal, &options, &s->frame);
     if (reject_by_spheres(&s->frame, s->goal.far, &s->found)) return BEGIN_REJECTED;
-    s->placed = (placed_query){&s->frame, &s->goal, request->earlier, s->found.lower};
+    s->placed = (placed_query){&s->frame, &s->goal, request->earlier, s->found.lower, 0};
     return begin_after_spheres(&s->placed, &s->found, &s->end);
 }
 

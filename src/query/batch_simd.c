@@ -240,7 +240,7 @@ static void end_small(void *self, size_t index, const placed_query *q, const sma
 static void search_small(const batch_state *c, group_lane at, const gjk8_first *first) {
     pair_frame *frame = small_pool_get_frame(c->small);
     query_goal goal = get_goal(c, at);
-    const placed_query query = {frame, &goal, NULL, 0};
+    const placed_query query = {frame, &goal, NULL, 0, 0};
     place_frame(at, frame);
     const small_start start = {mat3_mul_vec3(frame->world, get3(at.e->lanes->n, at.k)), first};
     small_pool_add_from(c->small, at.e->index[at.k], &query, &start);
@@ -527,7 +527,7 @@ static unsigned add_small(batch_state *c, const lane_group *e, unsigned open) {
         small |= 1u << k;
         pair_frame *frame = small_pool_get_frame(c->small);
         query_goal goal = get_goal(c, (group_lane){e, k});
-        const placed_query query = {frame, &goal, NULL, sphere_gap};
+        const placed_query query = {frame, &goal, NULL, sphere_gap, 0};
         small_end end;
         place_frame((group_lane){e, k}, frame);
         if (is_closed)

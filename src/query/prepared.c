@@ -1,4 +1,12 @@
 // Queries of prepared shapes: what a pose alone decides was computed when they were made.
+//
+// A rotation matrix m is used as it is, without a quaternion's way back to a matrix, where its columns are those of a
+// rotation to MATRIX_ROUNDING, and the third is the cross product of the others. Let T be the sum of the deviations, u
+// = 2^-53. The sum that is computed is off T by less than 14 u, and m is within T of a rotation R in the Frobenius
+// norm: that by Gram and Schmidt. The pose's quaternion is a row of 4 q q', linear in the entries of m (S. W. Shepperd,
+// Quaternion from rotation matrix, 1978). With |m - R| <= e the row is off by sqrt(3) e, and it is sqrt(2) long or
+// longer, so R(q) is off R by 2.45 e, and by 8 u of rounding: |m - R(q)| <= 3.45 e + 8 u < 170 u for e = 46 u.
+// FRAME_MATRIX has the bounds widened by it. A search in the frame of A starts again from the pose.
 #include "base/compiler.h"
 #include "base/environment.h"
 #include "linear/pose.h"
@@ -22,6 +30,28 @@ static void set_ready(const ovoid_posed_shape *body, ovoid_prepared_shape *to) {
                      (double *[]){to->turned, to->turned + count, to->turned + 2 * (size_t)count});
 }
 
+#define MATRIX_ROUNDING (32 * 0x1p-53)
+
+// 1: the columns are those of a rotation, but for roundings. Of NaN they are not.
+static int is_near_rotation(const mat3 *m) {
+    vec3 x = {m->r0.x, m->r1.x, m->r2.x}, y = {m->r0.y, m->r1.y, m->r2.y}, z = {m->r0.z, m->r1.z, m->r2.z};
+    vec3 off = vec3_sub(vec3_cross(x, y), z);
+    double sum = (fabs(vec3_norm_squared(x) - 1) + fabs(vec3_norm_squared(y) - 1)) + fabs(vec3_dot(x, y));
+    return sum + ((fabs(off.x) + fabs(off.y)) + fabs(off.z)) <= MATRIX_ROUNDING;
+}
+
+// A quaternion of a rotation, of no particular length. The row of q.w is exact enough where the turn is below 138
+// degrees; otherwise that with the largest entry on the diagonal.
+static ovoid_quat find_quat(const mat3 *m) {
+    double x = m->r0.x, y = m->r1.y, z = m->r2.z, trace = x + y + z;
+    double wx = m->r2.y - m->r1.z, wy = m->r0.z - m->r2.x, wz = m->r1.x - m->r0.y;
+    if (trace > -0.5) return (ovoid_quat){1 + trace, wx, wy, wz};
+    double xy = m->r1.x + m->r0.y, xz = m->r0.z + m->r2.x, yz = m->r2.y + m->r1.z;
+    if (x >= y && x >= z) return (ovoid_quat){wx, 1 + x - y - z, xy, xz};
+    if (y >= z) return (ovoid_quat){wy, xy, 1 - x + y - z, yz};
+    return (ovoid_quat){wz, xz, yz, 1 - x - y + z};
+}
+
 static void make(const ovoid_posed_shape *body, ovoid_prepared_shape *to) {
     to->body = *body;
     to->turned_count = 0;
@@ -32,6 +62,60 @@ static void make(const ovoid_posed_shape *body, ovoid_prepared_shape *to) {
 
 void ovoid_prepared_shape_make(const ovoid_posed_shape *body, ovoid_prepared_shape *prepared) {
     ENVIRONMENT_RUN(make(body, prepared));
+}
+
+static void set_rotation(const mat3 *m, ovoid_prepared_shape *to) {
+    const ovoid_shape *shape = to->body.shape;
+    memcpy(to->rotation, m, sizeof to->rotation);
+    to->turned_count = 0;
+    to->is_ready = shape && !shape->has_origin ? 1 | FRAME_BY_MATRIX : 0;
+    if (!to->is_ready) return;
+    to->first = mat3_mul_vec3(*m, shape->first);
+    to->center = mat3_mul_vec3(*m, shape->center);
+}
+
+// A body that is not rotated.
+static void set_unrotated(ovoid_prepared_shape *to) {
+    const ovoid_shape *shape = to->body.shape;
+    static const mat3 identity = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    to->body.pose.rotation = (ovoid_quat){1, 0, 0, 0};
+    memcpy(to->rotation, &identity, sizeof to->rotation);
+    to->turned_count = 0;
+    to->is_ready = shape && !shape->has_origin;
+    if (!to->is_ready) return;
+    to->first = shape->first;
+    to->center = shape->center;
+}
+
+// By a matrix that is off by more than roundings, or a pose that is none: the queries refuse that.
+COMPILER_NOINLINE static ovoid_code make_from_nearest(const double *rotation, ovoid_prepared_shape *to) {
+    ovoid_posed_shape body = {to->body.shape, {to->body.pose.position, {0, 0, 0, 0}}};
+    ovoid_code code = pose_make_matrix(rotation, body.pose.position, &body.pose, NULL);
+    make(&body, to);
+    return code;
+}
+
+static ovoid_code make_matrix(const double *rotation, ovoid_prepared_shape *to) {
+    mat3 m;
+    if (!rotation && position_is_valid(to->body.pose.position)) {
+        set_unrotated(to);
+        return OVOID_OK;
+    }
+    static const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    if (!rotation) rotation = identity;
+    memcpy(&m, rotation, sizeof m);
+    if (!is_near_rotation(&m) || !position_is_valid(to->body.pose.position)) return make_from_nearest(rotation, to);
+    to->body.pose.rotation = find_quat(&m);
+    set_rotation(&m, to);
+    return OVOID_OK;
+}
+
+ovoid_code ovoid_prepared_shape_make_matrix(const ovoid_shape *shape, const double rotation[9], ovoid_vec3 position,
+                                            ovoid_prepared_shape *prepared) {
+    if (!prepared) return OVOID_ERROR_ARGUMENT;
+    prepared->body.shape = shape;
+    prepared->body.pose.position = position;
+    ENVIRONMENT_RETURN_CALL(make_matrix(rotation, prepared));
 }
 
 // ---- queries
@@ -82,15 +166,21 @@ static ovoid_verdict end_at_rejection(const pair_frame *f, const rejection *foun
     return answer_get_verdict(&answer);
 }
 
-static ovoid_verdict end_at_small(const pair_frame *f, const small_end *end, const query_goal *goal,
-                                  const ovoid_evidence *out) {
+static inline ovoid_verdict end_at_small(const pair_frame *f, const small_end *end, const query_goal *goal,
+                                         const ovoid_evidence *out) {
     if (out) {
         if (out->proof) *out->proof = answer_make_small_proof(end);
-        if (out->witness) *out->witness = answer_make_small_witness(end, f);
+        if (out->witness && end->has_witness)
+            *out->witness = (ovoid_witness){end->point_a, end->point_b, end->normal};
+        else if (out->witness)
+            *out->witness = answer_make_small_witness(end, f);
         if (out->answer) *out->answer = answer_make_small(end, f, goal);
     }
     return answer_make_small_verdict(end, goal);
 }
+
+// 1 if the whole proof or answer is wanted.
+static inline int wants_proof(const ovoid_evidence *out) { return out && (out->proof || out->answer); }
 
 // The query of bodies that the spheres do not separate, or one whose evidence is wanted.
 COMPILER_NOINLINE static ovoid_verdict find_near(ovoid_prepared_pair pair, const ovoid_options *given,
@@ -107,12 +197,22 @@ COMPILER_NOINLINE static ovoid_verdict find_near(ovoid_prepared_pair pair, const
     frame_place_rotations(pair.a, pair.b, &frame);
     set_numbers(&goal, &options, &frame);
     if (reject_by_spheres(&frame, goal.far, &found)) return end_at_rejection(&frame, &found, &goal, out);
-    const placed_query query = {&frame, &goal, earlier, found.lower};
+    const placed_query query = {&frame, &goal, earlier, found.lower, !wants_proof(out)};
     switch (begin_after_spheres(&query, &found, &end)) {
     case BEGIN_REJECTED: return end_at_rejection(&frame, &found, &goal, out);
     case BEGIN_SMALL: return end_at_small(&frame, &end, &goal, out);
-    default: frame_relate(&frame); return search_on(pair, &query, out);
+    default: break;
     }
+    if ((pair.a->is_ready | pair.b->is_ready) & FRAME_BY_MATRIX)
+        return find_afresh(pair, &(query_request){given, wanted, earlier, NULL}, out);
+    frame_relate(&frame);
+    return search_on(pair, &query, out);
+}
+
+// 1 if the spheres alone may answer: a verdict that a rejection gives, or two bodies that are spheres.
+static inline int may_end_at_spheres(ovoid_prepared_pair pair, const query_goal *goal, const ovoid_evidence *out) {
+    if (!(pair.a->is_ready & pair.b->is_ready) || wants_proof(out)) return 0;
+    return (!out && goal->far < INFINITY) || closed_are_origins(pair.a->body.shape, pair.b->body.shape);
 }
 
 // What it computes for the spheres stays in registers: no function but inline ones sees the frame.
@@ -122,12 +222,17 @@ COMPILER_NOINLINE static ovoid_verdict find(ovoid_prepared_pair pair, const ovoi
     query_goal goal = *wanted;
     pair_frame frame;
     rejection found;
-    if (out || !(pair.a->is_ready & pair.b->is_ready) || !options_make(given, &options) || !(goal.far >= 0))
+    small_end end;
+    if (!may_end_at_spheres(pair, &goal, out) || !options_make(given, &options) || !(goal.far >= 0))
         return find_near(pair, given, wanted, out);
     frame_place_prepared(pair.a, pair.b, &frame);
     set_numbers(&goal, &options, &frame);
-    if (!reject_by_spheres(&frame, goal.far, &found)) return find_near(pair, given, wanted, NULL);
-    return end_at_spheres(pair, &frame, &found, &goal);
+    if (reject_by_spheres(&frame, goal.far, &found))
+        return out ? find_near(pair, given, wanted, out) : end_at_spheres(pair, &frame, &found, &goal);
+    const placed_query query = {&frame, &goal, NULL, found.lower, 1};
+    if (closed_are_origins(frame.a, frame.b) && closed_run_origins(&query, &end))
+        return end_at_small(&frame, &end, &goal, out);
+    return find_near(pair, given, wanted, out);
 }
 
 static ovoid_verdict run(ovoid_prepared_pair pair, const ovoid_options *given, const query_goal *goal,

@@ -27,16 +27,10 @@ ovoid_answer spheres_find(const ovoid_pair *pair, const query_request *request) 
     place(pair, &f);
     set_numbers(&goal, &options, &f);
     if (reject_by_spheres(&f, goal.far, &found)) return answer_find_by_value(pair, request);
-    if (!closed_is_moderate(&f)) return answer_find_by_value(pair, request);
-    closed_points points = closed_find_points(f.offset);
-    const placed_query query = {&f, &goal, NULL, found.lower};
-    if (!closed_set_bounds(&query, points.gap, points.distance, &end)) return answer_find_by_value(pair, request);
-    // The difference's direction is the normal.
-    vec3 a = f.world_origin, b = vec3_add(a, f.offset);
-    closed_set_witness(&f, &(closed_cores){a, b, points.normal}, &end);
+    const placed_query query = {&f, &goal, NULL, found.lower, 1};
+    if (!closed_run_origins(&query, &end)) return answer_find_by_value(pair, request);
     if (request->cover && !goal.has_cover) request->cover->point_count = request->cover->triangle_count = 0;
     ovoid_verdict verdict = answer_make_small_verdict(&end, &goal);
-    end.normal = vec3_clear_signs(points.normal);
     end.points = (simplex){.count = 1, .weight = {1}};
     end.inner = (vec3){0, 0, 0};
     const small_points witness = {end.point_a, end.point_b};

@@ -8,8 +8,7 @@
 /// 1 if both bodies are spheres around the origins of their frames.
 static inline int spheres_fit(const ovoid_pair *pair) {
     const ovoid_shape *a = pair->shape_a, *b = pair->shape_b;
-    return a && b && closed_is_origin(a) && closed_is_origin(b) &&
-           !(a->has_origin | b->has_origin | a->has_allowance | b->has_allowance);
+    return a && b && closed_are_origins(a, b) && !(a->has_origin | b->has_origin);
 }
 
 /// answer_find_by_value, the same bits, of a pair that fits. Cost: a third of that.

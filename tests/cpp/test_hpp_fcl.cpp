@@ -230,9 +230,11 @@ static void test_turned_spheres() {
     CHECK_EQ(counting_fcl::calls, left);
     Transform3d nowhere = Transform3d::Identity();
     nowhere.translation()[1] = NAN;
-    ovoid_pose pose;
-    CHECK(!ovoid::fcl::detail::to_pose<double>(&a, nowhere, pose));
-    CHECK(!ovoid::fcl::detail::to_pose<double>(&box, sheared, pose));
+    ovoid_prepared_shape unused;
+    using posed = ovoid::fcl::detail::posed<double>;
+    CHECK(!(posed{&a, nowhere, nullptr}).place(nullptr, unused));
+    CHECK(!(posed{&box, sheared, nullptr}).place(nullptr, unused));
+    CHECK((posed{&a, sheared, nullptr}).place(nullptr, unused));
 }
 
 /// Every pair of triangles that touch is listed, and no other; a mesh within another has no contact, and its distance
@@ -386,7 +388,7 @@ static void test_left_to_fcl() {
     CHECK_EQ(count(&a, &plane, grown, CollisionRequestd()), 1);
     // FCL would crash on this one.
     ovoid::fcl::detail::print unused;
-    CHECK(!ovoid::fcl::detail::make_print<double>(&cloud, unused));
+    CHECK(!ovoid::fcl::detail::make_print<double>({&cloud, cloud.getNodeType()}, unused));
     ovoid_pose pose;
     CHECK(!ovoid::fcl::detail::to_pose<double>(nowhere, pose));
     CHECK(ovoid::fcl::detail::to_pose<double>(t, pose));

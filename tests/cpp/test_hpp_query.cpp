@@ -63,6 +63,11 @@ void check_pairs() {
         CHECK_EQ(ovoid::collide(ready_a, ready_b).lower, ovoid::collide(p).lower);
         CHECK_EQ(ovoid::within(ready_a, ready_b, 0.5).upper, ovoid::within(p, 0.5).upper);
         CHECK_EQ(ovoid::distance(ready_a, ready_b).lower, ovoid::distance(p).lower);
+        const std::array<double, 9> quarter = {0, -1, 0, 1, 0, 0, 0, 0, 1}, mirror = {0, 1, 0, 1, 0, 0, 0, 0, 1};
+        const auto turned = ovoid::prepared_shape::from_row_major(b.box.get(), quarter, vec3(0, 0, 5));
+        CHECK(turned.body.pose.position.z == 5 && turned.rotation[1] == -1);
+        CHECK(throws(OVOID_ERROR_ROTATION, -1, "",
+                     [&] { ovoid::prepared_shape::from_row_major(b.box.get(), mirror, vec3()); }));
         const ovoid_gradient g = ovoid_answer_compute_gradient(&c, &a, &cover);
         const ovoid_smooth s = ovoid_pair_compute_smooth(&c, 1), t = ovoid::compute_smooth(p, 1);
         CHECK(is_same_count(ovoid::compute_gradient(p, a, &cover).gradient, g.gradient, 12));

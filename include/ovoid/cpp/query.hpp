@@ -137,6 +137,21 @@ using evidence = zeroed<ovoid_evidence>;
 struct prepared_shape : ovoid_prepared_shape {
     /** Prepares the shape; the queries refuse a bad pose. */
     explicit prepared_shape(const ovoid_posed_shape &of) noexcept { ovoid_prepared_shape_make(&of, this); }
+    /**
+     * Prepares the shape at nine numbers of a rotation matrix, row by row. Throws as ovoid_prepared_shape_make_matrix
+     * refuses.
+     */
+    template <class M>
+    static prepared_shape from_row_major(const ovoid_shape *of, const M &matrix, const ovoid_vec3 &at) {
+        const auto rows = detail::numbers_of<9>(matrix);
+        prepared_shape made;
+        const ovoid_code code = ovoid_prepared_shape_make_matrix(of, rows.data(), at, &made);
+        if (code != OVOID_OK) detail::fail(code, "the matrix is no rotation, or the position is not finite");
+        return made;
+    }
+
+  private:
+    prepared_shape() noexcept : ovoid_prepared_shape{} {}
 };
 
 /** collide of prepared shapes. */

@@ -46,16 +46,15 @@ class store {
     }
 
     /// The entry of this geometry if it has the geometry's print, with its owner noted; or NULL.
-    template <class S>
-    std::shared_ptr<entry> find(const geometry<S> *g, const std::shared_ptr<const geometry<S>> &owner) {
+    template <class S> std::shared_ptr<entry> find(const typed<S> &g, const std::shared_ptr<const geometry<S>> *owner) {
         const std::lock_guard<std::mutex> hold(lock_);
-        const auto found = entries_.find(g);
+        const auto found = entries_.find(g.of);
         if (found == entries_.end() || !has_print(g, found->second->of)) return nullptr;
-        note(*found->second, owner);
+        if (owner) note(*found->second, *owner);
         return found->second;
     }
 
-    /// Adds an entry in the place of one of the same address.
+    /// Adds an entry in the place of one of the same address. owner: empty where it is not known.
     void add(const void *address, const std::shared_ptr<entry> &made, const std::shared_ptr<const void> &owner) {
         const std::lock_guard<std::mutex> hold(lock_);
         if (entries_.size() >= most_ || size_ >= most_size_) sweep(false);
@@ -84,7 +83,7 @@ class store {
         return entries_.size();
     }
     /// Changes when entries were swept.
-    std::uint64_t sweeps() const { return sweeps_.load(std::memory_order_acquire); }
+    static std::uint64_t sweeps() { return sweeps_.load(std::memory_order_acquire); }
 
   private:
     static void note(entry &e, const std::shared_ptr<const void> &owner) {
@@ -112,7 +111,7 @@ class store {
     std::mutex lock_;
     std::unordered_map<const void *, std::shared_ptr<entry>> entries_;
     std::size_t most_ = 64, size_ = 0, most_size_ = std::size_t{64} << 20;
-    std::atomic<std::uint64_t> sweeps_{0};
+    inline static std::atomic<std::uint64_t> sweeps_{0};
 };
 
 /// What one thread used last: sets of two places. The place that was used last stays when its set takes a new entry, so
@@ -138,7 +137,7 @@ class table {
 
     /// To be called once at the start of each call: lets go of what was swept.
     void begin() {
-        const std::uint64_t sweeps = store::get().sweeps();
+        const std::uint64_t sweeps = store::sweeps();
         if (sweeps == sweeps_) return;
         sweeps_ = sweeps;
         for (set &s : sets_)
@@ -146,22 +145,20 @@ class table {
                 if (p.held && p.held->is_swept.load(std::memory_order_acquire)) p = place();
     }
 
-    /// The body of a geometry, which stays until the second find after this one; NULL if it has none. owner: empty
-    /// where it is not known.
-    template <class S> const body *find(const geometry<S> *g, const std::shared_ptr<const geometry<S>> &owner) {
-        const auto address = reinterpret_cast<std::uintptr_t>(g);
-        set &s = sets_[pick_set(address)];
-        for (std::uint32_t i = 0; i < 2; i++) {
-            const place &at = s.places[i];
-            if (at.address != g || !has_print(g, at.held->of)) continue;
+    /// The body of a geometry, which stays until the second find after this one; NULL if it has none. owner: NULL or
+    /// empty where it is not known.
+    template <class S> const body *find(const typed<S> &g, const std::shared_ptr<const geometry<S>> *owner) {
+        set &s = sets_[pick_set(g.of)];
+        const std::uint32_t i = s.places[0].address == g.of ? 0 : 1;
+        const place &at = s.places[i];
+        if (at.address == g.of && has_print(g, at.held->of)) {
             entry &e = *at.held;
-            if (owner && !e.is_owned.load(std::memory_order_relaxed)) break;
+            if (owner && *owner && !e.is_owned.load(std::memory_order_relaxed)) return make_anew(g, owner);
             if (!e.is_used.load(std::memory_order_relaxed)) e.is_used.store(true, std::memory_order_relaxed);
             s.last = i;
             return e.made.get();
         }
-        std::shared_ptr<entry> held = make_entry(g, owner);
-        return held ? put(g, std::move(held)) : nullptr;
+        return make_anew(g, owner);
     }
 
   private:
@@ -182,10 +179,19 @@ class table {
     static constexpr std::size_t fewest_sets = 256, most_sets = std::size_t{1} << 15;
 
     /// The number of sets is a power of two.
-    std::size_t pick_set(std::uintptr_t address) const { return (address >> 4 ^ address >> 12) & (sets_.size() - 1); }
+    std::size_t pick_set(const void *geometry) const {
+        const auto address = reinterpret_cast<std::uintptr_t>(geometry);
+        return (address >> 4 ^ address >> 12) & mask_;
+    }
+    /// Not inline: it is seldom called.
+    template <class S>
+    OVOID_FCL_APART const body *make_anew(const typed<S> &g, const std::shared_ptr<const geometry<S>> *owner) {
+        std::shared_ptr<entry> held = make_entry(g, owner);
+        return held ? put(g.of, std::move(held)) : nullptr;
+    }
     const body *put(const void *address, std::shared_ptr<entry> held) {
         if (evictions_ >= sets_.size() && sets_.size() < most_sets) grow();
-        set &s = sets_[pick_set(reinterpret_cast<std::uintptr_t>(address))];
+        set &s = sets_[pick_set(address)];
         s.last = s.pick(address);
         place &to = s.places[s.last];
         evictions_ += to.address && to.address != address;
@@ -196,32 +202,33 @@ class table {
     void grow() {
         const std::size_t half = sets_.size();
         sets_.resize(2 * half);
+        mask_ = sets_.size() - 1;
         for (std::size_t k = 0; k < half; k++) {
             set &lower = sets_[k], &upper = sets_[k + half];
             upper.last = lower.last;
             for (std::uint32_t i = 0; i < 2; i++)
-                if (pick_set(reinterpret_cast<std::uintptr_t>(lower.places[i].address)) != k)
-                    std::swap(lower.places[i], upper.places[i]);
+                if (pick_set(lower.places[i].address) != k) std::swap(lower.places[i], upper.places[i]);
         }
         evictions_ = 0;
     }
 
     /// The entry of all threads, or a new one; NULL if the geometry has no translation.
     template <class S>
-    static std::shared_ptr<entry> make_entry(const geometry<S> *g, const std::shared_ptr<const geometry<S>> &owner) {
+    static std::shared_ptr<entry> make_entry(const typed<S> &g, const std::shared_ptr<const geometry<S>> *owner) {
         store &all = store::get();
         std::shared_ptr<entry> e = all.find(g, owner);
         print p;
         if (e || !make_print(g, p)) return e;
         e = std::make_shared<entry>();
         e->of = p;
-        e->made = make_body(g);
+        e->made = make_body(g.of);
         e->size = e->made->size();
-        all.add(g, e, owner);
+        all.add(g.of, e, owner ? *owner : nullptr);
         return e;
     }
 
     std::vector<set> sets_ = std::vector<set>(fewest_sets);
+    std::size_t mask_ = fewest_sets - 1;
     std::size_t evictions_ = 0; ///< since the sets were doubled
     std::uint64_t sweeps_ = 0;
 };

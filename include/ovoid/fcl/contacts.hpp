@@ -20,11 +20,11 @@ namespace fcl {
 namespace detail {
 
 /// Where FCL has an answer of yes or no, and ovoid a bracket: a sign that is not proven is that of the middle.
-inline bool is_hit(const ovoid_answer &answer) {
+template <class Answer> bool is_hit(const Answer &answer) {
     if (answer.status == OVOID_UNDECIDED) return !(answer.lower + answer.upper > 0);
     return answer.status != OVOID_SEPARATED;
 }
-inline double middle(const ovoid_answer &answer) { return (answer.lower + answer.upper) / 2; }
+template <class Answer> double middle(const Answer &answer) { return (answer.lower + answer.upper) / 2; }
 /// The point at this part of the way from a to b.
 inline ovoid_vec3 between(const ovoid_vec3 &a, const ovoid_vec3 &b, double part) {
     return {a.x + part * (b.x - a.x), a.y + part * (b.y - a.y), a.z + part * (b.z - a.z)};
@@ -37,15 +37,18 @@ template <class S> double get_part(const geometry<S> *o1, const geometry<S> *o2)
     return a + b > 0 ? a / (a + b) : 0.5;
 }
 
-/// Two bodies at their poses.
+/// Two bodies at their poses; shapes are prepared there.
 struct body_couple {
     const body *a, *b;
-    ovoid_pose pose_a, pose_b;
+    ovoid_prepared_shape at_a, at_b;
 
-    ovoid_pair pieces(std::uint32_t i, std::uint32_t j) const { return {a->piece(i), b->piece(j), pose_a, pose_b}; }
-    ovoid_pair shapes() const { return {a->shape(), b->shape(), pose_a, pose_b}; }
+    const ovoid_pose &pose_a() const { return at_a.body.pose; }
+    const ovoid_pose &pose_b() const { return at_b.body.pose; }
+    ovoid_pair pieces(std::uint32_t i, std::uint32_t j) const { return {a->piece(i), b->piece(j), pose_a(), pose_b()}; }
+    ovoid_pair shapes() const { return {a->shape(), b->shape(), pose_a(), pose_b()}; }
+    ovoid_prepared_pair prepared() const { return {&at_a, &at_b}; }
     ovoid_body_pair bodies() const {
-        return {{a->shape(), nullptr, pose_a, a->solid()}, {b->shape(), nullptr, pose_b, b->solid()}};
+        return {{a->shape(), nullptr, pose_a(), a->solid()}, {b->shape(), nullptr, pose_b(), b->solid()}};
     }
     bool has_mesh() const { return a->solid() || b->solid(); }
 };
@@ -54,8 +57,8 @@ struct body_couple {
 class box_test {
   public:
     explicit box_test(const body_couple &of) {
-        const ovoid_pose inverse = ovoid_pose_compute_inverse(&of.pose_a);
-        const ovoid_pose b_in_a = ovoid_pose_compute_product(&inverse, &of.pose_b);
+        const ovoid_pose inverse = ovoid_pose_compute_inverse(&of.pose_a());
+        const ovoid_pose b_in_a = ovoid_pose_compute_product(&inverse, &of.pose_b());
         ovoid_pose_compute_matrix(&b_in_a, turn_);
         const double at[3] = {b_in_a.position.x, b_in_a.position.y, b_in_a.position.z};
         for (int i = 0; i < 3; i++) at_[i] = at[i];
@@ -128,15 +131,31 @@ template <class S> class contact_list {
     ::fcl::CollisionResult<S> *result_;
 };
 
+/// A bracket, and its points and normal; without the proof, which FCL's callers have no place for.
+struct measured {
+    ovoid_verdict bracket;
+    ovoid_witness at;
+};
+inline measured ask_depth(const ovoid_prepared_pair &pair) {
+    measured found;
+    const ovoid_evidence evidence = {nullptr, &found.at, nullptr};
+    found.bracket = ovoid_prepared_depth(pair, nullptr, &evidence);
+    return found;
+}
+inline measured ask_depth(const ovoid_pair &pair) {
+    const ovoid_answer x = ovoid_depth(&pair, nullptr, nullptr, nullptr);
+    return {{x.status, x.stage, x.limit, x.iterations, x.lower, x.upper}, {x.point_a, x.point_b, x.normal}};
+}
+
 /// The signed distance of a contact. Where an allowance leaves the depth open it is the longest one, since a
 /// translation by that along the normal is proven to part the bodies.
-inline double contact_distance(const ovoid_answer &depth) {
+inline double contact_distance(const ovoid_verdict &depth) {
     return depth.upper - depth.lower > 1e-8 * -depth.lower ? depth.lower : middle(depth);
 }
 
 /// The deepest point of two overlapping shapes as a contact.
-template <class S> void add_deepest(contact_list<S> &to, int i, int j, const ovoid_answer &depth) {
-    to.add(i, j, {depth.point_a, depth.point_b, contact_distance(depth), 0}, depth.normal);
+template <class S> void add_deepest(contact_list<S> &to, int i, int j, const measured &depth) {
+    to.add(i, j, {depth.at.point_a, depth.at.point_b, contact_distance(depth.bracket), 0}, depth.at.normal);
 }
 
 /// Does a polyhedron stand for a round body, whose faces its facets are not; or is it a sphere? Both have one contact.
@@ -157,7 +176,7 @@ template <class S> void add_contacts(contact_list<S> &to, int i, int j, const ov
     const double depth = (manifold.lower + manifold.upper) / 2;
     double off = count == 0 ? INFINITY : points.points[0].separation - depth;
     if (!(off <= manifold.upper - manifold.lower)) {
-        add_deepest(to, i, j, ovoid_depth(&pair, nullptr, nullptr, nullptr));
+        add_deepest(to, i, j, ask_depth(pair));
         off = 0;
     }
     for (std::uint32_t n = 0; n < count && to.room() > 0; n++) {
@@ -171,20 +190,22 @@ inline bool is_thin(const ovoid_shape *shape) { return ovoid_shape_get_polytope(
 
 /// The contacts of two shapes: one, as FCL has of round bodies, or of others with room for more those of the polyhedra.
 template <class S> void collide_shapes(contact_list<S> &to, const body_couple &of) {
-    const ovoid_pair pair = of.shapes();
-    const bool is_single = to.room() == 1 || is_round(pair.shape_a) || is_round(pair.shape_b);
-    if (to.is_detailed() && is_single && (is_thin(pair.shape_a) || is_thin(pair.shape_b))) {
-        const ovoid_answer depth = ovoid_depth(&pair, nullptr, nullptr, nullptr);
-        if (is_hit(depth)) add_deepest(to, -1, -1, depth);
+    const ovoid_prepared_pair pair = of.prepared();
+    if (!to.is_detailed()) {
+        if (is_hit(ovoid_prepared_collide(pair, nullptr, nullptr))) to.add(-1, -1);
         return;
     }
-    if (!is_hit(ovoid_collide(&pair, nullptr, nullptr))) return;
-    if (!to.is_detailed())
-        to.add(-1, -1);
-    else if (is_single)
-        add_deepest(to, -1, -1, ovoid_depth(&pair, nullptr, nullptr, nullptr));
+    const bool is_single = to.room() == 1 || is_round(of.a->shape()) || is_round(of.b->shape());
+    if (is_single && (is_thin(of.a->shape()) || is_thin(of.b->shape()))) {
+        const measured depth = ask_depth(pair);
+        if (is_hit(depth.bracket)) add_deepest(to, -1, -1, depth);
+        return;
+    }
+    if (!is_hit(ovoid_prepared_collide(pair, nullptr, nullptr))) return;
+    if (is_single)
+        add_deepest(to, -1, -1, ask_depth(pair));
     else
-        add_contacts(to, -1, -1, pair);
+        add_contacts(to, -1, -1, of.shapes());
 }
 
 /// Adds the contact of two parts if they touch.
@@ -192,13 +213,12 @@ template <class S>
 void collide_parts(contact_list<S> &to, const body_couple &of, std::uint32_t part_a, std::uint32_t part_b) {
     const ovoid_pair pair = of.pieces(part_a, part_b);
     const int i = of.a->solid() ? static_cast<int>(part_a) : -1, j = of.b->solid() ? static_cast<int>(part_b) : -1;
-    const ovoid_answer answer =
-        to.is_detailed() ? ovoid_depth(&pair, nullptr, nullptr, nullptr) : ovoid_collide(&pair, nullptr, nullptr);
-    if (!is_hit(answer)) return;
-    if (to.is_detailed())
-        add_deepest(to, i, j, answer);
-    else
-        to.add(i, j);
+    if (!to.is_detailed()) {
+        if (is_hit(ovoid_collide(&pair, nullptr, nullptr))) to.add(i, j);
+        return;
+    }
+    const measured depth = ask_depth(pair);
+    if (is_hit(depth.bracket)) add_deepest(to, i, j, depth);
 }
 
 /// The contacts of a mesh with a shape or a mesh. One wanted: that of the two parts that decide. More: those of all
@@ -218,8 +238,7 @@ template <class S> void collide_meshes(contact_list<S> &to, const body_couple &o
     const int i = of.a->solid() ? static_cast<int>(answer.part_a) : -1,
               j = of.b->solid() ? static_cast<int>(answer.part_b) : -1;
     if (!to.is_detailed()) return to.add(i, j);
-    const ovoid_pair parts = of.pieces(answer.part_a, answer.part_b);
-    add_deepest(to, i, j, ovoid_depth(&parts, nullptr, nullptr, nullptr));
+    add_deepest(to, i, j, ask_depth(of.pieces(answer.part_a, answer.part_b)));
 }
 
 } // namespace detail

@@ -18,11 +18,6 @@ namespace detail {
 
 using vector = ::fcl::Vector3<double>;
 
-template <class S> bool is_flat(const geometry<S> *g) {
-    const ::fcl::NODE_TYPE type = g->getNodeType();
-    return type == ::fcl::GEOM_HALFSPACE || type == ::fcl::GEOM_PLANE;
-}
-
 /// The sign of a direction's component; 0 where the component is no more than a rounding, so that of a face or an edge
 /// that is parallel to the plane the middle counts, as in FCL.
 inline double side_of(double component) { return std::fabs(component) <= 1e-15 ? 0 : std::copysign(1, component); }

@@ -18,8 +18,10 @@
 /** @cond */
 #if defined(__GNUC__)
 #define OVOID_FCL_INLINE __attribute__((always_inline)) inline
+#define OVOID_FCL_APART __attribute__((noinline))
 #else
 #define OVOID_FCL_INLINE inline
+#define OVOID_FCL_APART
 #endif
 /** @endcond */
 
@@ -50,21 +52,19 @@ struct print : print_words<print> {
     void take(std::uint64_t word) { words[count++] = word; }
 };
 
-/// Compares a print with the words of a geometry as they come, so that none are written.
+/// Compares a print with the words of a geometry as they come, so that none are written. A type has always as many
+/// words.
 class print_comparison : public print_words<print_comparison> {
   public:
     explicit print_comparison(const print &of) : of_(of) {}
-    void set_type(std::uint32_t type) { is_same_ = type == of_.type; }
-    void take(std::uint64_t word) {
-        is_same_ = is_same_ && at_ < of_.count && of_.words[at_] == word;
-        at_++;
-    }
-    bool is_same() const { return is_same_ && at_ == of_.count; }
+    void set_type(std::uint32_t type) { difference_ = type ^ of_.type; }
+    void take(std::uint64_t word) { difference_ |= of_.words[at_++] ^ word; }
+    bool is_same() const { return difference_ == 0; }
 
   private:
     const print &of_;
     std::size_t at_ = 0;
-    bool is_same_ = false;
+    std::uint64_t difference_ = 0;
 };
 
 /// A word that depends on every bit of a sequence of numbers and on their order. The products do not wait for each
@@ -167,10 +167,17 @@ template <class S, class Words> void print_convex(const ::fcl::Convex<S> *g, Wor
     for (int i = 0; i < 3; i++) p.add(static_cast<double>(g->getInteriorPoint()[i])); // the mean of all vertices
 }
 
+/// A geometry, and its type, which it is asked once for.
+template <class S> struct typed {
+    const geometry<S> *of;
+    ::fcl::NODE_TYPE type;
+};
+
 /// The print of a geometry into p, a print or a comparison; false if it has no translation. The switch is over the
 /// types that FCL names. Inline, so that the few words of a box or a sphere are compared in registers.
-template <class S, class Words> OVOID_FCL_INLINE bool make_print(const geometry<S> *g, Words &p) {
-    const ::fcl::NODE_TYPE type = g->getNodeType();
+template <class S, class Words> OVOID_FCL_INLINE bool make_print(const typed<S> &geometry, Words &p) {
+    const auto *g = geometry.of;
+    const ::fcl::NODE_TYPE type = geometry.type;
     p.set_type(static_cast<std::uint32_t>(type) * 16 + sizeof(S));
     const auto add = [&p](const ::fcl::Vector3<S> &v) {
         for (int i = 0; i < 3; i++) p.add(static_cast<double>(v[i]));
@@ -206,7 +213,7 @@ template <class S, class Words> OVOID_FCL_INLINE bool make_print(const geometry<
 }
 
 /// Has the geometry this print?
-template <class S> OVOID_FCL_INLINE bool has_print(const geometry<S> *g, const print &p) {
+template <class S> OVOID_FCL_INLINE bool has_print(const typed<S> &g, const print &p) {
     print_comparison to(p);
     return make_print(g, to) && to.is_same();
 }
