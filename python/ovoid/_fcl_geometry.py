@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from . import Pose, Shape, Solid
 from ._fcl_data import NODE_TYPE, OBJECT_TYPE, Array
@@ -196,7 +197,8 @@ class Capsule(_Round):
         return Shape.capsule(self.radius, self.lz / 2)
 
     def _support(self, n: Array) -> Array:
-        return n * self.radius + np.array([0, 0, math.copysign(self.lz / 2, n[2])])
+        end: Array = np.array([0, 0, math.copysign(self.lz / 2, n[2])])
+        return n * self.radius + end
 
 
 class Cone(_Round):
@@ -208,7 +210,8 @@ class Cone(_Round):
         return Shape.cone(self.radius, self.lz / 2, self.radius * _ROUND_TOLERANCE)
 
     def _support(self, n: Array) -> Array:
-        base, apex = self._on_circle(n, -self.lz / 2), np.array([0, 0, self.lz / 2])
+        apex: Array = np.array([0, 0, self.lz / 2])
+        base = self._on_circle(n, -self.lz / 2)
         return base if base @ n > apex @ n else apex
 
 
@@ -282,7 +285,7 @@ class BVHModel(CollisionGeometry):
     def __init__(self) -> None:
         super().__init__()
         self._points: list[Array] = []
-        self._triangles: list[Array] = []
+        self._triangles: list[npt.NDArray[np.int64]] = []
         self._is_building = False
 
     def num_tris_(self) -> int:

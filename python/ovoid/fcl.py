@@ -188,14 +188,14 @@ class DynamicAABBTreeCollisionManager:
 
     def collide(self, *args: Any) -> None:
         """collide(data, callback), collide(object or manager, data, callback): callback(o1, o2, data) returns whether to stop."""
-        pairs, data, callback = self._find_pairs(args)
-        for gap, a, b in pairs:
-            if gap > 0 or callback(a, b, data):
+        pairs, data, callback = self._find_pairs(args, (0.0,))
+        for _, a, b in pairs:
+            if callback(a, b, data):
                 break
 
     def distance(self, *args: Any) -> None:
         """As collide; callback(o1, o2, data) returns whether to stop, and the smallest distance so far."""
-        pairs, data, callback = self._find_pairs(args)
+        pairs, data, callback = self._find_pairs(args, _REACHES)
         least = np.inf
         for gap, a, b in pairs:
             if gap > max(least, 0):
@@ -220,33 +220,72 @@ class DynamicAABBTreeCollisionManager:
     def _get_rows(self) -> list[tuple[CollisionObject, tuple[Array, Array]]]:
         return [(obj, self._boxes[id(obj)]) for obj in self._objects]
 
-    def _find_pairs(self, args: tuple[Any, ...]) -> tuple[Iterator[tuple[float, CollisionObject, CollisionObject]], Any, Callable[..., Any]]:
-        """The pairs by the distance of their boxes, and what came with them."""
+    def _find_pairs(
+        self, args: tuple[Any, ...], reaches: Iterable[float]
+    ) -> tuple[Iterator[tuple[float, CollisionObject, CollisionObject]], Any, Callable[..., Any]]:
+        """The pairs by the distance of their boxes, up to the largest of the reaches, and what came with them."""
         if len(args) not in (2, 3) or not callable(args[-1]):
             raise ValueError("expected (data, callback), (object, data, callback) or (manager, data, callback)")
         mine = self._get_rows()
         if len(args) == 2:
-            return _sort_pairs(mine, mine, True), args[0], args[1]
+            return _sort_pairs(mine, mine, reaches), args[0], args[1]
         if isinstance(args[0], DynamicAABBTreeCollisionManager):
-            return _sort_pairs(mine, args[0]._get_rows(), False), args[1], args[2]
-        return _sort_pairs([(args[0], args[0]._aabb())], mine, False), args[1], args[2]
+            return _sort_pairs(mine, args[0]._get_rows(), reaches), args[1], args[2]
+        return _sort_pairs([(args[0], args[0]._aabb())], mine, reaches), args[1], args[2]
 
 
-def _sort_pairs(first: list[Any], second: list[Any], is_same: bool) -> Iterator[tuple[float, CollisionObject, CollisionObject]]:
+# How far apart boxes are looked for, in sizes of a box: a search that ends early sees near pairs alone.
+_REACHES = (0.0, *(2.0**k for k in range(-1, 12)), np.inf)
+# The most pairs whose boxes are compared at once.
+_BLOCK = 1 << 20
+
+
+def _sort_pairs(first: list[Any], second: list[Any], reaches: Iterable[float]) -> Iterator[tuple[float, CollisionObject, CollisionObject]]:
+    """The pairs by the distance of their boxes, ring by ring. The same list twice: each two objects once."""
     if not first or not second:
         return
-    low, high = (np.array([row[1][k] for row in first]) for k in (0, 1))
-    low_b, high_b = (np.array([row[1][k] for row in second]) for k in (0, 1))
-    apart = np.maximum(low[:, None] - high_b[None], low_b[None] - high[:, None])
-    gaps = np.linalg.norm(np.maximum(apart, 0), axis=2)
-    if is_same:
-        gaps[np.tril_indices(len(first))] = np.nan
-    order = np.argsort(gaps, axis=None, kind="stable")
-    for at in order:
-        i, j = divmod(int(at), len(second))
-        if np.isnan(gaps[i, j]):
-            return
-        yield float(gaps[i, j]), first[i][0], second[j][0]
+    boxes_a, boxes_b = _Boxes(first), _Boxes(second)
+    size, least = boxes_b.get_size(), -np.inf
+    for reach in reaches:
+        ring = list(boxes_a.find_near(boxes_b, least, reach * size if reach > 0 else 0.0, first is second))
+        least = reach * size if reach > 0 else 0.0
+        i, j, gaps = (np.concatenate([part[k] for part in ring]) for k in range(3))
+        for at in np.lexsort((j, i, gaps)).tolist():
+            yield float(gaps[at]), first[i[at]][0], second[j[at]][0]
+
+
+class _Boxes:
+    """Boxes of rows, for searches along the x axis: those that start within a range of it are neighbours in `order`."""
+
+    def __init__(self, rows: list[Any]) -> None:
+        self.low, self.high = (np.array([row[1][k] for row in rows]) for k in (0, 1))
+        self.order = np.argsort(self.low[:, 0], kind="stable")
+        self.starts = self.low[self.order, 0]
+        self.longest = float((self.high - self.low)[:, 0].max())
+
+    def get_size(self) -> float:
+        """A length for reaches: the mean of the finite boxes' longest sides."""
+        sides = (self.high - self.low).max(axis=1)
+        sides = sides[np.isfinite(sides)]
+        return float(sides.mean()) if len(sides) and sides.max() > 0 else 1.0
+
+    def find_near(self, other: _Boxes, least: float, most: float, is_same: bool) -> Iterator[tuple[Any, Any, Any]]:
+        """Rows, rows of the other and distances, for distances above `least` up to `most`, in blocks of few pairs."""
+        begin = np.searchsorted(other.starts, self.low[:, 0] - most - other.longest, "left")
+        counts = np.searchsorted(other.starts, self.high[:, 0] + most, "right") - begin
+        sums = np.concatenate([[0], np.cumsum(counts)])
+        row = 0
+        while row < len(counts):
+            end = max(row + 1, int(np.searchsorted(sums, sums[row] + _BLOCK, "right")) - 1)
+            i = np.repeat(np.arange(row, end), counts[row:end])
+            j = other.order[np.arange(sums[row], sums[end]) - np.repeat(sums[row:end] - begin[row:end], counts[row:end])]
+            row = end
+            if is_same:
+                i, j = i[i < j], j[i < j]
+            apart = np.maximum(self.low[i] - other.high[j], other.low[j] - self.high[i])
+            gaps = np.linalg.norm(np.maximum(apart, 0), axis=1)
+            is_wanted = (gaps > least) & (gaps <= most)
+            yield i[is_wanted], j[is_wanted], gaps[is_wanted]
 
 
 def _is_mesh(o: CollisionObject) -> bool:

@@ -2,7 +2,12 @@
 pairs of them; managers against all pairs of objects. trimesh.collision runs on it where trimesh is installed."""
 
 import itertools
+import os
+import re
+import shutil
+import subprocess
 import sys
+import tempfile
 import unittest
 import unittest.mock
 
@@ -14,6 +19,23 @@ NAMES = """BVHModel Box CCDMotionType CCDSolverType Capsule CollisionData Collis
 Cone Contact ContinuousCollisionRequest ContinuousCollisionResult Convex CostSource Cylinder DistanceData DistanceRequest DistanceResult
 DynamicAABBTreeCollisionManager Ellipsoid GJKSolverType Halfspace NODE_TYPE OBJECT_TYPE OcTree Plane Sphere Transform TriangleP collide
 continuousCollide defaultCollisionCallback defaultDistanceCallback distance""".split()
+
+USER = """
+import numpy as np
+
+from ovoid import fcl
+
+ball = fcl.Sphere(0.5)
+a, b = fcl.CollisionObject(fcl.Box(1, 1, 1), fcl.Transform()), fcl.CollisionObject(ball, fcl.Transform(np.array([2.0, 0, 0])))
+result = fcl.CollisionResult()
+count: int = fcl.collide(a, b, fcl.CollisionRequest(num_max_contacts=4, enable_contact=True), result)
+depths: list[float] = [contact.penetration_depth for contact in result.contacts]
+far: float = fcl.distance(a, b, fcl.DistanceRequest(), fcl.DistanceResult())
+manager = fcl.DynamicAABBTreeCollisionManager()
+manager.registerObjects([a, b])
+manager.collide(fcl.CollisionData(), fcl.defaultCollisionCallback)
+radius: float = ball.radius
+"""
 
 
 def make_mesh(fcl, points, faces):
@@ -201,6 +223,51 @@ class Fcl(unittest.TestCase):
         data = fcl.CollisionData()
         lonely.collide(data, fcl.defaultCollisionCallback)
         self.assertFalse(data.result.is_collision)
+
+    def test_order(self):
+        """Pairs come by the distance of their boxes, each once, whatever is compared at once. Truth: all pairs, sorted."""
+        fcl = self.fcl
+        numbers = np.random.RandomState(4)
+
+        def place(count):
+            return [self.at(fcl.Box(*numbers.uniform(0.1, 1, 3)), *numbers.uniform(-3, 3, 3)) for _ in range(count)]
+
+        def measure(a, b):
+            (low, high), (low_b, high_b) = a._aabb(), b._aabb()
+            return float(np.linalg.norm(np.maximum(0, np.maximum(low - high_b, low_b - high))))
+
+        def record(manager, *who):
+            seen, touching = [], []
+            manager.distance(*who, seen, lambda a, b, data: (data.append((measure(a, b), id(a), id(b))), (False, np.inf))[1])
+            manager.collide(*who, touching, lambda a, b, data: data.append((measure(a, b), id(a), id(b))))
+            self.assertEqual(touching, [pair for pair in seen if pair[0] == 0])
+            return seen
+
+        objects, others = [*place(40), self.at(fcl.Halfspace([0, 0, 1], -9), 0, 0, 0)], place(25)
+        first, second = fcl.DynamicAABBTreeCollisionManager(), fcl.DynamicAABBTreeCollisionManager()
+        first.registerObjects(objects)
+        second.registerObjects(others)
+        own = sorted(((measure(a, b), i, j) for (i, a), (j, b) in itertools.combinations(enumerate(objects), 2)))
+        both = sorted(((measure(a, b), i, j) for i, a in enumerate(objects) for j, b in enumerate(others)))
+        block = fcl._BLOCK
+        for fcl._BLOCK in (7, block):
+            self.assertEqual(record(first), [(gap, id(objects[i]), id(objects[j])) for gap, i, j in own])
+            self.assertEqual(record(first, second), [(gap, id(objects[i]), id(others[j])) for gap, i, j in both])
+        fcl._BLOCK = block
+
+    @unittest.skipUnless(shutil.which("mypy"), "needs mypy")
+    def test_mypy(self):
+        """A user's program by mypy --strict: no error in it, none in this module, and a mistake is one."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "user.py")
+            environment = dict(os.environ, MYPYPATH=os.path.dirname(os.path.dirname(self.fcl.__file__)))
+            environment.pop("LD_PRELOAD", None)  # a sanitizer's runtime, which is not for mypy
+            for text, count in ((USER, 0), (USER + "fcl.Sphere(a)\nfar = a.getRotation()\n", 2)):
+                with open(path, "w", encoding="utf-8") as file:
+                    file.write(text)
+                run = subprocess.run(["mypy", "--strict", "--cache-dir", folder, path], capture_output=True, text=True, check=False, env=environment)
+                faults = [line for line in run.stdout.splitlines() if " error: " in line and re.search(r"(user|/fcl|_fcl_\w+)\.py:", line)]
+                self.assertEqual(len(faults), count, run.stdout + run.stderr)
 
     def test_boxes(self):
         """Every change of an object moves its box at the next update, and nothing else computes a box anew."""
