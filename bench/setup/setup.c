@@ -1,6 +1,6 @@
 // The cost of a shape: made from points, read from its file, and the parts of it that can be run alone, beside Qhull's
-// hull and the hulls of peers; and many boxes, a size each, all kept. All contestants get the same points, in turn,
-// pass after pass; a sample is the mean over the bodies, in processor time.
+// hull and the hulls of peers; and many boxes, cylinders and cones, a size each, all kept. All contestants get the same
+// points, in turn, pass after pass; a sample is the mean over the bodies, in processor time.
 #include "setup/setup.h"
 
 #include "common/build.h"
@@ -192,49 +192,66 @@ static int add_size(rows *table, const contestants *all, uint32_t size, int is_i
     return good;
 }
 
-// --- boxes
+// --- bodies of a size each
 
-/// Makes or reads boxes of a size each, keeps them all, and asks each about the one before. 0: it failed.
-static int make_boxes(ovoid_shape **boxes, uint32_t count, int is_read) {
+typedef ovoid_shape *(*create_sized)(ovoid_vec3 size);
+
+static ovoid_shape *create_box(ovoid_vec3 size) { return ovoid_shape_create_box(size, NULL, NULL); }
+static ovoid_shape *create_cylinder(ovoid_vec3 size) { return ovoid_shape_create_cylinder(size.x, size.y, NULL, NULL); }
+static ovoid_shape *create_cone(ovoid_vec3 size) { return ovoid_shape_create_cone(size.x, size.y, NULL, NULL); }
+
+static const struct {
+    const char *name, *read_name;
+    create_sized create;
+    uint32_t count;
+} kinds[] = {{"boxes", "boxes, made, written and read", create_box, 100000},
+             {"cylinders", "cylinders, made, written and read", create_cylinder, 10000},
+             {"cones", "cones, made, written and read", create_cone, 10000}};
+
+/// The shape that its own file gives; the shape is destroyed.
+static ovoid_shape *read_again(ovoid_shape *shape) {
+    char bytes[4096];
+    size_t size = ovoid_shape_write(shape, bytes, sizeof bytes);
+    ovoid_shape_destroy(shape);
+    return size <= sizeof bytes ? ovoid_shape_read(bytes, size, NULL, NULL) : NULL;
+}
+
+/// Makes or reads bodies of a size each, keeps them all, and asks each about the one before. 0: it failed.
+static int make_bodies(create_sized create, ovoid_shape **shapes, uint32_t count, int is_read) {
     uint64_t state = count;
     uint32_t apart = 0;
     int good = 1;
     for (uint32_t i = 0; i < count && good; i++) {
-        ovoid_vec3 half = {random_uniform(&state, 0.1, 1), random_uniform(&state, 0.1, 1),
+        ovoid_vec3 size = {random_uniform(&state, 0.1, 1), random_uniform(&state, 0.1, 1),
                            random_uniform(&state, 0.1, 1)};
-        boxes[i] = ovoid_shape_create_box(half, NULL, NULL);
-        if (boxes[i] && is_read) {
-            char bytes[1024];
-            size_t size = ovoid_shape_write(boxes[i], bytes, sizeof bytes);
-            ovoid_shape_destroy(boxes[i]);
-            boxes[i] = ovoid_shape_read(bytes, size, NULL, NULL);
-        }
-        good = boxes[i] != NULL;
+        shapes[i] = create(size);
+        if (shapes[i] && is_read) shapes[i] = read_again(shapes[i]);
+        good = shapes[i] != NULL;
         if (!good || i == 0) continue;
-        const ovoid_pair pair = {boxes[i - 1], boxes[i], {{0, 0, 0}, {1, 0, 0, 0}}, {{1.5, 0, 0}, {1, 0, 0, 0}}};
+        const ovoid_pair pair = {shapes[i - 1], shapes[i], {{0, 0, 0}, {1, 0, 0, 0}}, {{1.5, 0, 0}, {1, 0, 0, 0}}};
         apart += ovoid_collide(&pair, NULL, NULL).status == OVOID_SEPARATED;
     }
     return good && (apart > 0 || count < 100);
 }
 
-/// Microseconds a box: made or read, and asked. The time of writing files is in that of reading.
-static int add_boxes(rows *table, uint32_t count, int is_read) {
+/// Microseconds a body: made or read, and asked. The time of writing files is in that of reading.
+static int add_bodies(rows *table, size_t kind, uint32_t count, int is_read) {
     double samples[PASSES];
-    ovoid_shape **boxes = malloc(count * sizeof(ovoid_shape *));
-    int good = boxes != NULL;
+    ovoid_shape **shapes = malloc(count * sizeof(ovoid_shape *));
+    int good = shapes != NULL;
     for (uint32_t pass = 0; pass < PASSES && good; pass++) {
-        memset(boxes, 0, count * sizeof(ovoid_shape *));
+        memset(shapes, 0, count * sizeof(ovoid_shape *));
         double start = get_own_seconds();
-        good = make_boxes(boxes, count, is_read);
+        good = make_bodies(kinds[kind].create, shapes, count, is_read);
         samples[pass] = (get_own_seconds() - start) / count * 1e6;
-        for (uint32_t i = 0; i < count; i++) ovoid_shape_destroy(boxes[i]);
+        for (uint32_t i = 0; i < count; i++) ovoid_shape_destroy(shapes[i]);
     }
-    free(boxes);
+    free(shapes);
     if (!good) return 0;
-    rows_add(table, (row){.chart = "Boxes of a size each, kept and asked",
-                          .x_name = "boxes",
+    rows_add(table, (row){.chart = "Bodies of a size each, kept and asked",
+                          .x_name = "bodies",
                           .y_name = "us",
-                          .line = is_read ? "made, written and read" : "made",
+                          .line = is_read ? kinds[kind].read_name : kinds[kind].name,
                           .x = count,
                           .y = timing_make(samples, PASSES)});
     return 1;
@@ -249,7 +266,8 @@ int setup_run(const setup_plan *plan, const char *csv, const char *svg) {
     for (int is_inside = 0; is_inside < 2; is_inside++)
         for (uint32_t i = 0; i < sizes; i++)
             if (!add_size(&table, &all, plan->sizes[i], is_inside)) return 0;
-    for (int is_read = 0; is_read < 2; is_read++)
-        if (!add_boxes(&table, plan->smoke ? 1000 : 100000, is_read)) return 0;
+    for (size_t kind = 0; kind < sizeof kinds / sizeof *kinds; kind++)
+        for (int is_read = 0; is_read < 2; is_read++)
+            if (!add_bodies(&table, kind, plan->smoke ? 1000 : kinds[kind].count, is_read)) return 0;
     return (!csv || rows_write_csv(&table, csv)) && (!svg || rows_write_svg(&table, svg));
 }

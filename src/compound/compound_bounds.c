@@ -58,7 +58,7 @@ static int fit_outer(ovoid_compound *c, const double *points, size_t count, doub
     if (code != OVOID_OK) return code == OVOID_ERROR_MEMORY ? 0 : -1;
     ovoid_polytope polytope = hull_get_polytope(&body_hull);
     ovoid_fit fit;
-    code = ellipsoid_fit_outer(&polytope, &(fit_options){1e-4, NULL, &c->allocator}, &fit);
+    code = ellipsoid_fit_outer(&polytope, &(fit_options){1e-4, NULL, &c->allocator, &body_hull.form}, &fit);
     if (code == OVOID_OK) {
         c->outer = ellipsoid_enlarge(fit.ellipsoid, radius);
         c->outer.center = vec3_add(fit.ellipsoid.center, polytope.origin);

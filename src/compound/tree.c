@@ -83,7 +83,7 @@ static void fit_ellipsoid(builder *b, compound_node *n) {
     if (rank < 3 || count > UINT32_MAX) return;
     ovoid_polytope points = {.vertices = b->xyz, .vertex_count = (uint32_t)count, .rank = rank};
     ovoid_fit fit;
-    ovoid_code code = ellipsoid_fit_outer(&points, &(fit_options){0.02, NULL, &b->compound->allocator}, &fit);
+    ovoid_code code = ellipsoid_fit_outer(&points, &(fit_options){0.02, NULL, &b->compound->allocator, NULL}, &fit);
     if (code == OVOID_ERROR_MEMORY) b->failed = 1; // the tree must not depend on the memory there is
     if (code != OVOID_OK) return;
     if (!ellipsoid_is_enclosing(&points, &fit.ellipsoid)) return;

@@ -15,7 +15,7 @@
 // S is convex to the last bit, or how facets were merged, does not matter.
 #include "ellipsoid/contain.h"
 
-#include "ellipsoid/box_fit.h"
+#include "ellipsoid/closed_fit.h"
 #include "ellipsoid/factor.h"
 #include "polytope/facets.h"
 #include "polytope/winding.h"
@@ -186,7 +186,8 @@ int ellipsoid_is_enclosed(const ovoid_polytope *polytope, const ovoid_ellipsoid 
     factor f;
     double size;
     if (polytope->rank < 3 || !vec3_is_finite(ellipsoid->center)) return 0;
-    if (box_fit_is_enclosed(polytope, ellipsoid)) return 1;
+    closed_form form = closed_form_find(polytope->vertices, polytope->vertex_count);
+    if (closed_fit_is_enclosed(&form, ellipsoid)) return 1;
     if (!factor_make_quickly(ellipsoid->q, &f, &size) && !factor_make(ellipsoid->q, &f)) return 0;
     if (f.count == 0) {
         for (uint32_t v = 0; v < polytope->vertex_count; v++) {

@@ -4,12 +4,21 @@
 
 #include "base/error.h"
 #include "ovoid/ellipsoid.h"
+#include "polytope/closed_form.h"
 
 typedef struct fit_options {
     double gap;                       ///< relative volume gap to reach; 0 means 1e-6
     const ovoid_measures *measures;   ///< of the polytope; NULL: computed where they are needed
     const ovoid_allocator *allocator; ///< NULL: malloc
+    const closed_form *form;          ///< of the polytope; NULL: found where it is needed
 } fit_options;
+
+/// The polytope's closed form, that of the options if they have one.
+static inline closed_form fit_find_form(const fit_options *options, const ovoid_polytope *polytope) {
+    if (options->form) return *options->form;
+    if (polytope->rank < 3) return (closed_form){.kind = FORM_NONE};
+    return closed_form_find(polytope->vertices, polytope->vertex_count);
+}
 
 /// ovoid_ellipsoid_compute_outer and _inner.
 ovoid_code ellipsoid_fit_outer(const ovoid_polytope *polytope, const fit_options *options, ovoid_fit *fit);

@@ -10,8 +10,8 @@
 // halfspaces lies in the body; the proofs are in double-double. A flat polygon is solved as a prism over it, whose
 // largest ellipsoid is the polygon's, times the height. Cost: some five steps on up to 64 halfspaces, and some ten
 // passes over facets and vertices.
-#include "ellipsoid/box_fit.h"
 #include "ellipsoid/certificate.h"
+#include "ellipsoid/closed_fit.h"
 #include "ellipsoid/contain.h"
 #include "ellipsoid/design.h"
 #include "ellipsoid/factor.h"
@@ -299,7 +299,8 @@ static ovoid_code fit_carefully(const ovoid_polytope *p, const ovoid_allocator *
 static ovoid_code compute(const ovoid_polytope *p, const fit_options *options, ovoid_fit *fit) {
     ovoid_allocator memory = allocator_make(options->allocator);
     double gap = options->gap > 0 ? options->gap : 1e-6;
-    if (box_fit_inner(p, gap, fit)) return OVOID_OK;
+    closed_form form = fit_find_form(options, p);
+    if (closed_fit_inner(&form, gap, fit)) return OVOID_OK;
     if (p->rank == 3) {
         ovoid_plane *planes = allocator_allocate(&memory, p->facet_count, sizeof *planes);
         if (!planes) return OVOID_ERROR_MEMORY;
@@ -333,6 +334,6 @@ ovoid_code ellipsoid_fit_inner(const ovoid_polytope *polytope, const fit_options
 
 ovoid_code ovoid_ellipsoid_compute_inner(const ovoid_polytope *polytope, const ovoid_ellipsoid_options *options,
                                          ovoid_fit *fit, ovoid_error *error) {
-    fit_options o = {options ? options->gap : 0, NULL, options ? options->allocator : NULL};
+    fit_options o = {options ? options->gap : 0, NULL, options ? options->allocator : NULL, NULL};
     ENVIRONMENT_RETURN(ovoid_code, o, fit_explain(ellipsoid_fit_inner(polytope, &o, fit), error));
 }

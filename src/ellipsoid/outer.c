@@ -9,7 +9,7 @@
 // Q is stored in six doubles. Rounding it moves a thin axis; for a body thinner than 1e-8 of its length and not along
 // the axes, nothing of the thickness is left. So the check of contain.c is repeated on the stored Q, which is scaled up
 // until the check holds; if it is too flat to be factored, every axis is lengthened a little first.
-#include "ellipsoid/box_fit.h"
+#include "ellipsoid/closed_fit.h"
 #include "ellipsoid/contain.h"
 #include "ellipsoid/design.h"
 #include "ellipsoid/factor.h"
@@ -188,7 +188,8 @@ ovoid_code ellipsoid_fit_outer(const ovoid_polytope *polytope, const fit_options
         *fit = (ovoid_fit){.ellipsoid.center = vec3_at(polytope->vertices, 0), .converged = 1};
         return OVOID_OK;
     }
-    if (box_fit_outer(polytope, gap, fit)) return OVOID_OK;
+    closed_form form = fit_find_form(options, polytope);
+    if (closed_fit_outer(&form, gap, fit)) return OVOID_OK;
     ovoid_allocator memory = allocator_make(options->allocator);
     double *local = allocator_allocate(&memory, count, 3 * sizeof(double));
     if (!local) return OVOID_ERROR_MEMORY;
@@ -199,6 +200,6 @@ ovoid_code ellipsoid_fit_outer(const ovoid_polytope *polytope, const fit_options
 
 ovoid_code ovoid_ellipsoid_compute_outer(const ovoid_polytope *polytope, const ovoid_ellipsoid_options *options,
                                          ovoid_fit *fit, ovoid_error *error) {
-    fit_options o = {options ? options->gap : 0, NULL, options ? options->allocator : NULL};
+    fit_options o = {options ? options->gap : 0, NULL, options ? options->allocator : NULL, NULL};
     ENVIRONMENT_RETURN(ovoid_code, o, fit_explain(ellipsoid_fit_outer(polytope, &o, fit), error));
 }

@@ -1,5 +1,5 @@
 // From points to a polytope: points.h makes them distinct, quickhull.h finds the extreme ones and then the hull of
-// these alone, so that triangles, facets and adjacency depend only on the vertices; a box has them in closed form.
+// these alone, so that triangles, facets and adjacency depend only on the vertices; some bodies have a closed form.
 // Bodies whose thickness is only rounding get a lower rank, but keep every extreme point.
 #include "polytope/hull.h"
 
@@ -243,50 +243,76 @@ static ovoid_code finish(builder *b, size_t count, ovoid_code code) {
     return code;
 }
 
-// ---- boxes in closed form ----
+// ---- closed forms ----
 
-static int allocate_box(hull *polytope, const ovoid_allocator *allocator) {
-    polytope->vertices = allocator_allocate(allocator, BOX_VERTICES, 3 * sizeof *polytope->vertices);
-    polytope->triangles = allocator_allocate(allocator, 1, sizeof centered_box_triangles);
-    polytope->triangle_facets = allocator_allocate(allocator, 1, sizeof centered_box_triangle_facets);
-    polytope->neighbor_starts = allocator_allocate(allocator, 1, sizeof centered_box_neighbor_starts);
-    polytope->neighbors = allocator_allocate(allocator, 1, sizeof centered_box_neighbors);
-    polytope->planes = allocator_allocate(allocator, BOX_FACETS, sizeof *polytope->planes);
+static int allocate(hull *polytope, const ovoid_allocator *allocator) {
+    uint32_t triangles = polytope->triangle_count;
+    polytope->vertices = allocator_allocate(allocator, polytope->vertex_count, 3 * sizeof *polytope->vertices);
+    polytope->triangles = allocator_allocate(allocator, triangles, 3 * sizeof *polytope->triangles);
+    polytope->triangle_facets = allocator_allocate(allocator, triangles, sizeof *polytope->triangle_facets);
+    polytope->neighbor_starts =
+        allocator_allocate(allocator, (size_t)polytope->vertex_count + 1, sizeof *polytope->neighbor_starts);
+    polytope->neighbors = allocator_allocate(allocator, triangles, 3 * sizeof *polytope->neighbors);
+    polytope->planes = allocator_allocate(allocator, polytope->facet_count, sizeof *polytope->planes);
     return polytope->vertices && polytope->triangles && polytope->triangle_facets && polytope->neighbor_starts &&
            polytope->neighbors && polytope->planes;
 }
 
-static ovoid_code create_box(const builder *b, vec3 half) {
-    hull *polytope = b->hull;
-    if (!allocate_box(polytope, b->allocator)) {
-        hull_destroy(polytope, b->allocator);
-        return error_set(b->error, OVOID_ERROR_MEMORY, -1, "no memory for a hull of %d vertices", BOX_VERTICES);
-    }
-    memcpy(polytope->vertices, b->xyz, BOX_VERTICES * 3 * sizeof *polytope->vertices);
+static void fill_box(hull *polytope) {
     memcpy(polytope->triangles, centered_box_triangles, sizeof centered_box_triangles);
     memcpy(polytope->triangle_facets, centered_box_triangle_facets, sizeof centered_box_triangle_facets);
     memcpy(polytope->neighbor_starts, centered_box_neighbor_starts, sizeof centered_box_neighbor_starts);
     memcpy(polytope->neighbors, centered_box_neighbors, sizeof centered_box_neighbors);
-    centered_box_fill_planes(half, polytope->planes);
-    polytope->vertex_count = BOX_VERTICES;
-    polytope->triangle_count = BOX_TRIANGLES;
-    polytope->facet_count = BOX_FACETS;
+    centered_box_fill_planes(polytope->form.half, polytope->planes);
+}
+
+static void fill_regular(hull *polytope) {
+    const regular_solid *s = &polytope->form.solid;
+    regular_solid_fill_triangles(s, polytope->triangles, polytope->triangle_facets);
+    regular_solid_fill_neighbors(s, polytope->neighbor_starts, polytope->neighbors);
+    regular_solid_fill_planes(s, polytope->vertices, polytope->planes);
+}
+
+static ovoid_code create_closed(const builder *b, size_t count, const closed_form *form) {
+    hull *polytope = b->hull;
+    int is_box = form->kind == FORM_BOX;
+    polytope->form = *form;
+    polytope->vertex_count = (uint32_t)count;
+    polytope->triangle_count = is_box ? BOX_TRIANGLES : regular_solid_count_triangles(&form->solid);
+    polytope->facet_count = is_box ? BOX_FACETS : regular_solid_count_facets(&form->solid);
     polytope->rank = 3;
-    polytope->report = (ovoid_report){.points = BOX_VERTICES, .vertices = BOX_VERTICES, .rank = 3};
+    polytope->report = (ovoid_report){.points = count, .vertices = count, .rank = 3};
+    if (!allocate(polytope, b->allocator)) {
+        hull_destroy(polytope, b->allocator);
+        return error_set(b->error, OVOID_ERROR_MEMORY, -1, "no memory for a hull of %zu vertices", count);
+    }
+    // + 0.0 makes every zero a positive one.
+    for (size_t i = 0; i < 3 * count; i++) polytope->vertices[i] = b->xyz[i] + 0.0;
+    if (is_box)
+        fill_box(polytope);
+    else
+        fill_regular(polytope);
     return OVOID_OK;
 }
 
-// 1 if the claim is that of the closed form, which needs no proof.
-static int is_box(const surface_claim *claim, vec3 *half) {
-    return claim->triangle_count == BOX_TRIANGLES && centered_box_find(claim->xyz, claim->count, half) &&
-           memcmp(claim->triangles, centered_box_triangles, sizeof centered_box_triangles) == 0;
+// Makes the hull in closed form if the claim is that of the closed form, which needs no proof. 0 if it is another one.
+static int create_if_closed(const builder *b, const surface_claim *claim, ovoid_code *code) {
+    closed_form form = closed_form_find(claim->xyz, claim->count);
+    if (form.kind == FORM_NONE) return 0;
+    *code = create_closed(b, claim->count, &form);
+    size_t size = 3 * sizeof *claim->triangles * claim->triangle_count;
+    if (*code != OVOID_OK) return 1;
+    if (b->hull->triangle_count == claim->triangle_count && memcmp(b->hull->triangles, claim->triangles, size) == 0)
+        return 1;
+    hull_destroy(b->hull, b->allocator);
+    return 0;
 }
 
 ovoid_code hull_create(xyz_points given, const ovoid_allocator *allocator, hull *polytope, ovoid_error *error) {
     *polytope = (hull){0};
     builder b = {.xyz = given.xyz, .hull = polytope, .allocator = allocator, .error = error};
-    vec3 half;
-    if (centered_box_find(given.xyz, given.count, &half)) return create_box(&b, half);
+    closed_form form = closed_form_find(given.xyz, given.count);
+    if (form.kind != FORM_NONE) return create_closed(&b, given.count, &form);
     ovoid_code code = points_create(given, allocator, &b.p, error);
     return code ? code : finish(&b, given.count, find_extreme(&b));
 }
@@ -296,9 +322,9 @@ ovoid_code hull_create_proven(const surface_claim *claim, const ovoid_allocator 
     *polytope = (hull){0};
     *flaw = (surface_flaw){"the vertices have no hull", 0, 1};
     builder b = {.xyz = claim->xyz, .hull = polytope, .allocator = allocator};
-    vec3 half;
-    if (is_box(claim, &half)) return create_box(&b, half);
-    ovoid_code code = points_create_distinct((xyz_points){claim->xyz, claim->count}, allocator, &b.p, NULL);
+    ovoid_code code;
+    if (create_if_closed(&b, claim, &code)) return code;
+    code = points_create_distinct((xyz_points){claim->xyz, claim->count}, allocator, &b.p, NULL);
     if (code) return code == OVOID_ERROR_MEMORY ? code : OVOID_ERROR_HULL;
     return finish(&b, claim->count, surface_create_proven(claim, &b.p, allocator, &b.s, flaw));
 }

@@ -3,6 +3,7 @@
 #define OVOID_POLYTOPE_HULL_H
 
 #include "ovoid/polytope.h"
+#include "polytope/closed_form.h"
 #include "polytope/surface_claim.h"
 
 /// A hull. The arrays belong to it; they are those of ovoid_polytope.
@@ -13,6 +14,7 @@ typedef struct hull {
     ovoid_report report;
     ovoid_vec3 origin;
     uint32_t vertex_count, triangle_count, facet_count, rank;
+    closed_form form; ///< if the arrays are those of a closed form
 } hull;
 
 /// The convex hull of the points: exactly its extreme points, in their given order, in the body frame. Everything but

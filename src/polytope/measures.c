@@ -7,7 +7,7 @@
 #include "linear/box.h"
 #include "linear/mat3.h"
 #include "ovoid/polytope.h"
-#include "polytope/centered_box.h"
+#include "polytope/closed_form.h"
 #include "polytope/segment.h"
 #include "polytope/sphere.h"
 
@@ -69,16 +69,10 @@ static void add_segment(moments *m, const frame *f) {
     add_simplex(m, vec3_norm(vec3_sub(v[1], v[0])), 1, v);
 }
 
-static ovoid_measures compute_box_measures(const ovoid_polytope *polytope, vec3 half) {
-    ovoid_measures result = centered_box_compute_measures(half);
-    result.sphere_radius = sphere_compute_radius(polytope->vertices, polytope->vertex_count, result.sphere_center);
-    return result;
-}
-
 static ovoid_measures compute_measures(const ovoid_polytope *polytope) {
-    vec3 half;
-    if (polytope->rank == 3 && centered_box_find(polytope->vertices, polytope->vertex_count, &half))
-        return compute_box_measures(polytope, half);
+    closed_form form = {.kind = FORM_NONE};
+    if (polytope->rank == 3) form = closed_form_find(polytope->vertices, polytope->vertex_count);
+    if (form.kind != FORM_NONE) return closed_form_compute_measures(&form, polytope);
     ovoid_measures result = {.box = box_make_around(polytope->vertices, polytope->vertex_count)};
     sphere s = sphere_compute_smallest(polytope->vertices, polytope->vertex_count);
     result.sphere_center = s.center;

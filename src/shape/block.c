@@ -82,7 +82,7 @@ static void copy_array(ovoid_shape *shape, uint64_t at, const void *from, uint64
     if (size) memcpy((char *)shape + at, from, size);
 }
 
-void block_fill(ovoid_shape *shape, const ovoid_polytope *p, uint32_t *room) {
+void block_fill(ovoid_shape *shape, const ovoid_polytope *p, const closed_form *form, uint32_t *room) {
     const block_offsets *at = &shape->at;
     const block_counts *c = &shape->counts;
     copy_array(shape, at->vertices, p->vertices, (uint64_t)c->vertices * 3 * sizeof(double));
@@ -98,13 +98,18 @@ void block_fill(ovoid_shape *shape, const ovoid_polytope *p, uint32_t *room) {
     shape->rank = p->rank;
     shape->origin = p->origin;
     shape->has_origin = p->origin.x != 0 || p->origin.y != 0 || p->origin.z != 0;
-    shape->measures = ovoid_polytope_compute_measures(p);
+    int has_form = form->kind != FORM_NONE;
+    shape->measures = has_form ? closed_form_compute_measures(form, p) : ovoid_polytope_compute_measures(p);
     shape->center = shape->measures.sphere_center;
     shape->reach = shape->measures.sphere_radius;
     shape->first = (ovoid_vec3){p->vertices[0], p->vertices[1], p->vertices[2]};
-    shape->extent = sphere_compute_radius(p->vertices, p->vertex_count, (ovoid_vec3){0, 0, 0});
-    loops_fill(shape, p, room);
-    shape->box = parallelepiped_find(p->vertices, p->rank == 3 ? p->vertex_count : 0, shape->extent);
+    shape->extent = shape->reach;
+    if (vec3_max_abs(shape->center) > 0)
+        shape->extent = sphere_compute_radius(p->vertices, p->vertex_count, (ovoid_vec3){0, 0, 0});
+    loops_fill(shape, p, form, room);
+    shape->box = form->kind == FORM_BOX
+                     ? parallelepiped_make_centered(form->half)
+                     : parallelepiped_find(p->vertices, p->rank == 3 ? p->vertex_count : 0, shape->extent);
 }
 
 void block_set_radius(ovoid_shape *s, double radius, ovoid_allowance allowance) {

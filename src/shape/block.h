@@ -4,6 +4,7 @@
 #define OVOID_SHAPE_BLOCK_H
 
 #include "ovoid/shape.h"
+#include "polytope/closed_form.h"
 #include "shape/parallelepiped.h"
 #include "shape/support_table.h"
 
@@ -98,8 +99,9 @@ block_offsets block_compute_offsets(block_counts counts);
 ovoid_shape *block_create(block_counts counts, const ovoid_allocator *given, ovoid_error *error);
 
 /// Copies the polytope's arrays into the block, and computes everything that follows from the vertices: structure of
-/// arrays, padding, sphere, extent, measures. The polytope must have the block's counts. room: loops_get_room numbers.
-void block_fill(ovoid_shape *shape, const ovoid_polytope *polytope, uint32_t *room);
+/// arrays, padding, sphere, extent, measures. The polytope must have the block's counts; form: of its arrays. room:
+/// loops_get_room numbers.
+void block_fill(ovoid_shape *shape, const ovoid_polytope *polytope, const closed_form *form, uint32_t *room);
 
 /// Sets the radius and the allowance of a block that has been filled, and everything that follows from them. Nothing
 /// else is then known about the true body.

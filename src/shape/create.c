@@ -91,10 +91,11 @@ int shape_is_inner(const ovoid_shape *shape, const ovoid_ellipsoid *e) {
     return is_vertex(&p, e) || is_flat_inner(&p, &shape->measures, e, 1e-7 * shape->extent);
 }
 
-static ovoid_code fit_ellipsoids(ovoid_shape *shape, const ovoid_shape_options *o, const ovoid_allocator *work) {
+static ovoid_code fit_ellipsoids(ovoid_shape *shape, const ovoid_shape_options *o, const closed_form *form,
+                                 const ovoid_allocator *work) {
     ovoid_polytope p = ovoid_shape_get_polytope(shape);
     ovoid_fit outer, inner;
-    fit_options options = {o->gap, &shape->measures, work};
+    fit_options options = {o->gap, &shape->measures, work, form};
     ovoid_code code = ellipsoid_fit_outer(&p, &options, &outer);
     if (code != OVOID_OK) return code;
     if (o->inner == OVOID_INNER_MAXIMUM)
@@ -170,7 +171,7 @@ ovoid_shape *shape_create_block(const hull *polytope, const ovoid_allocator *all
     if (!room) error_write(error, OVOID_ERROR_MEMORY, -1, "no memory for the loops of %u facets", counts.facets);
     ovoid_shape *shape = room ? block_create(counts, allocator, error) : NULL;
     if (shape) {
-        block_fill(shape, &p, room);
+        block_fill(shape, &p, &polytope->form, room);
         shape->support = support;
         if (cells) memcpy((char *)shape + shape->at.cells, cells, support.cell_count * sizeof *cells);
     }
@@ -185,7 +186,7 @@ ovoid_shape *shape_create_from_hull(const hull *polytope, const ovoid_shape_opti
     if (!shape) return NULL;
     block_set_radius(shape, o->radius, o->allowance);
     shape->report = polytope->report;
-    ovoid_code code = fit_ellipsoids(shape, o, work);
+    ovoid_code code = fit_ellipsoids(shape, o, &polytope->form, work);
     if (code == OVOID_OK) return shape;
     error_write(error, code, -1, "no memory for the ellipsoids of %u vertices", polytope->vertex_count);
     ovoid_shape_destroy(shape);

@@ -6,6 +6,7 @@
 #include "shape/loops.h"
 
 #include "polytope/centered_box.h"
+#include "shape/regular_loops.h"
 
 #include <string.h>
 
@@ -176,16 +177,7 @@ static const uint32_t box_loop_vertices[BOX_CORNERS] = {4, 5, 7, 6, 0, 2, 3, 1, 
 static const uint32_t box_loop_edges[BOX_CORNERS] = {21, 26, 29, 22, 1,  11, 5,  0,  0, 7,  21, 2,
                                                      5,  17, 26, 7,  13, 29, 17, 11, 2, 22, 13, 1};
 
-// 1 for a box whose triangles and facets are those of the closed form; all tables follow from them.
-static int is_box(const ovoid_polytope *p) {
-    vec3 half;
-    return p->triangle_count == BOX_TRIANGLES && p->facet_count == BOX_FACETS &&
-           centered_box_find(p->vertices, p->vertex_count, &half) &&
-           memcmp(p->triangles, centered_box_triangles, sizeof centered_box_triangles) == 0 &&
-           memcmp(p->triangle_facets, centered_box_triangle_facets, sizeof centered_box_triangle_facets) == 0;
-}
-
-static void fill_box(tables *t) {
+static void fill_box(const tables *t) {
     memcpy(t->tails, box_tails, sizeof box_tails);
     memcpy(t->facets, box_facets, sizeof box_facets);
     memcpy(t->loop_vertices, box_loop_vertices, sizeof box_loop_vertices);
@@ -193,11 +185,22 @@ static void fill_box(tables *t) {
     for (uint32_t f = 0; f <= BOX_FACETS; f++) t->starts[f] = 4 * f;
 }
 
+static void fill_regular(const tables *t, const regular_solid *solid) {
+    regular_loops_fill(solid, &(regular_tables){.neighbor_starts = t->p->neighbor_starts,
+                                                .neighbors = t->p->neighbors,
+                                                .tails = t->tails,
+                                                .facets = t->facets,
+                                                .starts = t->starts,
+                                                .loop_vertices = t->loop_vertices,
+                                                .loop_edges = t->loop_edges,
+                                                .room = t->next});
+}
+
 size_t loops_get_room(block_counts counts) {
     return 3 * (size_t)counts.triangles + 2 * ((size_t)counts.neighbors + counts.vertices);
 }
 
-void loops_fill(ovoid_shape *s, const ovoid_polytope *p, uint32_t *room) {
+void loops_fill(ovoid_shape *s, const ovoid_polytope *p, const closed_form *form, uint32_t *room) {
     const block_offsets *at = &s->at;
     tables t = {.shape = s, .p = p};
     t.tails = get_table(s, at->edge_tails);
@@ -210,8 +213,12 @@ void loops_fill(ovoid_shape *s, const ovoid_polytope *p, uint32_t *room) {
     t.starts = get_table(s, at->loop_starts);
     t.loop_vertices = get_table(s, at->loop_vertices);
     t.loop_edges = get_table(s, at->loop_edges);
-    if (is_box(p)) {
+    if (form->kind == FORM_BOX) {
         fill_box(&t);
+        return;
+    }
+    if (form->kind == FORM_REGULAR) {
+        fill_regular(&t, &form->solid);
         return;
     }
     link_edges(&t);

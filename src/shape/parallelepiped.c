@@ -5,7 +5,6 @@
 #include "shape/parallelepiped.h"
 
 #include "linear/vec3.h"
-#include "polytope/centered_box.h"
 
 enum { CORNERS = 8 };
 
@@ -78,7 +77,7 @@ static int is_right(const parallelepiped *p, double extent) {
     return 1;
 }
 
-static parallelepiped make_centered(vec3 half) {
+parallelepiped parallelepiped_make_centered(vec3 half) {
     return (parallelepiped){.axis = {{half.x, 0, 0}, {0, half.y, 0}, {0, 0, half.z}},
                             .corner = {0, 1, 2, 3, 4, 5, 6, 7},
                             .is_present = 1,
@@ -87,8 +86,6 @@ static parallelepiped make_centered(vec3 half) {
 
 parallelepiped parallelepiped_find(const double *vertices, uint32_t count, double extent) {
     const parallelepiped none = {.is_present = 0};
-    vec3 half;
-    if (centered_box_find(vertices, count, &half)) return make_centered(half);
     if (count != CORNERS || !has_opposite(vertices, extent)) return none;
     parallelepiped p = {.is_present = 1};
     for (uint32_t i = 1; i < CORNERS; i++)

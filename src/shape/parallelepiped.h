@@ -17,4 +17,7 @@ typedef struct parallelepiped {
 /// are 8 vertices.
 parallelepiped parallelepiped_find(const double *vertices, uint32_t count, double extent);
 
+/// That of a box in closed form (polytope/centered_box.h).
+parallelepiped parallelepiped_make_centered(ovoid_vec3 half);
+
 #endif

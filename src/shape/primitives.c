@@ -7,6 +7,8 @@
 #include "shape/block.h"
 #include "shape/create.h"
 
+#include <string.h>
+
 // Checks a length of a primitive: finite and not negative.
 static int is_length(double length, const char *name, ovoid_error *error) {
     if (!isfinite(length))
@@ -107,7 +109,9 @@ static ovoid_shape *create_turned(const turned *t, const ovoid_shape_options *op
     }
     fill_circle(xyz, radius, -half_length, sides);
     if (rings == 2) {
-        fill_circle(xyz + 3 * (size_t)sides, radius, half_length, sides);
+        // The same corners, higher up.
+        memcpy(xyz + 3 * (size_t)sides, xyz, 3 * (size_t)sides * sizeof *xyz);
+        for (size_t i = sides; i < count; i++) xyz[3 * i + 2] = half_length;
     } else {
         double *apex = xyz + 3 * (size_t)sides;
         apex[0] = apex[1] = 0;

@@ -305,8 +305,9 @@ ovoid_code support_table_create(xyz_points given, const ovoid_allocator *allocat
     double size = 0, *numbers = NULL;
     *table = (support_table){.k = 0};
     *cells = NULL;
+    if (count < SUPPORT_TABLE_LEAST) return OVOID_OK;
     for (size_t i = 0; i < 3 * (size_t)count; i++) size = max2(size, fabs(xyz[i]));
-    if (count < SUPPORT_TABLE_LEAST || !(size > 1e-90 && size < 1e90)) return OVOID_OK;
+    if (!(size > 1e-90 && size < 1e90)) return OVOID_OK;
     builder b = {
         .allocator = allocator, .table = table, .capacity = 2 * count, .divided_most = count, .reach = 1.75 * size};
     table->k = K_MOST;

@@ -1,0 +1,24 @@
+// Which of the closed forms vertices are, and its measures.
+#include "polytope/closed_form.h"
+
+#include "linear/box.h"
+#include "polytope/centered_box.h"
+#include "polytope/sphere.h"
+
+closed_form closed_form_find(const double *vertices, size_t count) {
+    closed_form form = {.kind = FORM_NONE};
+    if (centered_box_find(vertices, count, &form.half))
+        form.kind = FORM_BOX;
+    else if (regular_solid_find(vertices, count, &form.solid))
+        form.kind = FORM_REGULAR;
+    return form;
+}
+
+ovoid_measures closed_form_compute_measures(const closed_form *form, const ovoid_polytope *p) {
+    int is_box = form->kind == FORM_BOX;
+    ovoid_measures m =
+        is_box ? centered_box_compute_measures(form->half) : regular_solid_compute_measures(&form->solid, p->vertices);
+    if (!is_box) m.box = box_make_around(p->vertices, p->vertex_count);
+    m.sphere_radius = sphere_compute_radius(p->vertices, p->vertex_count, m.sphere_center);
+    return m;
+}
