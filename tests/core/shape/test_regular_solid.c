@@ -81,6 +81,26 @@ static void check_hull(const body *b, const ovoid_polytope *p) {
     hull_destroy(&general, &allocator);
 }
 
+// Claims about the body where its form is found: of its own triangles, of others that are right too, and of wrong ones.
+static void check_claims(const body *b, const ovoid_polytope *p) {
+    uint32_t triangles[3 * 512];
+    surface_claim claim = {b->xyz, b->count, triangles, p->triangle_count, {0, 0, -b->half_length / 2}};
+    surface_flaw flaw;
+    hull found;
+    memcpy(triangles, p->triangles, 3 * sizeof *triangles * p->triangle_count);
+    CHECK_EQ(hull_create_proven(&claim, &allocator, &found, &flaw), OVOID_OK);
+    CHECK_EQ(found.form.kind, FORM_REGULAR);
+    hull_destroy(&found, &allocator);
+    const uint32_t first[3] = {triangles[0], triangles[1], triangles[2]};
+    memcpy(triangles, (uint32_t[]){first[1], first[2], first[0]}, sizeof first);
+    CHECK_EQ(hull_create_proven(&claim, &allocator, &found, &flaw), OVOID_OK);
+    CHECK_EQ(found.form.kind, FORM_NONE);
+    CHECK(memcmp(found.triangles, triangles, sizeof first) == 0);
+    hull_destroy(&found, &allocator);
+    memcpy(triangles, (uint32_t[]){first[1], first[0], first[2]}, sizeof first);
+    CHECK_EQ(hull_create_proven(&claim, &allocator, &found, &flaw), OVOID_ERROR_HULL);
+}
+
 // The block of the same arrays whose tables are made in the general way, and measures that are sums over triangles.
 static void check_tables(const body *b, const ovoid_shape *shape) {
     ovoid_polytope p = ovoid_shape_get_polytope(shape);
@@ -261,6 +281,7 @@ int main(void) {
         ovoid_polytope p = ovoid_shape_get_polytope(shape);
         CHECK_EQ(p.facet_count, b.sides + 1 + (uint32_t)b.is_prism);
         check_hull(&b, &p);
+        check_claims(&b, &p);
         check_tables(&b, shape);
         check_fits(&b, shape);
         check_refused(shape);
