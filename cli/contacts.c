@@ -3,6 +3,8 @@
 // same bits.
 #include "contacts.h"
 
+#include "base/covers.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -48,45 +50,39 @@ static int get_contact_parts(const ovoid_body_pair *bodies, const ovoid_record_c
     return contacts_get_parts(bodies, parts, pair);
 }
 
-/* ---- memory: one block for contacts, points and covers */
+/* ---- memory: one block for contacts and points, one for each cover */
 
-static size_t get_block_size(size_t count, size_t covers) {
-    return count * (sizeof(ovoid_record_contact) + 4 * sizeof(ovoid_manifold_point)) + covers * sizeof(ovoid_cover);
-}
-
-/// Makes room for contacts whose points are beside them; the covers begin behind the points.
-static ovoid_record_contact *make_block(size_t count, size_t covers, ovoid_cover **first) {
-    ovoid_record_contact *contacts = calloc(1, get_block_size(count, covers));
+/// Makes room for contacts whose points are beside them.
+static ovoid_record_contact *make_block(size_t count) {
+    ovoid_record_contact *contacts = calloc(count, sizeof *contacts + 4 * sizeof *contacts->points);
     if (!contacts) return NULL;
     ovoid_manifold_point *points = (ovoid_manifold_point *)(contacts + count);
     for (size_t i = 0; i < count; i++) contacts[i].points = points + 4 * i;
-    *first = (ovoid_cover *)(points + 4 * count);
     return contacts;
 }
 
 int contacts_copy(ovoid_record *record) {
-    size_t count = record->contact_count, covers = 0;
+    size_t count = record->contact_count;
     const ovoid_record_contact *from = record->contacts;
-    ovoid_cover *cover = NULL;
+    int failed = 0;
     record->contacts = NULL;
     if (!count) return 1;
-    for (size_t i = 0; i < count; i++) covers += from[i].cover != NULL;
-    ovoid_record_contact *to = make_block(count, covers, &cover);
+    ovoid_record_contact *to = make_block(count);
     for (size_t i = 0; to && i < count; i++) {
         const ovoid_manifold_point *points = to[i].points;
         memcpy((void *)points, from[i].points, from[i].point_count * sizeof *points);
         to[i] = from[i];
         to[i].points = points;
-        if (!from[i].cover) continue;
-        *cover = *from[i].cover;
-        to[i].cover = cover++;
+        to[i].cover = cover_copy(from[i].cover);
+        failed |= from[i].cover && !to[i].cover;
     }
     record->contacts = to;
     if (!to) record->contact_count = 0;
-    return to != NULL;
+    return to && !failed;
 }
 
 void contacts_clear(ovoid_record *record) {
+    for (size_t i = 0; record->contacts && i < record->contact_count; i++) free((void *)record->contacts[i].cover);
     free((void *)record->contacts);
     record->contacts = NULL;
     record->contact_count = 0;
@@ -132,7 +128,8 @@ static int compute_areas(const ovoid_pair *pair, const ovoid_record_contact *con
     return 1;
 }
 
-/// Completes a contact: its points, areas, and where it needs one its cover. 0 where the pair has no such contact.
+/// Completes a contact: its points, areas, and where one is given a copy of the cover of its search. 0 where the pair
+/// has no such contact, -1 where memory is out.
 static int complete(const ovoid_body_pair *bodies, const ovoid_manifold_options *options, ovoid_cover *cover,
                     ovoid_record_contact *contact) {
     ovoid_pair pair;
@@ -142,7 +139,8 @@ static int complete(const ovoid_body_pair *bodies, const ovoid_manifold_options 
     ovoid_manifold_options asked = *options;
     asked.cover = cover;
     if (cover) contact->manifold = ovoid_manifold_find(&pair, &asked, NULL);
-    contact->cover = cover && cover->point_count ? cover : NULL;
+    contact->cover = cover_copy(cover);
+    if (cover && cover->point_count && !contact->cover) return -1;
     const ovoid_manifold_points found = compute_points(bodies, contact);
     memcpy((void *)contact->points, found.points, found.count * sizeof *found.points);
     contact->point_count = found.count;
@@ -156,23 +154,27 @@ static int complete(const ovoid_body_pair *bodies, const ovoid_manifold_options 
 static int has_search(const ovoid_body_manifold *found) { return found->manifold.proof == OVOID_MANIFOLD_PROOF_SEARCH; }
 
 int contacts_find(const ovoid_body_pair *pair, const ovoid_manifold_options *options, ovoid_record *record) {
-    size_t count = 0, covers = 0;
-    ovoid_cover *cover = NULL;
+    size_t count = 0;
+    ovoid_cover cover = {.memory = NULL};
     record->contact_margin = options->margin;
     record->contact_angle = options->angle;
     record->contacts = NULL;
     record->contact_count = 0;
     ovoid_body_manifold *found = find_manifolds(pair, options, &count, &record->contact_limit);
-    for (size_t i = 0; found && i < count; i++) covers += (size_t)has_search(&found[i]);
-    ovoid_record_contact *contacts = found && count ? make_block(count, covers, &cover) : NULL;
-    for (size_t i = 0; contacts && i < count; i++) {
+    ovoid_record_contact *contacts = found && count ? make_block(count) : NULL;
+    int failed = !found || (count && !contacts);
+    for (size_t i = 0; i < count && !failed; i++) {
         ovoid_record_contact *to = &contacts[record->contact_count];
         to->part_a = found[i].part_a;
         to->part_b = found[i].part_b;
         to->manifold = found[i].manifold;
-        record->contact_count += (size_t)complete(pair, options, has_search(&found[i]) ? cover++ : NULL, to);
+        int searches = has_search(&found[i]);
+        failed = searches && !cover_take_memory(&cover);
+        int completed = failed ? 0 : complete(pair, options, searches ? &cover : NULL, to);
+        record->contact_count += completed > 0;
+        failed |= completed < 0;
     }
-    int failed = !found || (count && !contacts);
+    free(cover.memory);
     free(found);
     record->contacts = contacts;
     return !failed;

@@ -2,6 +2,7 @@
 // with pairs, or two.
 #include "verify.h"
 
+#include "base/covers.h"
 #include "base/message.h"
 #include "pairs/answers.h"
 
@@ -228,8 +229,7 @@ static int store_record(const ovoid_record *record, claim *item) {
     *stored = *record;
     stored->a = stored->b = NULL;
     stored->solid = copy(record->solid, record->solid ? sizeof *record->solid : 0);
-    stored->cover = NULL;
-    if (record->cover && record->cover->point_count) stored->cover = copy(record->cover, sizeof *record->cover);
+    stored->cover = cover_copy(record->cover);
     stored->exclusions = copy(record->exclusions, record->exclusion_count * sizeof *record->exclusions);
     stored->steps = copy(record->steps, record->step_count * sizeof *record->steps);
     stored->groups = copy(record->groups, record->group_count * sizeof *record->groups);

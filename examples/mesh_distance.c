@@ -21,7 +21,8 @@ int main(int count, char **arguments) {
     if (a && b) {
         ovoid_pose aside = ovoid_pose_make_rpy((ovoid_vec3){0.003, 0, 0}, (ovoid_vec3){0, 0, 0.5});
         ovoid_pair pair = {a, b, ovoid_pose_make_identity(), aside};
-        static ovoid_cover cover; // the proof of a depth, if they overlap
+        static char memory[OVOID_COVER_SIZE];
+        ovoid_cover cover = {.memory = memory, .size = sizeof memory}; // the proof of a depth, if they overlap
         ovoid_answer answer = ovoid_depth(&pair, NULL, NULL, &cover);
         ovoid_vec3 p = answer.point_a, q = answer.point_b;
         printf("%s, distance %.9g m\n", ovoid_status_get_name(answer.status), ovoid_answer_get_distance(&answer));

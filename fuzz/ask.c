@@ -44,7 +44,8 @@ static void check_within(findings *f, double margin, const ovoid_proof *earlier)
 }
 
 static void ask_all(findings *f, double margin, const ovoid_options *options, const ovoid_proof *earlier) {
-    static ovoid_cover cover; // large, and filled by each call
+    static uint64_t memory[OVOID_COVER_SIZE / sizeof(uint64_t)];
+    static ovoid_cover cover = {.memory = memory, .size = sizeof memory}; // filled by each call
     f->options = options;
     int is_full = options == NULL;
     ovoid_answer x = ovoid_collide(f->pair, options, earlier);

@@ -145,10 +145,20 @@ static ovoid_code verify_balls(const claim *c) {
                         num_to_double(missing));
 }
 
+// Room for a surface of so many points, and of twice as many triangles.
+static void take_room(judge *j, uint32_t points) {
+    if (points <= j->point_room) return;
+    judge_forget_surface(j);
+    j->point_room = points < OVOID_COVER_POINTS ? OVOID_COVER_POINTS : points;
+    j->points = judge_allocate(j->point_room, sizeof *j->points);
+    j->triangles = judge_allocate(2 * (size_t)j->point_room, 3 * sizeof *j->triangles);
+}
+
 // The closed surface of four to six differences: a tetrahedron, or a double pyramid with tips 0 and 1.
 static shell make_hull(const claim *c) {
     judge *j = c->context;
     uint32_t count = c->proof->count, triangles = 0;
+    take_room(j, count);
     for (uint32_t i = 0; i < count; i++) j->points[i] = posed_vertex_difference(c->s, c->proof->a[i], c->proof->b[i]);
     static const uint32_t tetrahedron[12] = {0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2};
     if (count == 4) return (shell){j->points, tetrahedron, 4, 4};
@@ -167,8 +177,10 @@ static ovoid_code read_cover(const claim *c, const ovoid_cover *cover, shell *ou
     const posed *s = c->s;
     uint32_t na = s->a.polytope.vertex_count, nb = s->b.polytope.vertex_count;
     if (!cover) return judge_reject(c->error, OVOID_ERROR_PROOF, "the upper bound rests on a cover, and none is given");
-    if (cover->point_count > OVOID_COVER_POINTS || cover->triangle_count > 2 * OVOID_COVER_POINTS)
-        return judge_reject(c->error, OVOID_ERROR_INDEX, "the cover's counts exceed its arrays");
+    if (cover->point_count > OVOID_COVER_POINTS_MAX || cover->triangle_count > 2 * OVOID_COVER_POINTS_MAX)
+        return judge_reject(c->error, OVOID_ERROR_INDEX, "the cover has more points or triangles than a surface");
+    uint32_t half = (cover->triangle_count + 1) / 2;
+    take_room(j, cover->point_count > half ? cover->point_count : half);
     for (uint32_t i = 0; i < cover->point_count; i++) {
         if (cover->a[i] >= na || cover->b[i] >= nb)
             return judge_reject(c->error, OVOID_ERROR_INDEX, "point %u of the cover has no such vertex", i);

@@ -18,6 +18,14 @@ judge *judge_create(void) {
     return NULL;
 }
 
+void judge_forget_surface(judge *context) {
+    free(context->points);
+    free(context->triangles);
+    context->points = NULL;
+    context->triangles = NULL;
+    context->point_room = 0;
+}
+
 void judge_forget(judge *context) {
     for (size_t i = 0; i < context->capacity; i++)
         if (context->table[i].shape) mpz_clear(context->table[i].radius.m);
@@ -29,6 +37,7 @@ void judge_forget(judge *context) {
 void judge_destroy(judge *context) {
     if (!context) return;
     judge_forget(context);
+    judge_forget_surface(context);
     number_pool_destroy(context->p);
     free(context);
 }

@@ -18,10 +18,14 @@ struct judge {
     pool *p;
     facts *table; ///< open addressing
     size_t capacity, count;
-    double absolute, relative;                      ///< the tolerances of "touching"
-    nvec points[OVOID_COVER_POINTS];                ///< of the present cover
-    uint32_t triangles[3 * 2 * OVOID_COVER_POINTS]; ///< of the present cover
+    double absolute, relative; ///< the tolerances of "touching"
+    nvec *points;              ///< of the present surface, room for so many and twice as many triangles
+    uint32_t *triangles;
+    uint32_t point_room;
 };
+
+/// Frees the room of the present surface.
+void judge_forget_surface(judge *context);
 
 /// Writes code and sentence (place -1) to *error, which may be NULL, and returns the code.
 #if defined(__GNUC__)

@@ -5,7 +5,8 @@
 #include <stdlib.h>
 
 truth *truths_create(const workload *work, uint32_t *open) {
-    static ovoid_cover cover;
+    static uint64_t memory[OVOID_COVER_SIZE / sizeof(uint64_t)];
+    static ovoid_cover cover = {.memory = memory, .size = sizeof memory};
     truth *truths = malloc(sizeof *truths * work->pair_count);
     *open = 0;
     for (uint32_t i = 0; truths && i < work->pair_count; i++) {

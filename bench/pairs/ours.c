@@ -244,7 +244,8 @@ const peer ours_in_batches = {
     "batch", (1u << QUESTION_COUNT) - 1, (1u << QUESTION_COUNT) - 1, 0, create_batch, run_batch, destroy_batch};
 
 uint32_t ours_count_unproven(const workload *work, question what) {
-    static ovoid_cover cover;
+    static uint64_t memory[OVOID_COVER_SIZE / sizeof(uint64_t)];
+    static ovoid_cover cover = {.memory = memory, .size = sizeof memory};
     uint32_t unproven = 0;
     for (uint32_t i = 0; i < work->pair_count; i++) {
         ovoid_pair pair = workload_get_pair(work, i);

@@ -154,9 +154,12 @@ ovoid_answer prove(const named &x, const named &y, const fcl::Transform3d &s, co
     const ovoid_pair pair = couple.shapes();
     ovoid_options tight{};
     tight.relative_tolerance = 1e-10;
-    static ovoid_cover cover;
+    static unsigned char memory[OVOID_COVER_SIZE];
+    ovoid_cover cover{};
+    cover.memory = memory;
+    cover.size = sizeof memory;
     const ovoid_answer answer = ovoid_depth(&pair, &tight, nullptr, &cover);
-    const ovoid_answer_basis basis = {&tight, &cover, nullptr};
+    const ovoid_answer_basis basis = {&tight, &cover};
     ovoid_error error;
     if (ovoid_answer_verify(&pair, &answer, &basis, &error) != OVOID_OK) std::printf("NOT PROVEN: %s\n", error.message);
     return answer;

@@ -35,7 +35,8 @@ static double get_seconds(void) {
 static ovoid_answer query(int kind, const ovoid_pair *pair) {
     if (kind == 0) return ovoid_collide(pair, NULL, NULL);
     if (kind == 2) return ovoid_distance(pair, NULL, NULL);
-    ovoid_cover cover;
+    static uint64_t memory[OVOID_COVER_SIZE / sizeof(uint64_t)];
+    ovoid_cover cover = {.memory = memory, .size = sizeof memory};
     return ovoid_depth(pair, NULL, NULL, &cover);
 }
 

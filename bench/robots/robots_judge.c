@@ -33,7 +33,8 @@ static double get_apart(const judged *a, const judged *b) {
 }
 
 static void judge_pair(const judged *a, const judged *b, state_truth *right) {
-    static ovoid_cover cover;
+    static uint64_t memory[OVOID_COVER_SIZE / sizeof(uint64_t)];
+    static ovoid_cover cover = {.memory = memory, .size = sizeof memory};
     double apart = get_apart(a, b);
     if (apart > right->gap) return;
     if (apart > 0.01 * (a->reach + b->reach)) {

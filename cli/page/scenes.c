@@ -61,7 +61,7 @@ static int write_pair(page_pairs *list, const page_bodies_source *source) {
                            .kind_b = get_kind(&b[1]),
                            .mesh_a = b[0].convexity,
                            .mesh_b = b[1].convexity};
-    answer_room room = {.cover = NULL};
+    answer_room room = {.cover = {.memory = NULL}};
     int code = EXIT_INPUT;
     if (answers_find(&room, &pair, &query, &record))
         code = page_pairs_add_record(list, (ovoid_couple){0, 1}, &record);

@@ -1,6 +1,7 @@
 // The answers of many pairs: chunks of the same size for any number of threads, so that the output is the same bytes.
 #include "pairs/answers.h"
 
+#include "base/covers.h"
 #include "base/message.h"
 #include "base/pipeline.h"
 
@@ -73,13 +74,18 @@ void answers_settle_limit(ovoid_answer *answer, const ovoid_body_pair *pair, dou
 
 int answers_find(answer_room *room, const ovoid_body_pair *pair, const answers_query *query, ovoid_record *record) {
     int is_solid = pair->a.solid || pair->b.solid;
-    if (!room->cover && !(room->cover = malloc(sizeof *room->cover))) return 0;
-    room->cover->point_count = 0;
     ovoid_exclusions *proof = &room->exclusions;
     proof->grows = 1;
     proof->count = 0;
-    proof->cover = query->query == QUERY_DISTANCE ? room->cover : NULL;
+    proof->cover = query->query == QUERY_DISTANCE ? &room->cover : NULL;
+    room->cover.point_count = 0;
+    if (query->wants_proof && !cover_take_memory(&room->cover)) return 0;
     room->body = find(pair, query, query->wants_proof ? proof : NULL);
+    // The search filled its own memory, and goes on in that of a cover.
+    if (room->body.limit == OVOID_LIMIT_CAPACITY && !query->wants_proof) {
+        if (!cover_take_memory(&room->cover)) return 0;
+        room->body = find(pair, query, proof);
+    }
     if (proof->count > proof->capacity) return 0;
     record->solid = NULL;
     record->answer = room->body.deciding;
@@ -89,16 +95,16 @@ int answers_find(answer_room *room, const ovoid_body_pair *pair, const answers_q
         answers_settle_limit(&record->answer, pair, query->margin, query->tolerance);
     record->part_a = pair->a.compound ? room->body.part_a : OVOID_RECORD_NO_PART;
     record->part_b = pair->b.compound ? room->body.part_b : OVOID_RECORD_NO_PART;
-    record->cover = query->wants_proof && room->cover->point_count ? room->cover : NULL;
+    record->cover = query->wants_proof && room->cover.point_count ? &room->cover : NULL;
     record->exclusions = proof->items;
     record->exclusion_count = proof->count;
     return !query->contacts || contacts_find(pair, query->contacts, record);
 }
 
 void answer_room_clear(answer_room *room) {
-    free(room->cover);
+    free(room->cover.memory);
     ovoid_exclusions_release(&room->exclusions);
-    *room = (answer_room){.cover = NULL};
+    *room = (answer_room){.cover = {.memory = NULL}};
 }
 
 /* ---- many */

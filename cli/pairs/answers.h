@@ -14,7 +14,7 @@ enum query { QUERY_NONE = -1, QUERY_COLLIDE, QUERY_WITHIN, QUERY_DISTANCE };
 
 /// Working memory for one answer after another.
 typedef struct answer_room {
-    ovoid_cover *cover;
+    ovoid_cover cover;
     ovoid_exclusions exclusions;
     ovoid_body_answer body;
 } answer_room;

@@ -1,6 +1,7 @@
 // ovoid batch: many pairs of a list of shapes, on several threads; results in the order of the pairs.
 #include "commands.h"
 
+#include "base/covers.h"
 #include "base/inputs.h"
 #include "base/message.h"
 #include "base/outputs.h"
@@ -53,8 +54,9 @@ typedef struct chunk {
     size_t count;
     ovoid_indexed_pair pairs[CHUNK];
     ovoid_answer answers[CHUNK];
-    ovoid_cover *cover; ///< reused for one answer after another, of distance queries
-    char *text;         ///< the lines of its records
+    ovoid_cover cover; ///< reused for one answer after another, of distance queries
+    int wants_covers;
+    char *text; ///< the lines of its records
     size_t size;
     int failed; ///< no memory
 } chunk;
@@ -86,15 +88,30 @@ static int fill(void *context, void *slot) {
     return c->count > 0;
 }
 
-static ovoid_answer find_answer(const settings *s, const ovoid_pair *pair, ovoid_cover *cover) {
+/// The distance or depth. The cover has memory where it is wanted, or once a search has filled its own. 0 where memory
+/// is out.
+static int find_distance(const ovoid_pair *pair, const ovoid_options *query, chunk *c, ovoid_answer *answer) {
+    if (c->wants_covers && !cover_take_memory(&c->cover)) return 0;
+    *answer = ovoid_depth(pair, query, NULL, c->wants_covers ? &c->cover : NULL);
+    if (answer->limit != OVOID_LIMIT_CAPACITY || c->wants_covers) return 1;
+    if (!cover_take_memory(&c->cover)) return 0;
+    *answer = ovoid_depth(pair, query, NULL, &c->cover);
+    return 1;
+}
+
+static int find_answer(const settings *s, const ovoid_pair *pair, chunk *c, ovoid_answer *answer) {
     ovoid_options query = {.absolute_tolerance = s->tolerance};
-    if (s->query == QUERY_COLLIDE) return ovoid_collide(pair, &query, NULL);
-    if (s->query == QUERY_WITHIN) return ovoid_within(pair, s->margin, &query, NULL);
-    ovoid_answer answer = ovoid_depth(pair, &query, NULL, cover);
-    const ovoid_body_pair bodies = {{.shape = pair->shape_a, .pose = pair->pose_a},
-                                    {.shape = pair->shape_b, .pose = pair->pose_b}};
-    answers_settle_limit(&answer, &bodies, s->margin, s->tolerance);
-    return answer;
+    if (s->query == QUERY_COLLIDE) {
+        *answer = ovoid_collide(pair, &query, NULL);
+    } else if (s->query == QUERY_WITHIN) {
+        *answer = ovoid_within(pair, s->margin, &query, NULL);
+    } else {
+        const ovoid_body_pair bodies = {{.shape = pair->shape_a, .pose = pair->pose_a},
+                                        {.shape = pair->shape_b, .pose = pair->pose_b}};
+        if (!find_distance(pair, &query, c, answer)) return 0;
+        answers_settle_limit(answer, &bodies, s->margin, s->tolerance);
+    }
+    return 1;
 }
 
 static ovoid_record make_record(const batch *b, const ovoid_indexed_pair *pair, const ovoid_answer *answer,
@@ -112,18 +129,17 @@ static ovoid_record make_record(const batch *b, const ovoid_indexed_pair *pair, 
 static void work(void *context, void *slot) {
     const batch *b = context;
     chunk *c = slot;
-    int covers = b->settings->query == QUERY_DISTANCE && results_have_proofs(&b->results);
     int lines = results_are_lines(&b->results);
-    if (covers && !c->cover) c->cover = malloc(sizeof *c->cover);
+    c->wants_covers = b->settings->query == QUERY_DISTANCE && results_have_proofs(&b->results);
     FILE *file = lines ? open_memstream(&c->text, &c->size) : NULL;
-    c->failed = (covers && !c->cover) || (lines && !file);
+    c->failed = lines && !file;
     for (size_t i = 0; i < c->count && !c->failed; i++) {
         const ovoid_indexed_pair *p = &c->pairs[i];
         ovoid_pair pair = {ovoid_shapes_get(b->shapes, p->a).shape, ovoid_shapes_get(b->shapes, p->b).shape, p->pose_a,
                            p->pose_b};
-        c->answers[i] = find_answer(b->settings, &pair, covers ? c->cover : NULL);
-        ovoid_record record = make_record(b, p, &c->answers[i], covers ? c->cover : NULL);
-        if (lines) (void)results_write_line(file, &b->settings->out, &record); // shapes have short proofs
+        c->failed = !find_answer(b->settings, &pair, c, &c->answers[i]);
+        ovoid_record record = make_record(b, p, &c->answers[i], c->wants_covers ? &c->cover : NULL);
+        if (lines && !c->failed) (void)results_write_line(file, &b->settings->out, &record); // shapes have short proofs
     }
     if (file && fclose(file) != 0) c->failed = 1;
 }
@@ -155,7 +171,7 @@ static int drain(void *context, void *slot) {
 
 static void clear(void *slot) {
     chunk *c = slot;
-    free(c->cover);
+    free(c->cover.memory);
     free(c->text);
 }
 

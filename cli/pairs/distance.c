@@ -184,7 +184,7 @@ static int answer_pair(const settings *s, const cli_body bodies[2], const char *
                                  .tolerance = s->tolerance,
                                  .wants_proof = 1,
                                  .contacts = s->contacts.wanted ? &contacts : NULL};
-    answer_room room = {.cover = NULL};
+    answer_room room = {.cover = {.memory = NULL}};
     cli_results results;
     ovoid_record record = {.a = paths[0], .b = paths[1], .margin = s->margin};
     if (!answers_find(&room, &pair, &query, &record)) {

@@ -287,7 +287,7 @@ static int is_arrival(const cli_impacts *impacts, const impact *item) {
 }
 
 static int write_impacts(cli_impacts *impacts, const impact *items) {
-    answer_room room = {.cover = NULL};
+    answer_room room = {.cover = {.memory = NULL}};
     int code = 0;
     for (size_t i = 0; i < impacts->couple_count && !code; i++) {
         ovoid_record record;

@@ -51,7 +51,8 @@ static void check(findings *f, const ovoid_body_answer *x, const ovoid_exclusion
 static void ask_all(findings *f, double margin, const ovoid_options *options, const ovoid_body_proof *earlier,
                     size_t capacity) {
     static ovoid_exclusion items[ITEMS];
-    static ovoid_cover cover;
+    static uint64_t memory[OVOID_COVER_SIZE / sizeof(uint64_t)];
+    static ovoid_cover cover = {.memory = memory, .size = sizeof memory};
     ovoid_exclusions exclusions = {.items = items, .capacity = capacity, .cover = &cover};
     f->options = options;
     ovoid_body_answer x =

@@ -26,7 +26,8 @@ static void check(const ovoid_pair *pair, const ovoid_manifold *m, const ovoid_m
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    static ovoid_cover cover;
+    static uint64_t memory[OVOID_COVER_SIZE / sizeof(uint64_t)];
+    static ovoid_cover cover = {.memory = memory, .size = sizeof memory};
     fuzz_bytes from = {data, size};
     int is_wild = take_byte(&from) > 96;
     double margin = fabs(take_double(&from)), keep = fabs(take_double(&from)), tolerance = fabs(take_double(&from));

@@ -23,7 +23,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     ovoid_shape *a = take_any_shape(&from, is_wild), *b = take_any_shape(&from, is_wild);
     if (a && b) {
         ovoid_pair pair = {a, b, take_any_pose(&from, is_wild), take_any_pose(&from, is_wild)};
-        static ovoid_cover cover;
+        static uint64_t memory[OVOID_COVER_SIZE / sizeof(uint64_t)];
+        static ovoid_cover cover = {.memory = memory, .size = sizeof memory};
         ovoid_smooth s = ovoid_pair_compute_smooth(&pair, order);
         ovoid_answer x = ovoid_depth(&pair, NULL, NULL, &cover);
         ovoid_gradient g = ovoid_answer_compute_gradient(&pair, &x, &cover);

@@ -17,6 +17,7 @@ typedef struct known {
     ovoid_pair pair;
     ovoid_answer answers[QUESTIONS];
     ovoid_cover cover; ///< of the depth
+    uint64_t memory[OVOID_COVER_SIZE / sizeof(uint64_t)];
     judge_truth truth;
 } known;
 
@@ -55,6 +56,7 @@ static void make_world(void) {
         k->answers[0] = ovoid_collide(&k->pair, NULL, NULL);
         k->answers[1] = ovoid_within(&k->pair, 0.5, NULL, NULL);
         k->answers[2] = ovoid_distance(&k->pair, NULL, NULL);
+        k->cover = (ovoid_cover){.memory = k->memory, .size = sizeof k->memory};
         k->answers[3] = ovoid_depth(&k->pair, NULL, NULL, &k->cover);
         k->answers[4] = ovoid_pair_compute_bounds(&k->pair);
         fuzz_require(judge_compute_truth(the_judge, &k->pair, &k->truth, NULL) == OVOID_OK);
@@ -80,20 +82,39 @@ static void change_number(fuzz_bytes *from, ovoid_answer *x) {
         *number *= 1 - ldexp(1, how);
 }
 
-static void change_cover(fuzz_bytes *from, ovoid_cover *cover) {
+/// The cover whose arrays are altered.
+typedef struct altered_cover {
+    ovoid_cover cover;
+    uint32_t a[OVOID_COVER_POINTS], b[OVOID_COVER_POINTS];
+    uint16_t triangles[2 * OVOID_COVER_POINTS][3];
+} altered_cover;
+
+static void copy_cover(altered_cover *to, const ovoid_cover *from) {
+    to->cover = *from;
+    if (!from->point_count) return;
+    memcpy(to->a, from->a, from->point_count * sizeof *to->a);
+    memcpy(to->b, from->b, from->point_count * sizeof *to->b);
+    memcpy(to->triangles, from->triangles, from->triangle_count * sizeof *to->triangles);
+    to->cover.a = to->a;
+    to->cover.b = to->b;
+    to->cover.triangles = (const uint16_t(*)[3])to->triangles;
+}
+
+static void change_cover(fuzz_bytes *from, altered_cover *altered) {
+    ovoid_cover *cover = &altered->cover;
     unsigned what = (unsigned)take_byte(from) % 6, place = (uint8_t)take_byte(from), value = (uint8_t)take_byte(from);
     if (!cover->point_count) return;
-    if (what == 0) cover->a[place % cover->point_count] = value;
-    if (what == 1) cover->b[place % cover->point_count] = value;
+    if (what == 0) altered->a[place % cover->point_count] = value;
+    if (what == 1) altered->b[place % cover->point_count] = value;
     if (what == 2 && cover->triangle_count)
-        cover->triangles[place % cover->triangle_count][value % 3] = (uint16_t)place;
+        altered->triangles[place % cover->triangle_count][value % 3] = (uint16_t)place;
     if (what == 3) cover->point_count = 1 + place;
     if (what == 4) cover->triangle_count = place;
     if (what == 5) cover->triangle_count *= 2;
     if (cover->triangle_count > 2 * OVOID_COVER_POINTS) cover->triangle_count = 0;
 }
 
-static void change(fuzz_bytes *from, ovoid_answer *x, ovoid_cover *cover) {
+static void change(fuzz_bytes *from, ovoid_answer *x, altered_cover *cover) {
     ovoid_proof *p = &x->proof;
     unsigned place;
     switch ((unsigned)take_byte(from) % 10) {
@@ -147,9 +168,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     if (!the_judge) make_world();
     fuzz_bytes from = {data, size};
     const known *k = &world[(unsigned)take_byte(&from) % PAIRS];
-    static ovoid_cover cover; // large
-    cover = k->cover;
-    ovoid_record record = {.answer = k->answers[(unsigned)take_byte(&from) % QUESTIONS], .cover = &cover};
+    static altered_cover cover; // large
+    copy_cover(&cover, &k->cover);
+    ovoid_record record = {.answer = k->answers[(unsigned)take_byte(&from) % QUESTIONS], .cover = &cover.cover};
     while (from.size) change(&from, &record.answer, &cover);
     ovoid_results_reader *reader;
     if (pass_through_file(&record, &reader)) check_claim(k, &record);

@@ -102,7 +102,8 @@ static void check_contact(const model *m, const ovoid_contact *c, double margin)
     fuzz_require(c->verdict.lower <= alone.upper && alone.lower <= c->verdict.upper);
     fuzz_require(!(c->verdict.lower > margin));
     static ovoid_exclusion items[256];
-    static ovoid_cover cover;
+    static uint64_t memory[OVOID_COVER_SIZE / sizeof(uint64_t)];
+    static ovoid_cover cover = {.memory = memory, .size = sizeof memory};
     ovoid_exclusions exclusions = {.items = items, .capacity = 256, .cover = &cover};
     ovoid_error error = {OVOID_OK, -1, ""};
     ovoid_contact_proof proof = {.exclusions = &exclusions};

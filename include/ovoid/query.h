@@ -51,7 +51,7 @@ typedef enum ovoid_limit {
     OVOID_LIMIT_ITERATIONS, /**< options.iterations used up */
     OVOID_LIMIT_PRECISION,  /**< no further progress, in pairs of doubles either; for bodies with allowances also an
                                overlap that the few pairs of vertices in a proof cannot prove, but ovoid_depth may */
-    OVOID_LIMIT_CAPACITY,   /**< the depth search filled its working memory; ovoid_depth_with takes more */
+    OVOID_LIMIT_CAPACITY,   /**< the depth search filled its working memory; a cover may bring more */
     OVOID_LIMIT_POSE_A,     /**< refused: pose_a has NaN, infinity, a length out of range or a zero quaternion */
     OVOID_LIMIT_POSE_B,     /**< refused: pose_b, for the same reasons */
     OVOID_LIMIT_OPTIONS,    /**< refused: NaN or a negative tolerance in the options */
@@ -60,7 +60,7 @@ typedef enum ovoid_limit {
     OVOID_LIMIT_SHAPE_B, /**< refused: shape_b, for the same reasons */
     OVOID_LIMIT_ALLOWANCE, /**< the shapes' allowances leave the sign of d, or the margin, open; no search can narrow
                               the bracket */
-    OVOID_LIMIT_MEMORY     /**< refused: the working memory of ovoid_depth_with is NULL or too small */
+    OVOID_LIMIT_MEMORY     /**< refused: the memory of a cover is NULL or too small */
 } ovoid_limit;
 
 /** The kind of evidence for the upper bound. */
@@ -108,37 +108,30 @@ typedef struct ovoid_proof {
     ovoid_vec3 inner_b; /**< INNER_POINTS, BALLS: the point of B, body frame of B */
 } ovoid_proof;
 
-/** The largest number of points of a cover. */
+/** Points of a depth's surface that a search holds in its own memory, on the stack. */
 #define OVOID_COVER_POINTS 512
+/** The largest number of points of a cover. */
+#define OVOID_COVER_POINTS_MAX 32767
+/** Bytes of memory of a cover of up to OVOID_COVER_POINTS points, for an array. */
+#define OVOID_COVER_SIZE ((size_t)10304)
 
 /**
  * The proof of the upper bound of an overlap's signed distance: differences x(b[i]) - x(a[i]) and triangles over them
  * that form a closed oriented surface which winds around the origin. No point of the surface is nearer to the origin
- * than r, hence the ball of radius r lies inside the Minkowski difference and d <= -r - radii.
+ * than r, hence the ball of radius r lies inside the Minkowski difference and d <= -r - radii. It has at most
+ * OVOID_COVER_POINTS_MAX points and twice as many triangles.
+ *
+ * A query writes it into `memory`, so the arrays are there until the next query that the cover is given to; one query
+ * at a time may have it. Memory of more than OVOID_COVER_POINTS points is also where the search goes on that has filled
+ * its own. What reads a cover reads counts and arrays only, wherever these are: its memory may be NULL.
  */
 typedef struct ovoid_cover {
     uint32_t point_count, triangle_count;
-    uint32_t a[OVOID_COVER_POINTS], b[OVOID_COVER_POINTS];
-    uint16_t triangles[2 * OVOID_COVER_POINTS][3];
+    const uint32_t *a, *b;          /**< point_count of each: vertices of shape_a and of shape_b */
+    const uint16_t (*triangles)[3]; /**< triangle_count of them: points, counter-clockwise from outside */
+    void *memory; /**< the caller's, of any alignment and content; a query without it is refused, with limit MEMORY */
+    size_t size;  /**< of memory, bytes: at least OVOID_COVER_SIZE; see ovoid_cover_get_size */
 } ovoid_cover;
-
-/** The largest number of points of a cover in memory of the caller's. */
-#define OVOID_COVER_POINTS_MAX 32767
-
-/** A cover of any number of points up to OVOID_COVER_POINTS_MAX, in memory of its owner: the same proof. */
-typedef struct ovoid_large_cover {
-    uint32_t point_count, triangle_count;
-    const uint32_t *a, *b;          /**< point_count of each */
-    const uint16_t (*triangles)[3]; /**< triangle_count of them, as those of ovoid_cover */
-} ovoid_large_cover;
-
-/** Working memory of ovoid_depth_with, and the cover that it leaves there. One query at a time may use it. */
-typedef struct ovoid_depth_memory {
-    void *data;              /**< the caller's, of any alignment and content */
-    size_t size;             /**< bytes: at least ovoid_depth_get_memory_size(OVOID_COVER_POINTS) */
-    ovoid_large_cover cover; /**< written: the proof of the last answer's upper bound, in data until the next query; no
-                                points if none is needed */
-} ovoid_depth_memory;
 
 /** Options of a query; all zero, or NULL, is the default. */
 typedef struct ovoid_options {
@@ -146,8 +139,8 @@ typedef struct ovoid_options {
     double relative_tolerance; /**< of the pair's size: the sum of the largest vertex norms of both shapes in their body
                                   frames, the distance of those frames' origins, and the radii; 0 means 1e-9 */
     double cap;                /**< stop when proven farther apart than this; 0 means no cap */
-    uint32_t iterations;       /**< most iterations of each exact method; 0 means 1000, of ovoid_depth_with twice the
-                                  points that its memory holds */
+    uint32_t iterations; /**< most iterations of each exact method; 0 means 1000, of a depth with a larger memory than
+                            its own twice the points that this holds */
 } ovoid_options;
 
 /** The answer to a query. lower <= d <= upper always holds, rounding included. */
@@ -185,22 +178,18 @@ OVOID_API ovoid_answer ovoid_distance(const ovoid_pair *pair, const ovoid_option
 /**
  * The signed distance to the tolerance: the distance if the bodies are apart, minus the penetration depth if they
  * overlap. cover (may be NULL) receives the proof of the depth's lower bound; its point_count is 0 if none is needed.
+ *
+ * A search that has filled its own memory, of OVOID_COVER_POINTS points, goes on in that of the cover if it is larger;
+ * else it ends with a true and wide bracket and the limit CAPACITY. The bits of other depths are the same whatever
+ * memory there is. Round bodies with nearly one centre need most: about 1.7 points for each vertex of the larger one.
+ * The limit is MEMORY, and nothing is answered, if the cover's memory is NULL or smaller than OVOID_COVER_SIZE.
  */
 OVOID_API ovoid_answer ovoid_depth(const ovoid_pair *pair, const ovoid_options *options, const ovoid_proof *earlier,
                                    ovoid_cover *cover);
 
-/** Bytes of working memory for a search of up to that many points: 150 a point and 10 KB. 0: too many points. */
-OVOID_API size_t ovoid_depth_get_memory_size(uint32_t point_count);
-
-/**
- * ovoid_depth whose search goes on in the caller's memory once it has filled its own of OVOID_COVER_POINTS: the same
- * bits where that is not so, and a narrow bracket where memory suffices. Round bodies with nearly one centre need most:
- * about 1.5 points for each vertex of the larger one. The limit is MEMORY, and nothing is answered, if the memory is
- * NULL or less than ovoid_depth_get_memory_size(OVOID_COVER_POINTS). The cover is written where one is needed;
- * ovoid_answer_basis takes it.
+/** Bytes of memory of a cover for a search of up to that many points: 10 KB, and beyond 512 150 a point. 0: too many.
  */
-OVOID_API ovoid_answer ovoid_depth_with(const ovoid_pair *pair, const ovoid_options *options,
-                                        const ovoid_proof *earlier, ovoid_depth_memory *memory);
+OVOID_API size_t ovoid_cover_get_size(uint32_t point_count);
 
 /** A posed shape. The shape is borrowed. */
 typedef struct ovoid_posed_shape {
@@ -286,9 +275,8 @@ OVOID_API int ovoid_answer_is_within(const ovoid_answer *answer, double margin);
 
 /** What ovoid_answer_verify uses beside the answer; all zero, or NULL, is the default. */
 typedef struct ovoid_answer_basis {
-    const ovoid_options *options;         /**< those of the query; NULL: the default, as of ovoid_pair_compute_bounds */
-    const ovoid_cover *cover;             /**< that of ovoid_depth, or NULL */
-    const ovoid_large_cover *large_cover; /**< that of ovoid_depth_with, or NULL; read where cover is NULL */
+    const ovoid_options *options; /**< those of the query; NULL: the default, as of ovoid_pair_compute_bounds */
+    const ovoid_cover *cover;     /**< that of ovoid_depth, or NULL */
 } ovoid_answer_basis;
 
 /**

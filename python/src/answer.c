@@ -59,14 +59,33 @@ int answer_keep_exclusions(answer_object *to, ovoid_exclusions *exclusions) {
 const ovoid_cover *cover_unpack(const kept_cover *kept, ovoid_cover *to) {
     to->point_count = to->triangle_count = 0;
     if (!kept) return NULL;
+    size_t points = kept->point_count * sizeof *to->a;
+    const void *a = kept->data, *b = kept->data + points, *triangles = kept->data + 2 * points;
     to->point_count = kept->point_count;
     to->triangle_count = kept->triangle_count;
-    size_t points = to->point_count * sizeof *to->a;
-    const char *data = kept->data;
-    memcpy(to->a, data, points);
-    memcpy(to->b, data + points, points);
-    memcpy(to->triangles, data + 2 * points, to->triangle_count * sizeof *to->triangles);
+    to->a = a;
+    to->b = b;
+    to->triangles = (const uint16_t(*)[3])triangles;
     return to;
+}
+
+void cover_room_make(cover_room *room) {
+    room->large = NULL;
+    room->cover = (ovoid_cover){.memory = room->memory, .size = sizeof room->memory};
+}
+
+int cover_room_grow(cover_room *room, ovoid_limit limit) {
+    if (limit != OVOID_LIMIT_CAPACITY || room->large) return 0;
+    size_t size = ovoid_cover_get_size(OVOID_COVER_POINTS_MAX);
+    room->large = malloc(size);
+    if (room->large) room->cover = (ovoid_cover){.memory = room->large, .size = size};
+    return room->large != NULL;
+}
+
+int cover_room_keep(cover_room *room, kept_cover **to) {
+    int failed = cover_keep(to, &room->cover);
+    free(room->large);
+    return failed;
 }
 
 int limit_raise(module_state *state, ovoid_limit limit) {
@@ -84,7 +103,7 @@ int limit_raise(module_state *state, ovoid_limit limit) {
 
 ovoid_code answer_verify(const answer_object *self, ovoid_error *error) {
     module_state *state = state_of((PyObject *)self);
-    ovoid_cover unpacked;
+    ovoid_cover unpacked = {.memory = NULL};
     const ovoid_cover *cover = cover_unpack(self->cover, &unpacked);
     ovoid_body_pair bodies = {body_make(state, self->a, self->pose_a), body_make(state, self->b, self->pose_b)};
     if (bodies.a.shape && bodies.b.shape) {

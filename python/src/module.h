@@ -268,11 +268,18 @@ typedef struct pose_object {
     PyObject_HEAD ovoid_pose pose;
 } pose_object;
 
-/// What is used of an ovoid_cover, in a block as small as that: a of all points, then b, then the triangles.
+/// A cover that is kept, in one block: a of all points, then b, then the triangles.
 typedef struct kept_cover {
     uint32_t point_count, triangle_count;
     char data[];
 } kept_cover;
+
+/// A cover with memory for a query: as much as most need, and more once a search has filled its own.
+typedef struct cover_room {
+    ovoid_cover cover;
+    void *large; ///< of malloc, or NULL
+    uint64_t memory[OVOID_COVER_SIZE / sizeof(uint64_t)];
+} cover_room;
 
 /// The answer to a query, with what it takes to check it.
 typedef struct answer_object {
@@ -327,7 +334,13 @@ answer_object *answer_make(module_state *state, PyObject *a, PyObject *b, const 
 int cover_keep(kept_cover **to, const ovoid_cover *cover);
 /// Keeps a copy of exclusions that grow, and releases them; -1 with MemoryError where memory was or is out.
 int answer_keep_exclusions(answer_object *to, ovoid_exclusions *exclusions);
-/// What was kept as the library reads it, in *to; NULL where there is none, and *to is empty.
+void cover_room_make(cover_room *room);
+/// 1 where the answer's limit says that a search had too little memory, and there is more of it now: ask again. It
+/// needs no lock of Python's.
+int cover_room_grow(cover_room *room, ovoid_limit limit);
+/// cover_keep, and frees what the room holds.
+int cover_room_keep(cover_room *room, kept_cover **to);
+/// What was kept as the library reads it, where it is; NULL where there is none, and *to shows nothing.
 const ovoid_cover *cover_unpack(const kept_cover *kept, ovoid_cover *to);
 /// Raises where an answer was refused; -1 then.
 int limit_raise(module_state *state, ovoid_limit limit);

@@ -170,8 +170,8 @@ static int query_shapes(const query_input *in, answer_object *to) {
     ovoid_pair pair = {in->pair.a.shape, in->pair.b.shape, in->pair.a.pose, in->pair.b.pose};
     const ovoid_proof *earlier = in->has_earlier ? &in->earlier.proof : NULL;
     ovoid_answer *answer = &to->of.deciding;
-    ovoid_cover cover;
-    cover.point_count = 0;
+    cover_room room;
+    cover_room_make(&room);
     if (in->prepared_a && in->name != QUERY_DEPTH)
         query_prepared(in, to);
     else if (in->name == QUERY_COLLIDE)
@@ -181,9 +181,10 @@ static int query_shapes(const query_input *in, answer_object *to) {
     else if (in->name == QUERY_DISTANCE)
         *answer = ovoid_distance(&pair, &in->options, earlier);
     else
-        *answer = ovoid_depth(&pair, &in->options, earlier, &cover);
+        do *answer = ovoid_depth(&pair, &in->options, earlier, &room.cover);
+        while (cover_room_grow(&room, answer->limit));
     to->of = ovoid_body_answer_make(answer, 0, 0);
-    return cover_keep(&to->cover, &cover);
+    return cover_room_keep(&room, &to->cover);
 }
 
 // ---- compounds and solids
@@ -207,13 +208,15 @@ static ovoid_body_answer query_once(const query_input *in, ovoid_exclusions *exc
 }
 
 static int query_bodies(const query_input *in, answer_object *to) {
-    ovoid_cover cover;
-    cover.point_count = 0;
-    ovoid_exclusions exclusions = {.cover = in->name == QUERY_DEPTH ? &cover : NULL, .grows = 1};
+    cover_room room;
+    cover_room_make(&room);
+    ovoid_exclusions exclusions = {.cover = in->name == QUERY_DEPTH ? &room.cover : NULL, .grows = 1};
     Py_BEGIN_ALLOW_THREADS;
-    to->of = query_once(in, &exclusions);
+    do to->of = query_once(in, &exclusions);
+    while (exclusions.cover && cover_room_grow(&room, to->of.limit));
     Py_END_ALLOW_THREADS;
-    return answer_keep_exclusions(to, &exclusions) || cover_keep(&to->cover, &cover) ? -1 : 0;
+    int failed = answer_keep_exclusions(to, &exclusions);
+    return cover_room_keep(&room, &to->cover) || failed ? -1 : 0;
 }
 
 // ---- what is called

@@ -55,7 +55,7 @@ static PyObject *gradient(PyObject *module, PyObject *given) {
                        answer->pose_b};
     gradient_object *made = object_make(state->gradient);
     if (!made) return NULL;
-    ovoid_cover cover;
+    ovoid_cover cover = {.memory = NULL};
     made->gradient = ovoid_answer_compute_gradient(&pair, &answer->of.deciding, cover_unpack(answer->cover, &cover));
     return (PyObject *)made;
 }

@@ -70,8 +70,8 @@ static void pass_cover(transfer *t, kept_cover **cover) {
         *cover = NULL;
         return;
     }
-    t->failed = size < sizeof **cover || (*cover)->point_count > OVOID_COVER_POINTS ||
-                (*cover)->triangle_count > 2 * OVOID_COVER_POINTS || size != compute_cover_size(*cover);
+    t->failed = size < sizeof **cover || (*cover)->point_count > OVOID_COVER_POINTS_MAX ||
+                (*cover)->triangle_count > 2 * OVOID_COVER_POINTS_MAX || size != compute_cover_size(*cover);
 }
 
 static void pass_answer(transfer *t, PyObject *object) {

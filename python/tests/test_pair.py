@@ -373,5 +373,40 @@ class Arrays(unittest.TestCase):
                 self.assertEqual([str(member) for member in members], words[:len(members)])
 
 
+class LargeDepths(unittest.TestCase):
+    """Round bodies with one centre, whose depth needs more points than a search holds by itself."""
+
+    @classmethod
+    def setUpClass(cls):
+        points = []
+        for i in range(800):
+            z = 2 * (i + 0.5) / 800 - 1
+            r = math.sqrt(1 - z * z)
+            points.append([r * math.cos(2.399963229728653 * i), r * math.sin(2.399963229728653 * i), z])
+        cls.ball = ovoid.Shape.from_points(points)
+        cls.turned = ovoid.Pose.from_quaternion((0, 0, 0), wxyz=(0.3, 0.4, 0.5, 0.7))
+
+    def check(self, answer):
+        self.assertEqual(answer.limit, ovoid.Limit.NONE)
+        self.assertLess(answer.upper - answer.lower, 1e-8)
+        ovoid.verify(answer)
+        ovoid.verify(pickle.loads(pickle.dumps(answer)))
+
+    def test_shapes(self):
+        answer = ovoid.depth(self.ball, self.ball, None, self.turned)
+        self.check(answer)
+        self.check(ovoid.depth(self.ball, self.ball, None, self.turned, earlier=answer))
+        ovoid.gradient(answer)
+
+    def test_compounds(self):
+        parts = ovoid.Compound([self.ball, self.ball], [at(0), at(5)])
+        self.check(ovoid.depth(parts, self.ball, None, self.turned))
+
+    def test_manifold(self):
+        found = ovoid.find_manifold(self.ball, self.ball, None, self.turned)
+        self.assertLess(found.upper - found.lower, 1e-8)
+        ovoid.verify(found)
+
+
 if __name__ == "__main__":
     common.main()

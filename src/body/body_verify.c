@@ -277,7 +277,9 @@ static ovoid_limit find_refusal(const ovoid_body_pair *pair, const ovoid_options
     return OVOID_LIMIT_NONE;
 }
 
-static int is_refusal(ovoid_limit limit) { return limit >= OVOID_LIMIT_POSE_A && limit <= OVOID_LIMIT_SHAPE_B; }
+static int is_refusal(ovoid_limit limit) {
+    return limit == OVOID_LIMIT_MEMORY || (limit >= OVOID_LIMIT_POSE_A && limit <= OVOID_LIMIT_SHAPE_B);
+}
 
 static ovoid_code verify_solids(cut *c, const ovoid_pair *leaves, ovoid_error *error) {
     static const ovoid_options of_leaves = {.absolute_tolerance = INFINITY};

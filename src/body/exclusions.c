@@ -2,6 +2,7 @@
 #include "body/exclusions.h"
 
 #include "base/allocator.h"
+#include "exact/cover_memory.h"
 #include "tools/heap.h"
 
 #include <string.h>
@@ -11,8 +12,7 @@ enum { FIRST_CAPACITY = 64 };
 void exclusions_begin(ovoid_exclusions *exclusions) {
     if (!exclusions) return;
     exclusions->count = 0;
-    ovoid_cover *cover = exclusions->cover;
-    if (cover) cover->point_count = cover->triangle_count = 0;
+    cover_clear(exclusions->cover);
 }
 
 void exclusions_grow(ovoid_exclusions *exclusions) {

@@ -2,6 +2,7 @@
 // parts are an ordinary query, which may stop beyond the best upper bound.
 #include "body/body_find.h"
 #include "body/traverse.h"
+#include "exact/cover_memory.h"
 
 // ---- what is left out
 
@@ -166,17 +167,19 @@ static int search_parts(body_search *state, const ovoid_body_pair *pair, const b
     const ovoid_body_proof *earlier = request->earlier;
     out->part_a = out->part_b = out->visited = out->tested = 0;
     exclusions_begin(state->exclusions);
-    ovoid_cover *cover = state->exclusions ? state->exclusions->cover : NULL;
+    ovoid_cover *cover = goal->wants_depth && state->exclusions ? state->exclusions->cover : NULL;
+    ovoid_options given = request->options ? *request->options : (ovoid_options){0, 0, 0, 0};
+    given.iterations = cover_get_iterations(cover, given.iterations);
     ovoid_limit refused = OVOID_LIMIT_OPTIONS;
-    if (options_make(request->options, &state->options) && goal->far >= 0)
-        refused = body_trees_make(pair, &state->a, &state->b);
+    if (options_make(&given, &state->options) && goal->far >= 0) refused = body_trees_make(pair, &state->a, &state->b);
+    if (refused == OVOID_LIMIT_NONE && cover && !cover_has_memory(cover)) refused = OVOID_LIMIT_MEMORY;
     if (refused != OVOID_LIMIT_NONE) {
         out->deciding = answer_make_refused(refused);
         return 0;
     }
     if (pair->a.shape && pair->b.shape) {
         ovoid_pair shapes = {pair->a.shape, pair->b.shape, pair->a.pose, pair->b.pose};
-        const query_request of_shapes = {request->options, goal, earlier ? &earlier->proof : NULL, cover};
+        const query_request of_shapes = {&given, goal, earlier ? &earlier->proof : NULL, cover};
         answer_find_internal(&shapes, &of_shapes, &out->deciding);
         out->tested = 1;
         return 0;

@@ -2,6 +2,8 @@
 // of leaves, and the bracket that follows.
 #include "body/search.h"
 
+#include "exact/cover_memory.h"
+
 void search_begin(body_search *state, const query_goal *goal) {
     state->whole_goal = state->goal = *goal;
     state->allowance = state->a.allowance + state->b.allowance;
@@ -117,7 +119,7 @@ void search_query_leaves(body_search *state, uint32_t a, uint32_t b, const ovoid
     if (!state->kind->take(state, &found)) return;
     state->out->deciding = *x;
     state->is_answered = 1;
-    if (cover && x->proof.kind != OVOID_PROOF_COVER) cover->point_count = cover->triangle_count = 0;
+    if (x->proof.kind != OVOID_PROOF_COVER) cover_clear(cover);
 }
 
 void search_query_new(body_search *state, uint32_t a, uint32_t b) { search_query_leaves(state, a, b, NULL); }

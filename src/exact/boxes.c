@@ -20,6 +20,7 @@
 // as that of who checks, confirms them.
 #include "exact/boxes.h"
 
+#include "exact/cover_memory.h"
 #include "pair/cover.h"
 #include "simd/box_axes.h"
 
@@ -103,17 +104,18 @@ static int find_foot(const pair_frame *f, const box_axes_query *q, uint32_t pair
 typedef struct builder {
     const pair_frame *frame;
     const box_axes_query *query;
-    ovoid_cover *cover;
+    cover_arrays *cover;
+    uint32_t point_count, triangle_count;
     vec3 w[COVER_POINTS];
     uint8_t point_of[PATTERNS]; ///< 1 + the point; 0: none yet
 } builder;
 
 // The index of a corner; COVER_POINTS if there are too many.
 static uint32_t add_point(builder *b, uint32_t ends) {
-    ovoid_cover *c = b->cover;
+    cover_arrays *c = b->cover;
     if (b->point_of[ends]) return b->point_of[ends] - 1u;
-    if (c->point_count == COVER_POINTS) return COVER_POINTS;
-    uint32_t at = c->point_count++;
+    if (b->point_count == COVER_POINTS) return COVER_POINTS;
+    uint32_t at = b->point_count++;
     difference vertex = get_corner(b->frame, b->query, ends);
     b->w[at] = frame_difference(b->frame, vertex.a, vertex.b);
     c->a[at] = vertex.a;
@@ -129,7 +131,7 @@ static int add_face(builder *b, const box_axes *axes, uint32_t pair, int side) {
     for (int k = 0; k < 4; k++)
         if ((v[k] = add_point(b, ring[k])) == COVER_POINTS) return 0;
     for (int k = 1; k < 3; k++) {
-        uint16_t *triangle = b->cover->triangles[b->cover->triangle_count++];
+        uint16_t *triangle = b->cover->triangles[b->triangle_count++];
         triangle[0] = (uint16_t)v[0];
         triangle[1] = (uint16_t)v[k];
         triangle[2] = (uint16_t)v[k + 1];
@@ -140,14 +142,14 @@ static int add_face(builder *b, const box_axes *axes, uint32_t pair, int side) {
 // All faces, the nearest pair's first. 0 if they do not show the depth.
 static int build_cover(const pair_frame *f, const box_axes_query *q, const box_axes *axes, uint32_t nearest,
                        double depth, ovoid_cover *cover) {
-    builder b = {.frame = f, .query = q, .cover = cover};
-    cover->point_count = cover->triangle_count = 0;
+    builder b = {.frame = f, .query = q, .cover = cover_get_arrays(cover)};
     for (uint32_t i = 0; i < BOX_AXES_PAIRS; i++) {
         uint32_t pair = (nearest + i) % BOX_AXES_PAIRS;
         int near = !(axes->along[pair] >= 0);
         if (!add_face(&b, axes, pair, near) || !add_face(&b, axes, pair, !near)) return 0;
     }
-    surface all = surface_make(b.w, cover->point_count, (const uint16_t(*)[3])cover->triangles, cover->triangle_count);
+    cover_show_arrays(cover, b.point_count, b.triangle_count);
+    surface all = surface_make(b.w, cover->point_count, cover->triangles, cover->triangle_count);
     return surface_is_closed(&all) && surface_compute_depth(&all, f->claim) >= depth;
 }
 
@@ -176,7 +178,7 @@ int boxes_take_depth(search *s, ovoid_cover *cover) {
     if (!find_foot(f, &q, pair, find_face(&axes, pair, !is_along), vec3_scale(normal, -axes.height[pair]), &foot))
         return 0;
     if (search_wants_cover(s, cover, upper) && !build_cover(f, &q, &axes, pair, depth, cover)) {
-        cover->point_count = cover->triangle_count = 0;
+        cover_clear(cover);
         return 0;
     }
     s->upper = upper;

@@ -6,11 +6,13 @@
 // - Nothing is taken on trust: the lower bound is the gap along a face's normal, by the supports; the upper bound is
 //   the radius that the whole surface keeps from the origin, checked at the end as a proof (cover.c).
 // - A depth's first points are joined in lanes (epa_lanes.c); this goes on from there where it must.
-// Working memory is on the stack, about 80 KB; beyond 512 points the surface goes on in the caller's, if there is any.
-// Cost: for each new point one support and a scan of the faces that may be the nearest; in the caller's memory no scan.
+// Working memory is on the stack, about 80 KB; beyond 512 points the surface goes on in the
+// cover's, if there is any.
+// Cost: for each new point one support and a scan of the faces that may be the nearest; in the cover's memory no scan.
 #include "exact/epa.h"
 
 #include "base/compiler.h"
+#include "exact/cover_memory.h"
 #include "exact/epa_lanes.h"
 #include "exact/expand.h"
 #include "exact/hull_reduce.h"
@@ -42,7 +44,7 @@ typedef struct growth {
     growth_room room;
     uint16_t nearest; ///< face
     int is_grown;     ///< as near as is wanted
-    int is_moved;     ///< the surface is in the caller's memory
+    int is_moved;     ///< the surface is in the cover's memory
     double gap;       ///< along its normal, NAN until measured
     ovoid_cover *cover;
 } growth;
@@ -243,7 +245,7 @@ static void take_cover(growth *g) {
     ovoid_cover *cover = g->cover;
     surface all = surface_make(e->w, e->points, (const uint16_t(*)[3])e->triangles, 0);
     double depth = measure_faces(s, e);
-    if (cover || g->is_moved || !(depth > 0)) all.triangle_count = expansion_pack(e);
+    if (cover || !(depth > 0)) all.triangle_count = expansion_pack(e);
     if (!(depth > 0)) depth = surface_compute_depth(&all, s->frame->claim);
     double upper = -depth - s->frame->upper_radii;
     if (!(depth > 0) || !(upper < s->upper || upper - s->lower <= s->goal.tolerance)) return;
@@ -251,18 +253,16 @@ static void take_cover(growth *g) {
     s->stage = OVOID_STAGE_EPA;
     s->kind = OVOID_PROOF_COVER;
     s->witness = find_witness(g);
+    if (!search_wants_cover(s, cover, s->upper)) return;
     if (g->is_moved) {
-        s->goal.room->cover = (ovoid_large_cover){e->points, all.triangle_count, e->a, e->b, all.triangles};
+        cover_show_surface(cover, e, all.triangle_count);
         return;
     }
-    // A second run's surface proves more than that of the first, which may stand in the caller's memory.
-    if (s->goal.room) s->goal.room->cover.point_count = 0;
-    if (!search_wants_cover(s, cover, s->upper)) return;
-    cover->point_count = e->points;
-    cover->triangle_count = all.triangle_count;
-    memcpy(cover->a, e->a, e->points * sizeof *e->a);
-    memcpy(cover->b, e->b, e->points * sizeof *e->b);
-    memcpy(cover->triangles, e->triangles, all.triangle_count * sizeof *e->triangles);
+    cover_arrays *to = cover_get_arrays(cover);
+    memcpy(to->a, e->a, e->points * sizeof *e->a);
+    memcpy(to->b, e->b, e->points * sizeof *e->b);
+    memcpy(to->triangles, e->triangles, all.triangle_count * sizeof *e->triangles);
+    cover_show_arrays(cover, e->points, all.triangle_count);
 }
 
 // A tetrahedron that strictly contains the origin: point 0 and a face.
@@ -344,11 +344,13 @@ static int measure_sliver(const expansion *e, face *f) {
     return 1;
 }
 
-// Goes on in the caller's memory, if that has more room and no cover stands there that was found before.
+// Goes on in the cover's memory, if that has more room.
 static int move(growth *g) {
-    depth_room *room = g->s->goal.room;
-    if (!room || g->is_moved || room->points <= EXPANSION_POINTS || room->cover.point_count) return 0;
-    expansion_move(&g->e, room->data, room->points);
+    uint32_t points;
+    if (!g->cover || g->is_moved) return 0;
+    void *room = cover_find_room(g->cover, &points);
+    if (points <= EXPANSION_POINTS) return 0;
+    expansion_move(&g->e, room, points);
     return g->is_moved = 1;
 }
 

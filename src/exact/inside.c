@@ -11,6 +11,7 @@
 
 #include "exact/boxes.h"
 #include "exact/closed.h"
+#include "exact/cover_memory.h"
 #include "pair/cover.h"
 
 enum { CORNERS = 8, TRIANGLES = 12 };
@@ -115,14 +116,14 @@ static evidence find_foot(const difference_box *d, const nearest_face *face) {
 }
 
 static void write_cover(const difference_box *d, ovoid_cover *cover) {
-    cover->point_count = CORNERS;
-    cover->triangle_count = TRIANGLES;
+    cover_arrays *to = cover_get_arrays(cover);
     for (unsigned bits = 0; bits < CORNERS; bits++) {
         difference corner = get_corner(d, bits);
-        cover->a[bits] = corner.a;
-        cover->b[bits] = corner.b;
+        to->a[bits] = corner.a;
+        to->b[bits] = corner.b;
     }
-    set_triangles(d, cover->triangles);
+    set_triangles(d, to->triangles);
+    cover_show_arrays(cover, CORNERS, TRIANGLES);
 }
 
 int inside_take_depth(search *s, ovoid_cover *cover) {

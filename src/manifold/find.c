@@ -2,6 +2,7 @@
 // enough; else from a search for the depth or the distance.
 #include "base/environment.h"
 #include "base/error.h"
+#include "exact/cover_memory.h"
 #include "manifold/manifold.h"
 #include "query/answer.h"
 
@@ -263,7 +264,8 @@ COMPILER_NOINLINE static int find_warm(const task *t, ovoid_manifold *out) {
 // A state is as large as a search: neither is on the stack while the other is.
 COMPILER_NOINLINE static ovoid_answer search_pair(const task *t) {
     const ovoid_options options = {.relative_tolerance =
-                                       0.5 * min2(1e-9, max2(t->terms.tolerance / t->frame.size, 1e-15))};
+                                       0.5 * min2(1e-9, max2(t->terms.tolerance / t->frame.size, 1e-15)),
+                                   .iterations = cover_get_iterations(t->terms.cover, 0)};
     query_goal goal = query_goal_make_depth(NULL);
     goal.far = t->terms.margin;
     ovoid_answer answer;
@@ -319,7 +321,8 @@ static ovoid_limit open_task(const ovoid_pair *pair, const ovoid_manifold_option
     t->pair = t->is_exchanged ? pair_make_exchanged(pair) : *pair;
     ovoid_limit refused = frame_make(&t->pair, &t->frame);
     if (refused != OVOID_LIMIT_NONE) return frame_make(pair, &t->frame);
-    return manifold_terms_make(options, &t->frame, &t->terms) ? OVOID_LIMIT_NONE : OVOID_LIMIT_OPTIONS;
+    if (!manifold_terms_make(options, &t->frame, &t->terms)) return OVOID_LIMIT_OPTIONS;
+    return !t->terms.cover || cover_has_memory(t->terms.cover) ? OVOID_LIMIT_NONE : OVOID_LIMIT_MEMORY;
 }
 
 void manifold_find_internal(const ovoid_pair *pair, const ovoid_manifold_options *options,

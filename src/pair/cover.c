@@ -128,6 +128,19 @@ double surface_compute_depth(const surface *s, double error) {
     return 0;
 }
 
+int surface_take_cover(surface *s, const pair_frame *f, const ovoid_cover *cover, vec3 *w) {
+    if (!cover || cover->point_count > OVOID_COVER_POINTS_MAX || cover->triangle_count > 2 * OVOID_COVER_POINTS_MAX)
+        return 0;
+    int is_small = cover->point_count <= OVOID_COVER_POINTS;
+    for (uint32_t i = 0; i < cover->point_count; i++) {
+        if (cover->a[i] >= f->a->vertex_count || cover->b[i] >= f->b->vertex_count) return 0;
+        if (is_small) w[i] = frame_difference(f, cover->a[i], cover->b[i]);
+    }
+    *s = (surface){
+        is_small ? w : NULL, cover->triangles, cover->point_count, cover->triangle_count, f, cover->a, cover->b};
+    return 1;
+}
+
 static int is_end(const void *table, size_t slot, const void *key) {
     uint32_t held = ((const uint32_t *)table)[slot];
     return held == UINT32_MAX || held == *(const uint32_t *)key;

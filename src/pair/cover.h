@@ -25,6 +25,10 @@ static inline vec3 surface_get_point(const surface *s, uint32_t i) {
     return s->points ? s->points[i] : frame_difference(s->frame, s->a[i], s->b[i]);
 }
 
+/// Over the differences of a cover; few points are computed once, into w (OVOID_COVER_POINTS). 0 if counts or vertices
+/// are out of range; the triangles are not looked at.
+int surface_take_cover(surface *s, const pair_frame *frame, const ovoid_cover *cover, vec3 *w);
+
 /// A triangle (a, b, c) has the origin behind it, whatever the corners' rounding, if det(a, b, c)^2 is above this times
 /// the sum |b - a|^2 + |c - a|^2, and det positive. Corners of norm at most `reach`, each off by `error`.
 static inline double triangle_compute_doubt(double reach, double error) {

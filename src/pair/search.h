@@ -5,14 +5,6 @@
 #include "pair/frame.h"
 #include "pair/simplex.h"
 
-/// Memory of the caller's in which the surface of a depth goes on that fills the search's own, and the cover that it
-/// proves then.
-typedef struct depth_room {
-    void *data;      ///< for an expansion (exact/expand.h)
-    uint32_t points; ///< most of them
-    ovoid_large_cover cover;
-} depth_room;
-
 /// The goal of a query. All bounds are of the signed distance, radii and allowances subtracted.
 typedef struct query_goal {
     double far;          ///< answered when lower > far: the margin, the cap
@@ -26,7 +18,6 @@ typedef struct query_goal {
     ovoid_limit beyond;  ///< the limit of an answer that stopped at lower > far
     int has_cover;       ///< the present cover is kept, unless a new one proves less than `covered`, its upper bound
     double covered;
-    depth_room *room; ///< of a depth, or NULL
 } query_goal;
 
 /// The differences behind an upper bound, with weights.

@@ -5,6 +5,7 @@
 #include "base/environment.h"
 #include "base/error.h"
 #include "exact/boxes.h"
+#include "exact/cover_memory.h"
 #include "exact/epa.h"
 #include "exact/gjk.h"
 #include "exact/inside.h"
@@ -327,9 +328,8 @@ typedef struct query_start {
 static inline beginning begin(const ovoid_pair *pair, const query_request *request, query_start *s) {
     OVOID_ASSERT(pair);
     ovoid_options options;
-    ovoid_cover *cover = request->cover;
     s->goal = *request->goal;
-    if (cover && !s->goal.has_cover) cover->point_count = cover->triangle_count = 0;
+    if (!s->goal.has_cover) cover_clear(request->cover);
     s->refused = OVOID_LIMIT_OPTIONS;
     if (options_make(request->options, &options) && s->goal.far >= 0) s->refused = frame_place(pair, &s->frame);
     if (s->refused != OVOID_LIMIT_NONE) return BEGIN_REFUSED;
@@ -370,20 +370,15 @@ static int is_better(const ovoid_answer *warm, const ovoid_answer *cold) {
            warm->upper - warm->lower < cold->upper - cold->lower;
 }
 
-static void clear_cover(ovoid_cover *cover, const query_goal *goal) {
-    if (cover) cover->point_count = cover->triangle_count = 0;
-    if (goal->room) goal->room->cover.point_count = 0;
-}
-
 // A search from an earlier proof that did not answer is followed by the query without that proof: no proof, whatever it
 // holds, makes an answer worse. What the proof decided and the query alone does not is kept, with its cover.
 COMPILER_NOINLINE static void search_again(const open_query *q, search *s, ovoid_answer *out) {
     ovoid_answer warm;
     answer_write(s, &warm);
-    clear_cover(q->cover, q->placed.goal);
+    cover_clear(q->cover);
     search_afresh(q, out);
     if (!is_better(&warm, out)) return;
-    clear_cover(q->cover, q->placed.goal);
+    cover_clear(q->cover);
     search_in_doubles(q, q->placed.earlier, s);
     *out = warm;
 }

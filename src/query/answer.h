@@ -106,7 +106,6 @@ typedef struct answer_claims {
     const ovoid_answer *answer;
     const ovoid_cover *cover; ///< or NULL
     double slack;
-    const ovoid_large_cover *large_cover; ///< or NULL; read where cover is NULL
 } answer_claims;
 
 /// OVOID_OK if the answer's bracket and points follow from its proof; status and limit are not looked at.
@@ -121,13 +120,6 @@ ovoid_code refusal_verify_internal(ovoid_verdict answer, ovoid_limit refused, ov
 
 /// The upper bound of the signed distance that a cover shows of a pair; infinity where it shows none, or is NULL.
 double cover_measure_upper(const pair_frame *frame, const ovoid_cover *cover);
-double large_cover_measure_upper(const pair_frame *frame, const ovoid_large_cover *cover);
-
-/// The same cover, where it stands.
-static inline ovoid_large_cover cover_get_large(const ovoid_cover *cover) {
-    return (ovoid_large_cover){cover->point_count, cover->triangle_count, cover->a, cover->b,
-                               (const uint16_t(*)[3])cover->triangles};
-}
 
 /// Checks the lower bound alone: that the proof's normal shows it.
 ovoid_code lower_verify_internal(const ovoid_pair *pair, double lower, const ovoid_proof *proof, ovoid_error *error);

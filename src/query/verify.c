@@ -85,30 +85,11 @@ static double measure_upper_again(const measure *m, const ovoid_proof *p) {
 }
 
 double cover_measure_upper(const pair_frame *f, const ovoid_cover *cover) {
-    if (!cover || cover->point_count > OVOID_COVER_POINTS || cover->triangle_count > 2 * OVOID_COVER_POINTS)
-        return INFINITY;
-    const ovoid_large_cover large = cover_get_large(cover);
-    return large_cover_measure_upper(f, &large);
-}
-
-double large_cover_measure_upper(const pair_frame *f, const ovoid_large_cover *cover) {
     vec3 w[OVOID_COVER_POINTS];
-    if (cover->point_count > OVOID_COVER_POINTS_MAX || cover->triangle_count > 2 * OVOID_COVER_POINTS_MAX)
-        return INFINITY;
-    int is_large = cover->point_count > OVOID_COVER_POINTS;
-    for (uint32_t i = 0; i < cover->point_count; i++) {
-        if (cover->a[i] >= f->a->vertex_count || cover->b[i] >= f->b->vertex_count) return INFINITY;
-        if (!is_large) w[i] = frame_difference(f, cover->a[i], cover->b[i]);
-    }
-    surface all = {
-        is_large ? NULL : w, cover->triangles, cover->point_count, cover->triangle_count, f, cover->a, cover->b};
+    surface all;
+    if (!surface_take_cover(&all, f, cover, w)) return INFINITY;
     double depth = surface_is_closed(&all) ? surface_compute_depth(&all, f->check) : 0;
     return depth > 0 ? -depth - f->upper_radii : INFINITY;
-}
-
-static double measure_covers(const pair_frame *f, const answer_claims *claims) {
-    if (claims->cover) return cover_measure_upper(f, claims->cover);
-    return claims->large_cover ? large_cover_measure_upper(f, claims->large_cover) : INFINITY;
 }
 
 static ovoid_code verify_upper(measure *m, const answer_claims *claims, ovoid_error *error) {
@@ -126,11 +107,10 @@ static ovoid_code verify_upper(measure *m, const answer_claims *claims, ovoid_er
         break;
     }
     case OVOID_PROOF_INNER_POINTS: found = inner_points_compute_upper(f, p->inner_a, p->inner_b, f->check); break;
-    case OVOID_PROOF_COVER: found = measure_covers(f, claims); break;
+    case OVOID_PROOF_COVER: found = cover_measure_upper(f, claims->cover); break;
     case OVOID_PROOF_BALLS: found = balls_compute_upper(f, p, f->check + BALLS_CHECK * f->size); break;
     }
-    int has_cover = claims->cover || claims->large_cover;
-    if (p->kind == OVOID_PROOF_COVER && !has_cover)
+    if (p->kind == OVOID_PROOF_COVER && !claims->cover)
         return refuse(error, "a depth without its cover", answer->upper, found);
     if (!(found <= answer->upper) && make_fine(m)) found = fmin(found, measure_upper_again(m, p));
     return found <= answer->upper ? OVOID_OK : refuse(error, "upper bound", answer->upper, found);
@@ -217,7 +197,7 @@ ovoid_code answer_verify_internal(const ovoid_pair *pair, const ovoid_answer *an
     const answer_terms terms = {options_compute_tolerance(&options, f.size, f.hidden), frame_get_allowance(&f),
                                 given ? given->cap : 0};
     ovoid_code code = terms_verify_internal(answer, &terms, error);
-    const answer_claims claims = {pair, answer, basis->cover, 0, basis->large_cover};
+    const answer_claims claims = {pair, answer, basis->cover, 0};
     return code == OVOID_OK ? verify_bounds(&f, &claims, error) : code;
 }
 

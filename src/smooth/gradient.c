@@ -89,17 +89,12 @@ static double join_slopes(const pair_frame *f, const feature *a, const feature *
     return b->count == 1 ? b->slope : 0;
 }
 
-// The cover's points; 0 if its counts or indices are out of range.
-static int take_cover(const pair_frame *f, const ovoid_cover *cover, vec3 *w) {
-    if (!cover || cover->point_count > OVOID_COVER_POINTS || cover->triangle_count > 2 * OVOID_COVER_POINTS) return 0;
-    for (uint32_t i = 0; i < cover->point_count; i++) {
-        if (cover->a[i] >= f->a->vertex_count || cover->b[i] >= f->b->vertex_count) return 0;
-        w[i] = frame_difference(f, cover->a[i], cover->b[i]);
-    }
-    for (uint32_t t = 0; t < cover->triangle_count; t++)
+// 1 if the triangles are of the surface's points.
+static int has_points(const surface *s) {
+    for (uint32_t t = 0; t < s->triangle_count; t++)
         for (int k = 0; k < 3; k++)
-            if (cover->triangles[t][k] >= cover->point_count) return 0;
-    return cover->triangle_count > 0;
+            if (s->triangles[t][k] >= s->point_count) return 0;
+    return s->triangle_count > 0;
 }
 
 // For a depth of the hulls between `least` and `most`: which of the cover's triangles lie on the plane across n (frame
@@ -107,13 +102,15 @@ static int take_cover(const pair_frame *f, const ovoid_cover *cover, vec3 *w) {
 static double judge_depth(const pair_frame *f, const ovoid_cover *cover, vec3 n, double least, double most,
                           double *margin) {
     vec3 w[OVOID_COVER_POINTS];
+    surface all;
     *margin = 0;
-    if (!take_cover(f, cover, w)) return 2;
+    if (!surface_take_cover(&all, f, cover, w) || !has_points(&all)) return 2;
     // The differences point from A to B: the Minkowski difference ends along n where n.w is least.
     double from = -most + 2 * (most - least) + f->check, low = most, others = INFINITY;
     for (uint32_t t = 0; t < cover->triangle_count; t++) {
         const uint16_t *v = cover->triangles[t];
-        vec3 a = w[v[0]], b = w[v[1]], c = w[v[2]], normal;
+        vec3 a = surface_get_point(&all, v[0]), b = surface_get_point(&all, v[1]), c = surface_get_point(&all, v[2]),
+             normal;
         double high = max2(vec3_dot(n, a), max2(vec3_dot(n, b), vec3_dot(n, c)));
         if (high <= from)
             low = min2(low, -high);

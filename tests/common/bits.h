@@ -6,6 +6,7 @@
 
 #include "check.h"
 #include "ovoid/ovoid.h"
+#include "proofs/covers.h"
 
 /// FNV-1a (G. Fowler, L. C. Noll, K.-P. Vo, 1991), over bytes as they are: +0 and -0 differ.
 static inline uint64_t bits_add(uint64_t hash, const void *data, size_t size) {
@@ -149,7 +150,8 @@ enum { BITS_ANSWERS = 9 };
 
 /// Every query of a pair.
 static inline uint64_t bits_add_pair(uint64_t hash, const ovoid_pair *p) {
-    ovoid_cover cover, warm_cover;
+    LOCAL_COVER(cover);
+    LOCAL_COVER(warm_cover);
     ovoid_options few = {.iterations = 3, .relative_tolerance = 0x1p-20};
     ovoid_answer x[BITS_ANSWERS] = {ovoid_depth(p, NULL, NULL, &cover), ovoid_collide(p, NULL, NULL),
                                     ovoid_distance(p, NULL, NULL), ovoid_pair_compute_bounds(p)};

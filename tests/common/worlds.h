@@ -5,6 +5,7 @@
 #include "bits.h"
 #include "ovoid/ovoid.h"
 #include "places.h"
+#include "proofs/covers.h"
 
 enum { WORLD_SHAPES = 12 };
 
@@ -77,7 +78,7 @@ static inline double world_find_size(const ovoid_body *a, const ovoid_body *b) {
 static inline void world_check_contact(const ovoid_world *w, const ovoid_contact *c, const ovoid_world_body *a,
                                        const ovoid_world_body *b, const ovoid_contact_query *q) {
     static ovoid_exclusion items[4096];
-    static ovoid_cover cover;
+    STATIC_COVER(cover);
     ovoid_exclusions exclusions = {.items = items, .capacity = 4096, .cover = &cover};
     ovoid_body_pair pair = {a->body, b->body};
     ovoid_answer alone = world_ask(a, b, q).deciding, truth = ovoid_body_depth(&pair, NULL, NULL).deciding;

@@ -3,6 +3,7 @@
 // contact of two cubes has its corners by hand.
 #define _POSIX_C_SOURCE 200809L
 #include "files.h"
+#include "proofs/covers.h"
 
 #include <math.h>
 
@@ -125,12 +126,12 @@ static void check_same(const ovoid_record_contact *a, const ovoid_record_contact
 
 // Two contacts, one of them with the cover of a search; and no contact after them, in the same reader.
 static void check_round_trip(void) {
-    static ovoid_cover cover = {.point_count = 3, .triangle_count = 2, .a = {9, 4294967295u, 1}};
-    cover.triangles[1][2] = 2;
+    static own_cover own = {.a = {9, 4294967295u, 1}, .triangles = {{0}, {0, 0, 2}}};
+    own_cover_set(&own, 3, 2);
     ovoid_record_contact two[2] = {make_contact(), make_contact()};
     two[1].part_b = 9;
     two[1].manifold.proof = OVOID_MANIFOLD_PROOF_SEARCH;
-    two[1].cover = &cover;
+    two[1].cover = &own.cover;
     const ovoid_record record = make_record(two, 2), none = make_record(NULL, 0);
     char *first = write_with(ovoid_record_write_json, &record), *second = write_with(ovoid_record_write_json, &none);
     char text[8192];
@@ -153,13 +154,14 @@ static void check_round_trip(void) {
 
 // As many items as a line may have; more are refused before anything is written.
 static void check_many(void) {
-    static ovoid_cover cover = {.point_count = OVOID_COVER_POINTS, .triangle_count = 2 * OVOID_COVER_POINTS};
+    static own_cover own;
+    own_cover_set(&own, OVOID_COVER_POINTS, 2 * OVOID_COVER_POINTS);
     size_t most = OVOID_RECORD_ITEMS_MAX / 68, size;
     ovoid_record_contact *contacts = malloc((most + 1) * sizeof *contacts);
-    for (size_t i = 0; i <= most; i++) contacts[i] = make_contact(), contacts[i].cover = &cover;
-    for (int k = 0; k < OVOID_COVER_POINTS; k++) cover.a[k] = cover.b[k] = 99999;
+    for (size_t i = 0; i <= most; i++) contacts[i] = make_contact(), contacts[i].cover = &own.cover;
+    for (int k = 0; k < OVOID_COVER_POINTS; k++) own.a[k] = own.b[k] = 99999;
     for (int k = 0; k < 2 * OVOID_COVER_POINTS; k++)
-        cover.triangles[k][0] = cover.triangles[k][1] = cover.triangles[k][2] = 511;
+        own.triangles[k][0] = own.triangles[k][1] = own.triangles[k][2] = 511;
     ovoid_record record = make_record(contacts, most);
     char *text = write_with(ovoid_record_write_json, &record);
     CHECK_LE(strlen(text), OVOID_RECORD_SIZE_MAX);

@@ -3,6 +3,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "files.h"
 #include "ovoid/ovoid.h"
+#include "proofs/covers.h"
 
 #include <locale.h>
 
@@ -42,7 +43,7 @@ static ovoid_record make_record(const ovoid_pair *pair, ovoid_cover *cover) {
 }
 
 static void write_results(const ovoid_pair *pair) {
-    static ovoid_cover cover;
+    STATIC_COVER(cover);
     ovoid_record record = make_record(pair, &cover);
     for (int kind = 0; kind < 3; kind++) {
         const char *path = file_path("locale_results.txt");

@@ -2,6 +2,7 @@
 // texts below were written by hand from the format's description; the round trip compares bits.
 #define _POSIX_C_SOURCE 200809L
 #include "files.h"
+#include "proofs/covers.h"
 
 #include <locale.h>
 
@@ -358,7 +359,7 @@ static ovoid_vec3 random_vector(uint64_t *s) {
     return (ovoid_vec3){random_double(s), random_double(s), random_double(s)};
 }
 
-static ovoid_record random_record(uint64_t *s, ovoid_cover *cover) {
+static ovoid_record random_record(uint64_t *s, own_cover *own) {
     ovoid_record r = {.index_a = random_next(s) % 1000000, .index_b = random_next(s) % 10, .cover = NULL};
     if (random_next(s) % 2) r.a = "one", r.b = "two";
     // An impact has a time and a margin; of the parts one may be none.
@@ -412,15 +413,15 @@ static ovoid_record random_record(uint64_t *s, ovoid_cover *cover) {
     x->proof.inner_a = random_vector(s);
     x->proof.inner_b = random_vector(s);
     if (random_next(s) % 4 == 0) {
-        r.cover = cover;
-        cover->point_count = 1 + (uint32_t)(random_next(s) % OVOID_COVER_POINTS);
-        cover->triangle_count = (uint32_t)(random_next(s) % (2 * OVOID_COVER_POINTS + 1));
+        const ovoid_cover *cover = r.cover = &own->cover;
+        uint32_t points = 1 + (uint32_t)(random_next(s) % OVOID_COVER_POINTS);
+        own_cover_set(own, points, (uint32_t)(random_next(s) % (2 * OVOID_COVER_POINTS + 1)));
         for (uint32_t i = 0; i < cover->point_count; i++) {
-            cover->a[i] = (uint32_t)random_next(s);
-            cover->b[i] = (uint32_t)random_next(s);
+            own->a[i] = (uint32_t)random_next(s);
+            own->b[i] = (uint32_t)random_next(s);
         }
         for (uint32_t i = 0; i < cover->triangle_count; i++)
-            for (int k = 0; k < 3; k++) cover->triangles[i][k] = (uint16_t)(random_next(s) % cover->point_count);
+            for (int k = 0; k < 3; k++) own->triangles[i][k] = (uint16_t)(random_next(s) % cover->point_count);
     }
     return r;
 }
@@ -428,11 +429,11 @@ static ovoid_record random_record(uint64_t *s, ovoid_cover *cover) {
 static void check_round_trip(void) {
     enum { COUNT = 500 };
     const char *path = file_path("results.jsonl");
-    static ovoid_cover cover;
+    static own_cover own;
     uint64_t s = 3;
     FILE *file = fopen(path, "wb");
     for (int i = 0; i < COUNT; i++) {
-        ovoid_record record = random_record(&s, &cover);
+        ovoid_record record = random_record(&s, &own);
         CHECK(ovoid_record_write_json(file, &record) == OVOID_OK);
     }
     fclose(file);
@@ -443,7 +444,7 @@ static void check_round_trip(void) {
     ovoid_record found;
     for (int i = 0; i < COUNT; i++) {
         check_seed = s;
-        ovoid_record record = random_record(&s, &cover);
+        ovoid_record record = random_record(&s, &own);
         if (!CHECK(ovoid_results_reader_read(reader, &found, &error) == 1)) {
             printf("  %s\n", error.message);
             break;
@@ -554,7 +555,7 @@ static const bad_input bad_lines[] = {
     {"cover.jsonl", WITH_PROOF("{\"normal\":[0,0,1],\"kind\":\"cover\",\"cover\":{\"pairs\":[]}}"), 1,
      "\"cover\" must have \"pairs\" and"},
     {"cover_empty.jsonl",
-     WITH_PROOF("{\"normal\":[0,0,1],\"kind\":\"cover\",\"cover\":{\"pairs\":[],\"triangles\":[]}}"), 1, "1 to 512"},
+     WITH_PROOF("{\"normal\":[0,0,1],\"kind\":\"cover\",\"cover\":{\"pairs\":[],\"triangles\":[]}}"), 1, "1 to 32767"},
     {"cover_index.jsonl",
      WITH_PROOF("{\"normal\":[0,0,1],\"kind\":\"cover\",\"cover\":{\"pairs\":[[0,0]],\"triangles\":[[0,0,1]]}}"), 1,
      "\"cover\" must have triples"},
@@ -599,13 +600,47 @@ static ovoid_exclusion make_long(void) {
     return (ovoid_exclusion){1u << 24, 1u << 24, 1u << 24, 1u << 24, {x, x, x}, {x, x, x}, x};
 }
 
+// The largest cover is read as it was written; one point or triangle more is refused.
+static void check_large_cover(void) {
+    enum { POINTS = OVOID_COVER_POINTS_MAX, TRIANGLES = 2 * OVOID_COVER_POINTS_MAX };
+    static own_cover own;
+    uint32_t *a = malloc((POINTS + 1) * sizeof *a), *b = malloc((POINTS + 1) * sizeof *b);
+    uint16_t(*triangles)[3] = malloc((TRIANGLES + 1) * sizeof *triangles);
+    uint64_t s = 31;
+    for (int i = 0; i <= POINTS; i++) a[i] = (uint32_t)random_next(&s), b[i] = (uint32_t)random_next(&s);
+    for (int i = 0; i <= TRIANGLES; i++)
+        for (int k = 0; k < 3; k++) triangles[i][k] = (uint16_t)(POINTS - 1 - i / 4);
+    ovoid_record record = random_record(&s, &own);
+    for (int more = 0; more < 3; more++) {
+        const ovoid_cover cover = {.point_count = POINTS + (more == 1),
+                                   .triangle_count = TRIANGLES + (more == 2),
+                                   .a = a,
+                                   .b = b,
+                                   .triangles = (const uint16_t(*)[3])triangles};
+        record.cover = &cover;
+        char *text = write_with(ovoid_record_write_json, &record);
+        CHECK_LE(strlen(text), OVOID_RECORD_SIZE_MAX / 16);
+        ovoid_error error = {OVOID_OK, -1, ""};
+        ovoid_record read;
+        ovoid_results_reader *reader = ovoid_results_reader_open(file_write("large.jsonl", text, strlen(text)), &error);
+        if (!CHECK_EQ(ovoid_results_reader_read(reader, &read, &error), more ? -1 : 1)) printf("  %s\n", error.message);
+        if (!more) check_same(&record, &read);
+        if (more) CHECK(strstr(error.message, more == 1 ? "1 to 32767 pairs" : "at most 65534 triangles") != NULL);
+        ovoid_results_reader_close(reader);
+        free(text);
+    }
+    free(a);
+    free(b);
+    free(triangles);
+}
+
 // The proof of compounds of thousands of parts, a line of megabytes, is read as it was written. As many items as a
 // record may have fit into the longest line; more are refused before anything is written.
 static void check_many_exclusions(void) {
     enum { COUNT = 9000 };
-    static ovoid_cover cover;
+    static own_cover own;
     uint64_t s = 23;
-    ovoid_record record = random_record(&s, &cover);
+    ovoid_record record = random_record(&s, &own);
     record.cover = NULL;
     ovoid_exclusion *items = malloc(COUNT * sizeof *items);
     for (int i = 0; i < COUNT; i++) items[i] = make_long();
@@ -635,13 +670,12 @@ static void check_many_exclusions(void) {
 
 // Cut and changed lines: an answer or an error, never a crash.
 static void check_damaged(void) {
-    static ovoid_cover cover;
+    static own_cover own;
     uint64_t s = 17;
-    ovoid_record record = random_record(&s, &cover);
-    cover.point_count = 3;
-    cover.triangle_count = 1;
-    cover.triangles[0][0] = cover.triangles[0][1] = cover.triangles[0][2] = 2;
-    record.cover = &cover;
+    ovoid_record record = random_record(&s, &own);
+    own_cover_set(&own, 3, 1);
+    own.triangles[0][0] = own.triangles[0][1] = own.triangles[0][2] = 2;
+    record.cover = &own.cover;
     record.answer.proof.count = 3;
     char *good = write_with(ovoid_record_write_json, &record);
     size_t length = strlen(good);
@@ -675,6 +709,7 @@ int main(void) {
     check_bad_lines();
     check_long_lines();
     check_many_exclusions();
+    check_large_cover();
     check_damaged();
     return check_end();
 }

@@ -6,12 +6,13 @@
 #include "compounds.h"
 #include "judge.h"
 #include "options.h"
+#include "proofs/covers.h"
 
 #include <time.h>
 
 enum { CAPACITY = 600 };
 static ovoid_exclusion items[CAPACITY], altered[CAPACITY];
-static ovoid_cover cover;
+STATIC_COVER(cover);
 static judge *court;
 
 typedef struct told {
@@ -100,19 +101,23 @@ static void lie_about_exclusions(const told *t, const ovoid_body_answer *x, cons
 }
 
 static void lie_about_cover(const told *t, const ovoid_body_answer *x, const ovoid_exclusions *all, uint64_t *s) {
-    const ovoid_cover kept = cover;
-    uint32_t point = (uint32_t)(random_next(s) % kept.point_count);
-    uint16_t *triangle = cover.triangles[random_next(s) % kept.triangle_count];
+    static own_cover y;
+    const ovoid_cover *kept = all->cover;
+    ovoid_exclusions with = *all;
+    with.cover = &y.cover;
+    uint32_t point = (uint32_t)(random_next(s) % kept->point_count),
+             at = (uint32_t)(random_next(s) % kept->triangle_count);
     alter_name = "cover", alter_way = "altered";
-    for (int which = 0; which < 5; which++, cover = kept) {
+    for (int which = 0; which < 5; which++) {
+        own_cover_copy(&y, kept);
         switch (which) {
-        case 0: cover.triangle_count--; break;
-        case 1: cover.a[point] = UINT32_MAX; break;
-        case 2: triangle[which] = (uint16_t)kept.point_count; break;
-        case 3: cover.point_count = cover.triangle_count = 0; break;
-        default: cover.b[point] = kept.b[(point + 1) % kept.point_count]; break;
+        case 0: y.cover.triangle_count--; break;
+        case 1: y.a[point] = UINT32_MAX; break;
+        case 2: y.triangles[at][which] = (uint16_t)kept->point_count; break;
+        case 3: y.cover.point_count = y.cover.triangle_count = 0; break;
+        default: y.b[point] = kept->b[(point + 1) % kept->point_count]; break;
         }
-        if (memcmp(&cover, &kept, sizeof kept) != 0) tell(t, x, all, &of_cover);
+        if (which != 4 || y.b[point] != kept->b[point]) tell(t, x, &with, &of_cover);
     }
 }
 

@@ -4,6 +4,7 @@
 //   --pairs N (default 5000), --seed N; --export DIR: writes each cloud as OBJ, LIST and PAIRS.csv for `ovoid batch`.
 #include "check.h"
 #include "options.h"
+#include "proofs/covers.h"
 #include "trials/ask.h"
 #include "trials/clouds.h"
 #include "trials/shapes.h"
@@ -47,7 +48,7 @@ typedef struct run {
 } run;
 
 static void run_pair(run *all, const ovoid_pair *pair) {
-    ovoid_cover cover;
+    LOCAL_COVER(cover);
     ovoid_error error = {0};
     tally *t = &all->counts;
     double before = seconds_now();

@@ -3,6 +3,7 @@
 #include "check.h"
 #include "judge.h"
 #include "ovoid/ovoid.h"
+#include "proofs/covers.h"
 
 static judge *court;
 
@@ -320,34 +321,35 @@ static void test_cover(void) {
                                               {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
     ovoid_shape *s = make_box(0.5, 0.5, 0.5, 0);
     ovoid_pair pair = {s, s, make_pose(0, 0, 0), make_pose(0.75, 0, 0)};
-    ovoid_cover cover = {.point_count = 8, .triangle_count = 12}, broken;
-    for (int i = 0; i < 8; i++) set_difference(s, i, &cover.a[i], &cover.b[i]);
-    memcpy(cover.triangles, triangles, sizeof triangles);
+    static own_cover whole, broken;
+    own_cover_set(&whole, 8, 12);
+    for (int i = 0; i < 8; i++) set_difference(s, i, &whole.a[i], &whole.b[i]);
+    memcpy(whole.triangles, triangles, sizeof triangles);
     ovoid_answer good = {.status = OVOID_OVERLAPPING, .lower = -0.25, .upper = -0.25}, bad = good;
     good.normal = good.proof.normal = (ovoid_vec3){1, 0, 0};
     good.proof.kind = OVOID_PROOF_COVER;
     good.point_a = (ovoid_vec3){0.5, 0, 0};
     good.point_b = (ovoid_vec3){0.25, 0, 0};
-    ACCEPT(&pair, &good, &cover);
+    ACCEPT(&pair, &good, &whole.cover);
     CHECK_EQ(judge_verify_points(court, &pair, &good, NULL), OVOID_OK);
     REFUSE(&pair, &good, NULL);
     bad = good;
     bad.upper = nextafter(-0.25, -1), bad.lower = -1;
-    REFUSE(&pair, &bad, &cover);
+    REFUSE(&pair, &bad, &whole.cover);
     bad = good;
     bad.point_a.x += 1e-12;
-    REFUSE(&pair, &bad, &cover);
+    REFUSE(&pair, &bad, &whole.cover);
 #define BREAK(statement)                                                                                               \
     do {                                                                                                               \
-        broken = cover;                                                                                                \
+        own_cover_copy(&broken, &whole.cover);                                                                         \
         statement;                                                                                                     \
-        REFUSE(&pair, &good, &broken);                                                                                 \
+        REFUSE(&pair, &good, &broken.cover);                                                                           \
     } while (0)
-    BREAK(broken.triangle_count = 11);
-    BREAK(broken.triangle_count = 0);
-    BREAK(broken.triangle_count = 2000);
-    BREAK(broken.point_count = 7);
-    BREAK(broken.point_count = 70000);
+    BREAK(broken.cover.triangle_count = 11);
+    BREAK(broken.cover.triangle_count = 0);
+    BREAK(broken.cover.triangle_count = 2 * OVOID_COVER_POINTS_MAX + 1);
+    BREAK(broken.cover.point_count = 7);
+    BREAK(broken.cover.point_count = OVOID_COVER_POINTS_MAX + 1);
     BREAK(broken.a[3] = 8);
     BREAK(broken.triangles[5][0] = 8);
     BREAK(broken.triangles[3][0] = 7; broken.triangles[3][1] = 5); // one triangle turned over
@@ -357,7 +359,7 @@ static void test_cover(void) {
     pair.pose_b.position.x = 1.25;
     good.point_b.x = 0.75;
     good.lower = -1;
-    REFUSE(&pair, &good, &cover);
+    REFUSE(&pair, &good, &whole.cover);
     ovoid_shape_destroy(s);
     judge_forget(court);
 }
@@ -420,7 +422,7 @@ static void test_refusals(void) {
 static void test_garbage(void) {
     ovoid_shape *s = make_box(0.5, 0.5, 0.5, 0.25);
     ovoid_pair pair = {s, s, make_pose(0, 0, 0), make_pose(0.5, 0.25, 0)};
-    static ovoid_cover cover;
+    static own_cover cover;
     uint64_t state = 7;
     for (int i = 0; i < 4000; i++) {
         ovoid_answer x = {.status = (ovoid_status)(random_next(&state) % 4), .lower = -1, .upper = 1};
@@ -433,11 +435,11 @@ static void test_garbage(void) {
         x.proof.kind = (ovoid_proof_kind)(random_next(&state) % 7);
         x.proof.count = (uint32_t)(random_next(&state) % 8);
         for (int k = 0; k < OVOID_PROOF_PAIRS; k++) x.proof.a[k] %= 10, x.proof.b[k] %= 10;
-        cover.point_count = (uint32_t)(random_next(&state) % 520);
-        cover.triangle_count = (uint32_t)(random_next(&state) % 1100);
+        own_cover_set(&cover, (uint32_t)(random_next(&state) % (OVOID_COVER_POINTS + 1)),
+                      (uint32_t)(random_next(&state) % (2 * OVOID_COVER_POINTS + 1)));
         for (size_t k = 0; k < 16; k++) cover.a[k] = (uint32_t)(random_next(&state) % 9);
         for (size_t k = 0; k < 16; k++) cover.triangles[k][k % 3] = (uint16_t)(random_next(&state) % 20);
-        ovoid_code code = judge_it(&pair, &x, &cover);
+        ovoid_code code = judge_it(&pair, &x, &cover.cover);
         // The bodies overlap by 0.5 and both radii: what is accepted must at least say so.
         if (code == OVOID_OK) CHECK(x.lower <= -1 && x.upper >= -1);
         check_passed++;

@@ -3,6 +3,7 @@
 // arithmetic, the allowances added as they are stated.
 #include "bits.h"
 #include "judge.h"
+#include "proofs/covers.h"
 
 static long accepted, strengthened;
 
@@ -65,7 +66,7 @@ static ovoid_shape *make_shape(bits_family f, uint64_t *s) {
 }
 
 static void check_pair(judge *context, const ovoid_pair *p) {
-    static ovoid_cover cover;
+    STATIC_COVER(cover);
     ovoid_answer x = ovoid_depth(p, NULL, NULL, &cover);
     check(context, p, &x, &cover);
     if (x.limit == OVOID_LIMIT_NONE || x.limit == OVOID_LIMIT_ALLOWANCE) check_stronger(context, p, &x, &cover);

@@ -12,6 +12,7 @@
 #define _POSIX_C_SOURCE 200809L // open_memstream
 #include "files.h"
 #include "judge.h"
+#include "proofs/covers.h"
 
 enum { SHAPES = 6, LINE_SIZE = 1 << 17 };
 
@@ -24,11 +25,11 @@ typedef struct known {
     judge_truth truth;
     double size, radii;
     ovoid_record right;
-    ovoid_cover cover;
     int has_points; ///< the points are to differ by d normal
 } known;
 
 static known k;
+STATIC_COVER(cover);
 
 /// Counts of one field: altered lines, of these refused by the reader or the judge.
 typedef struct field_count {
@@ -287,11 +288,11 @@ static void find_known(void) {
 }
 
 // Alters one right answer. stride: every which number of it (covers have hundreds).
-static void check_answer(ovoid_answer answer, const ovoid_cover *cover, int has_points, size_t stride) {
+static void check_answer(ovoid_answer answer, const ovoid_cover *shown, int has_points, size_t stride) {
     char *line = NULL;
     size_t size = 0;
     const char *path = file_path("altered.jsonl");
-    k.right = (ovoid_record){.answer = answer, .cover = cover && cover->point_count ? cover : NULL};
+    k.right = (ovoid_record){.answer = answer, .cover = shown && shown->point_count ? shown : NULL};
     k.has_points = has_points && answer.proof.kind != OVOID_PROOF_HULL && answer.proof.kind != OVOID_PROOF_INNER;
     FILE *file = open_memstream(&line, &size);
     if (!file || ovoid_record_write_json(file, &k.right) || fclose(file)) exit(2);
@@ -316,7 +317,7 @@ static void check_pair(ovoid_pair pair) {
     find_known();
     check_answer(ovoid_collide(&pair, NULL, NULL), NULL, 0, 1);
     check_answer(ovoid_distance(&pair, NULL, NULL), NULL, k.truth.sign > 0, 1);
-    check_answer(ovoid_depth(&pair, NULL, NULL, &k.cover), &k.cover, 1, 7);
+    check_answer(ovoid_depth(&pair, NULL, NULL, &cover), &cover, 1, 7);
     check_answer(ovoid_pair_compute_bounds(&pair), NULL, 0, 1);
 }
 

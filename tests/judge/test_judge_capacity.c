@@ -5,6 +5,7 @@
 #include "check.h"
 #include "linear/rotation.h"
 #include "ovoid/query.h"
+#include "proofs/covers.h"
 
 #include "judge.h"
 
@@ -50,7 +51,7 @@ static void check_answer(const ovoid_pair *pair, const ovoid_answer *x, const ov
 }
 
 static void check_pair(const ovoid_shape *a, const ovoid_shape *b, ovoid_pose pose_b) {
-    static ovoid_cover cover;
+    STATIC_COVER(cover);
     ovoid_pair pair = {a, b, ovoid_pose_make_identity(), pose_b};
     ovoid_answer x = ovoid_depth(&pair, NULL, NULL, &cover);
     check_answer(&pair, &x, &cover);
@@ -62,7 +63,7 @@ static void check_pair(const ovoid_shape *a, const ovoid_shape *b, ovoid_pose po
 /// A surface that is full, or that rounding keeps from growing, still proves what it shows: of d, 2 less the balls'
 /// sagittas, half a per cent is open, not half of it.
 static void check_widths(void) {
-    static ovoid_cover cover;
+    STATIC_COVER(cover);
     uint64_t s = 5;
     ovoid_shape *a = make_ball(512, 0);
     for (int i = 0; i < 60; i++) {
@@ -74,6 +75,24 @@ static void check_widths(void) {
         CHECK(ovoid_answer_verify(&pair, &x, &(ovoid_answer_basis){.cover = &cover}, NULL) == OVOID_OK);
     }
     ovoid_shape_destroy(a);
+}
+
+/// With memory for more points the bracket is narrow, and the judge takes the large cover, but none with a hole.
+static void check_large(void) {
+    ovoid_cover cover = {.size = ovoid_cover_get_size(2000)};
+    cover.memory = malloc(cover.size);
+    ovoid_shape *a = make_ball(642, 0), *b = make_ball(642, 0.25);
+    uint64_t s = 23;
+    ovoid_pair pair = {a, b, ovoid_pose_make_identity(), make_pose(&s, 1e-6)};
+    ovoid_answer x = ovoid_depth(&pair, NULL, NULL, &cover);
+    CHECK(cover.point_count > OVOID_COVER_POINTS && x.limit == OVOID_LIMIT_NONE && x.upper - x.lower < 1e-8);
+    check_answer(&pair, &x, &cover);
+    cover.triangle_count--;
+    CHECK(judge_verify_answer(exact, &pair, &x, &cover, NULL) != OVOID_OK);
+    judge_forget(exact);
+    ovoid_shape_destroy(a);
+    ovoid_shape_destroy(b);
+    free(cover.memory);
 }
 
 /// The radius of the largest sphere about the origin in a body of rank 3.
@@ -119,6 +138,7 @@ int main(void) {
             ovoid_shape_destroy(b);
         }
     check_widths();
+    check_large();
     check_need();
     // The pairs are hard enough to be worth the test.
     CHECK_LE(10, ended);

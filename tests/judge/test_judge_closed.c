@@ -11,6 +11,7 @@
 #include "options.h"
 #include "ovoid/ovoid.h"
 #include "places.h"
+#include "proofs/covers.h"
 
 static judge *court;
 
@@ -88,7 +89,7 @@ static void put(const ovoid_pair *p, const ovoid_answer *answer, const ovoid_cov
 
 static void run(uint64_t seed, uint64_t pairs) {
     static const char *const names[KINDS] = {"sphere", "capsule", "box"};
-    static ovoid_cover cover;
+    STATIC_COVER(cover);
     const double sizes[4] = {1e-9, 1, 1, 1e9};
     uint64_t r = seed, count[KINDS][KINDS] = {{0}}, closed[KINDS][KINDS] = {{0}}, open = 0;
     for (uint64_t i = 0; i < pairs; i++) {

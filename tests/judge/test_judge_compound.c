@@ -3,10 +3,11 @@
 // all features, the signed distance of every pair of parts, of which none may be below the lower bound.
 #include "compounds.h"
 #include "judge.h"
+#include "proofs/covers.h"
 
 enum { CAPACITY = 4000 };
 static ovoid_exclusion items[CAPACITY];
-static ovoid_cover cover;
+STATIC_COVER(cover);
 static judge *court;
 
 static void expect_accepted(const ovoid_pair *pair, const ovoid_answer *x, const ovoid_cover *with) {

@@ -6,6 +6,7 @@
 #include "judge.h"
 #include "options.h"
 #include "places.h"
+#include "proofs/covers.h"
 
 #include "ovoid/ovoid.h"
 
@@ -124,7 +125,7 @@ static void check_file(const ovoid_pair *p, const ovoid_answer *x) {
 }
 
 static void check_pair(judge *context, const ovoid_pair *p, uint64_t *s) {
-    static ovoid_cover cover;
+    STATIC_COVER(cover);
     ovoid_answer x = ovoid_depth(p, NULL, NULL, &cover);
     check_accepted(context, p, &x, &cover);
     check_lie(context, p, &x, &cover);

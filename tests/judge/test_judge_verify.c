@@ -3,11 +3,12 @@
 // error constants are tested where they matter, at their edge. What is altered must be refused; what is handed to a
 // query may be anything. Truth: the judge.
 #include "bits.h"
+#include "proofs/covers.h"
 
 #include "judge.h"
 
 static judge *exact;
-static ovoid_cover cover;
+STATIC_COVER(cover);
 
 /// The answer with one bound altered, and the status that follows.
 static ovoid_answer alter(const ovoid_answer *x, int upper, double bound) {
@@ -93,16 +94,17 @@ static void check_altered_entries(const ovoid_pair *p, const ovoid_answer *x) {
         check_refused(p, &y, &cover, "a weight below zero of A");
     }
     if (x->proof.kind != OVOID_PROOF_COVER) return;
+    static own_cover c;
     check_refused(p, x, NULL, "no cover");
     for (uint32_t i = 0; i < cover.triangle_count; i += 1 + cover.triangle_count / 8) {
-        ovoid_cover c = cover;
-        c.triangle_count--;
-        memcpy(c.triangles[i], c.triangles[c.triangle_count], sizeof *c.triangles);
-        check_refused(p, x, &c, "a cover with a hole");
+        own_cover_copy(&c, &cover);
+        c.cover.triangle_count--;
+        memcpy(c.triangles[i], c.triangles[c.cover.triangle_count], sizeof *c.triangles);
+        check_refused(p, x, &c.cover, "a cover with a hole");
     }
-    ovoid_cover c = cover;
+    own_cover_copy(&c, &cover);
     c.b[0] = count_b;
-    check_refused(p, x, &c, "an index past the end in the cover");
+    check_refused(p, x, &c.cover, "an index past the end in the cover");
 }
 
 static void check_altered(const ovoid_pair *p, const ovoid_answer *x) {

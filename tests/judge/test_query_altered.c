@@ -4,6 +4,7 @@
 // be refused; what is still true may pass. Answers as they were must pass.
 #include "alter_answer.h"
 #include "options.h"
+#include "proofs/covers.h"
 #include "trials/families.h"
 #include "trials/shapes.h"
 
@@ -37,15 +38,15 @@ static void tell(const told *t, const ovoid_answer *x, const ovoid_cover *cover,
 }
 
 static void lie_about_cover(const told *t, const ovoid_answer *x, const ovoid_cover *cover, uint64_t *s) {
-    static ovoid_cover y;
+    static own_cover y;
     alter_name = "cover", alter_way = "altered";
     for (int which = 0; which < 24; which++) {
-        y = *cover;
+        own_cover_copy(&y, cover);
         uint32_t point = (uint32_t)(random_next(s) % cover->point_count);
         uint16_t *triangle = y.triangles[random_next(s) % cover->triangle_count], kept = triangle[0];
         switch (which % 12) {
-        case 0: y.point_count--; break;
-        case 1: y.triangle_count--; break;
+        case 0: y.cover.point_count--; break;
+        case 1: y.cover.triangle_count--; break;
         case 2: y.a[point] = t->counts[0]; break;
         case 3: y.b[point] = t->counts[1]; break;
         case 4: y.a[point] = (y.a[point] + 1) % t->counts[0]; break;
@@ -53,11 +54,11 @@ static void lie_about_cover(const told *t, const ovoid_answer *x, const ovoid_co
         case 6: triangle[0] = triangle[1], triangle[1] = kept; break;
         case 7: triangle[random_next(s) % 3] = (uint16_t)cover->point_count; break;
         case 8: triangle[random_next(s) % 3] = (uint16_t)(random_next(s) % cover->point_count); break;
-        case 9: y.point_count = OVOID_COVER_POINTS + 1; break;
-        case 10: y.triangle_count = 2 * OVOID_COVER_POINTS + 1; break;
+        case 9: y.cover.point_count = OVOID_COVER_POINTS_MAX + 1; break;
+        case 10: y.cover.triangle_count = 2 * OVOID_COVER_POINTS_MAX + 1; break;
         default: memcpy(triangle, y.triangles[0], sizeof *y.triangles); break;
         }
-        if (memcmp(&y, cover, sizeof y) != 0) tell(t, x, &y, &counts[ALTER_ANSWER_FIELDS + 1]);
+        if (!own_cover_is_same(&y, cover)) tell(t, x, &y.cover, &counts[ALTER_ANSWER_FIELDS + 1]);
     }
     alter_way = "left out";
     tell(t, x, NULL, &counts[ALTER_ANSWER_FIELDS + 1]);
@@ -95,7 +96,7 @@ static double get_width(const ovoid_shape *s) {
 }
 
 static void lie_about_trial(const trial *made, uint64_t *s) {
-    static ovoid_cover cover;
+    STATIC_COVER(cover);
     static ovoid_answer last;
     told t = {.pair = {made->a, made->b, made->pose_a, made->pose_b}, .other = last};
     double size = pair_size(&t.pair);

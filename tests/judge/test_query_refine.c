@@ -7,6 +7,7 @@
 #include "judge.h"
 #include "ovoid/ovoid.h"
 #include "pair/fine.h"
+#include "proofs/covers.h"
 
 static judge *court;
 
@@ -40,7 +41,7 @@ static void check_answer(const ovoid_pair *p, const ovoid_answer *x, const ovoid
 
 // All questions, cold and with the others' proofs. least: the smallest gap that must be told from none.
 static void check_pair(const ovoid_pair *p, double gap, double least) {
-    static ovoid_cover cover;
+    STATIC_COVER(cover);
     ovoid_answer x[4] = {ovoid_collide(p, NULL, NULL), ovoid_depth(p, NULL, NULL, &cover),
                          ovoid_distance(p, NULL, NULL), ovoid_within(p, 0, NULL, NULL)};
     for (int i = 0; i < 4; i++) check_answer(p, &x[i], i == 1 ? &cover : NULL, gap, least);
@@ -399,7 +400,7 @@ static void test_brute_force(uint64_t seed) {
         at->x += sign * step * x.normal.x, at->y += sign * step * x.normal.y, at->z += sign * step * x.normal.z;
     }
     CHECK_EQ(judge_compute_truth(court, &p, &truth, NULL), OVOID_OK);
-    static ovoid_cover cover;
+    STATIC_COVER(cover);
     ovoid_answer x[3] = {ovoid_collide(&p, NULL, NULL), ovoid_depth(&p, NULL, NULL, &cover),
                          ovoid_distance(&p, NULL, NULL)};
     double size = 12;

@@ -9,8 +9,7 @@ import { checkFields, checkName, Status } from './words.mjs';
 export { OvoidError, Status };
 
 const QUERIES = ['collide', 'within', 'distance', 'depth'];
-const COVER_POINTS = 512;
-const COVER_BYTES = 8 + 8 * COVER_POINTS + 12 * COVER_POINTS;
+const COVER_POINTS = 32767;
 
 /** Loads the module: everything else is a field of what this gives. */
 export async function load(source) {
@@ -169,29 +168,28 @@ function bindShapes(core) {
 // ---- queries
 
 // The cover of the last depth, copied; as an object when that is asked for. undefined: there is none.
-function readCover(core) {
-  const { memory, calls } = core, at = calls.get_cover(), [points, triangles] = new Uint32Array(memory.exports.memory.buffer, at, 2);
+function readCover({ memory, calls }) {
+  const [points, triangles, ...at] = new Uint32Array(memory.exports.memory.buffer, calls.get_cover(), 5);
   if (!points) return undefined;
-  const a = memory.take(Uint32Array, at + 8, points), b = memory.take(Uint32Array, at + 8 + 4 * COVER_POINTS, points);
-  const corners = memory.take(Uint16Array, at + 8 + 8 * COVER_POINTS, 3 * triangles);
+  const a = memory.take(Uint32Array, at[0], points), b = memory.take(Uint32Array, at[1], points);
+  const corners = memory.take(Uint16Array, at[2], 3 * triangles);
   return () => ({
     pairs: Array.from(a, (end, i) => [end, b[i]]),
     triangles: Array.from({ length: triangles }, (_, i) => [...corners.subarray(3 * i, 3 * i + 3)]),
   });
 }
 
-function writeCover(core, cover) {
-  const { memory, calls } = core, bytes = new Uint8Array(memory.exports.memory.buffer, calls.get_cover(), COVER_BYTES);
-  bytes.fill(0);
+function writeCover({ memory, calls }, cover) {
+  const { buffer } = memory.exports.memory, words = new Uint32Array(buffer, calls.get_cover(), 6), at = words[5];
+  words.fill(0, 0, 2);
   if (!cover) return;
-  const { pairs, triangles } = cover;
-  if (pairs.length > COVER_POINTS || triangles.length > 2 * COVER_POINTS)
-    throw new OvoidError(14, -1, `the cover has ${pairs.length} points and ${triangles.length} triangles; there are at most ${COVER_POINTS} and ${2 * COVER_POINTS}`);
-  const words = new Uint32Array(bytes.buffer, bytes.byteOffset, 2 + 2 * COVER_POINTS);
-  words[0] = pairs.length;
-  words[1] = triangles.length;
-  pairs.forEach(([a, b], i) => ((words[2 + i] = a), (words[2 + COVER_POINTS + i] = b)));
-  new Uint16Array(bytes.buffer, bytes.byteOffset + 8 + 8 * COVER_POINTS, 3 * triangles.length).set(triangles.flat());
+  const { pairs, triangles } = cover, points = pairs.length, count = triangles.length;
+  if (points > COVER_POINTS || count > 2 * COVER_POINTS)
+    throw new OvoidError(14, -1, `the cover has ${points} points and ${count} triangles; there are at most ${COVER_POINTS} and ${2 * COVER_POINTS}`);
+  const ends = new Uint32Array(buffer, at, 2 * points);
+  pairs.forEach(([a, b], i) => ((ends[i] = a), (ends[points + i] = b)));
+  new Uint16Array(buffer, at + 8 * points, 3 * count).set(triangles.flat());
+  words.set([points, count, at, at + 4 * points, at + 8 * points]);
 }
 
 const settings = (o) => [o?.absoluteTolerance ?? 0, o?.relativeTolerance ?? 0, o?.cap ?? 0, o?.iterations ?? 0];

@@ -3,9 +3,12 @@
 
 #include <stdlib.h>
 
-ovoid_cover cover;
+// As much as a cover may take, so that no search for a depth fills it.
+static _Alignas(64) unsigned char cover_memory[OVOID_COVER_SIZE + (size_t)150 * OVOID_COVER_POINTS_MAX];
 
-/// Where a depth's cover stands: point_count and triangle_count, a, b, triangles, as ovoid_cover has them.
+ovoid_cover cover = {.memory = cover_memory, .size = sizeof cover_memory};
+
+/// The cover of the last depth: its counts and where its arrays and its memory are, as ovoid_cover has them.
 ovoid_cover *EXPORT(get_cover)(void) { return &cover; }
 
 static const double *read_pair(const ovoid_shape *a, const ovoid_shape *b, ovoid_pair *pair) {

@@ -113,6 +113,21 @@ test('compounds and solids have the bits of the tool; their proofs hold, altered
   assert.ok(ovoid.verify(solid, solid, null, null, { ...flush, common: [1.5, 1.5, 0.5] }));
 });
 
+test('the depth of balls with one centre, whose cover is larger than a search holds by itself', () => {
+  const points = Array.from({ length: 800 }, (_, i) => {
+    const z = (2 * (i + 0.5)) / 800 - 1, r = Math.sqrt(1 - z * z), turn = 2.399963229728653 * i;
+    return [r * Math.cos(turn), r * Math.sin(turn), z];
+  });
+  const ball = Shape.fromPoints(points), pair = [ball, ball, null, { xyz: [0, 0, 0], quat_wxyz: [0.3, 0.4, 0.5, 0.7] }];
+  const answer = ovoid.depth(...pair), { cover } = answer.proof;
+  assert.equal(answer.limit, 'none');
+  assert.ok(answer.upper - answer.lower < 1e-8 && cover.pairs.length > 512);
+  assert.equal(ovoid.verify(...pair, answer), null);
+  const cut = { ...answer.toJSON(), proof: { ...answer.toJSON().proof, cover: { ...cover, triangles: cover.triangles.slice(1) } } };
+  assert.match(ovoid.verify(...pair, cut).message, /upper bound/);
+  ball.free();
+});
+
 test('batches agree with single queries, and with themselves in another order', () => {
   const bodies = makeScene(24).map((o) => ({ shape: Shape.fromPoints(o.points), pose: o.pose })), couples = [];
   for (let i = 0; i < 24; i++) for (let k = 0; k < i; k++) couples.push([k, i]);

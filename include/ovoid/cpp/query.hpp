@@ -13,6 +13,7 @@
 #include "ovoid/smooth.h"
 
 #include <memory>
+#include <utility>
 
 namespace ovoid {
 
@@ -20,8 +21,30 @@ namespace ovoid {
 using options = zeroed<ovoid_options>;
 /** A proof: the warm start of the pair's next query. */
 using proof = zeroed<ovoid_proof>;
-/** The proof of a depth's upper bound. */
-using cover = zeroed<ovoid_cover>;
+/** The proof of a depth's upper bound, with its memory, which is owned: the search for the depth may go on there. */
+class cover : public ovoid_cover {
+  public:
+    /** For up to that many points: 10 KB, and beyond 512 points 150 bytes each. Throws std::bad_alloc. */
+    explicit cover(std::uint32_t points = OVOID_COVER_POINTS)
+        : ovoid_cover{}, data_(new unsigned char[ovoid_cover_get_size(points)]) {
+        memory = data_.get();
+        size = ovoid_cover_get_size(points);
+    }
+    /** The other cover has no memory then, and shows nothing. */
+    cover(cover &&from) noexcept : ovoid_cover(from), data_(std::move(from.data_)) {
+        static_cast<ovoid_cover &>(from) = {};
+    }
+    /** The same. */
+    cover &operator=(cover &&from) noexcept {
+        data_ = std::move(from.data_);
+        static_cast<ovoid_cover &>(*this) = from;
+        if (this != &from) static_cast<ovoid_cover &>(from) = {};
+        return *this;
+    }
+
+  private:
+    std::unique_ptr<unsigned char[]> data_;
+};
 /** Points and normal of an answer. */
 using witness = ovoid_witness;
 /** Two bodies of a batch, by index. */
@@ -74,28 +97,6 @@ inline answer depth(const pair &p, const ovoid_options &o = options(), const ovo
                     ovoid_cover *received = nullptr) noexcept {
     return ovoid_depth(&p, &o, earlier, received);
 }
-/** Working memory of depth and the cover that it leaves there. The memory is owned. */
-class depth_memory {
-  public:
-    /** For a search of up to that many points: 150 bytes each. Throws std::bad_alloc. */
-    explicit depth_memory(std::uint32_t points = OVOID_COVER_POINTS_MAX)
-        : data_(new unsigned char[ovoid_depth_get_memory_size(points)]), memory_{data_.get(),
-                                                                                 ovoid_depth_get_memory_size(points),
-                                                                                 {}} {}
-    /** The proof of the last answer's upper bound, valid until the next query. */
-    const ovoid_large_cover &cover() const noexcept { return memory_.cover; }
-    /** The C struct. */
-    ovoid_depth_memory *get() noexcept { return &memory_; }
-
-  private:
-    std::unique_ptr<unsigned char[]> data_;
-    ovoid_depth_memory memory_;
-};
-/** The same, whose search goes on in that memory once its own is full. */
-inline answer depth(const pair &p, depth_memory &memory, const ovoid_options &o = options(),
-                    const ovoid_proof *earlier = nullptr) noexcept {
-    return ovoid_depth_with(&p, &o, earlier, memory.get());
-}
 /** The gap along a direction: a proven lower bound of the signed distance. */
 inline double compute_gap(const pair &p, const ovoid_vec3 &direction) noexcept {
     return ovoid_pair_compute_gap(&p, direction);
@@ -113,20 +114,14 @@ inline int is_within(const ovoid_answer &a, double margin) noexcept { return ovo
  */
 inline bool is_proven(const pair &p, const ovoid_answer &a, const ovoid_options &o = options(),
                       const ovoid_cover *c = nullptr) noexcept {
-    const ovoid_answer_basis basis = {&o, c, nullptr};
-    return ovoid_answer_verify(&p, &a, &basis, nullptr) == OVOID_OK;
-}
-/** The same of an answer of depth with memory, by the cover that is left there. */
-inline bool is_proven(const pair &p, const ovoid_answer &a, const depth_memory &memory,
-                      const ovoid_options &o = options()) noexcept {
-    const ovoid_answer_basis basis = {&o, nullptr, &memory.cover()};
+    const ovoid_answer_basis basis = {&o, c};
     return ovoid_answer_verify(&p, &a, &basis, nullptr) == OVOID_OK;
 }
 /** Throws PROOF, with a sentence, if is_proven is false. */
 inline void verify(const pair &p, const ovoid_answer &a, const ovoid_options &o = options(),
                    const ovoid_cover *c = nullptr) {
     ovoid_error e;
-    const ovoid_answer_basis basis = {&o, c, nullptr};
+    const ovoid_answer_basis basis = {&o, c};
     detail::require(ovoid_answer_verify(&p, &a, &basis, &e), e);
 }
 

@@ -152,7 +152,7 @@ static PyObject *write_answer(PyObject *module, PyObject *given) {
     }
     const answer_object *answer = (const answer_object *)given;
     int has_parts_a = Py_TYPE(answer->a) == state->compound, has_parts_b = Py_TYPE(answer->b) == state->compound;
-    ovoid_cover cover;
+    ovoid_cover cover = {.memory = NULL};
     ovoid_record record = {.a = "a",
                            .b = "b",
                            .fields = OVOID_RECORD_PARTS,

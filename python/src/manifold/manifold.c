@@ -45,7 +45,7 @@ int manifold_set_points(manifold_object *self) {
 }
 
 ovoid_code manifold_verify(const manifold_object *self, ovoid_error *error) {
-    ovoid_cover cover;
+    ovoid_cover cover = {.memory = NULL};
     ovoid_manifold_options options = self->options;
     ovoid_body_pair bodies = get_bodies(self);
     options.cover = cover_unpack(self->cover, &cover) ? &cover : NULL;
@@ -71,14 +71,16 @@ static int validate_options(module_state *state, const ovoid_manifold_options *o
 
 // The manifold of two parts, from their earlier one, whose cover stays where nothing is searched.
 static int find_one(manifold_object *self, const ovoid_body_pair *bodies, const manifold_object *earlier) {
-    ovoid_cover cover;
+    cover_room room;
     ovoid_manifold_options options = self->options;
     ovoid_pair pair = get_pair(bodies, &self->of);
-    (void)cover_unpack(earlier ? earlier->cover : NULL, &cover);
-    options.cover = &cover;
-    self->of.manifold = ovoid_manifold_find(&pair, &options, earlier ? &earlier->of.manifold : NULL);
+    cover_room_make(&room);
+    (void)cover_unpack(earlier ? earlier->cover : NULL, &room.cover);
+    options.cover = &room.cover;
+    do self->of.manifold = ovoid_manifold_find(&pair, &options, earlier ? &earlier->of.manifold : NULL);
+    while (cover_room_grow(&room, self->of.manifold.limit));
     self->points = ovoid_manifold_compute_points(&pair, &self->of.manifold);
-    return cover_keep(&self->cover, &cover);
+    return cover_room_keep(&room, &self->cover);
 }
 
 static int read_input(module_state *state, PyObject *poses[2], manifold_input *in) {
@@ -428,7 +430,7 @@ static PyObject *swapped(PyObject *object, PyObject *ignored) {
     made->options = self->options;
     manifold_set_points(made);
     // The cover is in the order in which both bodies were taken, which the manifold keeps.
-    ovoid_cover cover;
+    ovoid_cover cover = {.memory = NULL};
     if (!cover_unpack(self->cover, &cover) || !cover_keep(&made->cover, &cover)) return (PyObject *)made;
     Py_DECREF((PyObject *)made);
     return NULL;

@@ -431,18 +431,20 @@ int world_find(world_object *self, ovoid_id id, PyObject **body, ovoid_pose *pos
 
 // Fills an answer to two bodies without a solid.
 static PyObject *fill_proof(world_object *self, const ovoid_contact *contact, answer_object *made) {
-    ovoid_cover cover;
+    cover_room room;
+    ovoid_code code;
     ovoid_error error;
     if (!made) return NULL;
-    cover.point_count = 0;
-    ovoid_exclusions exclusions = {.cover = &cover, .grows = 1};
+    cover_room_make(&room);
+    ovoid_exclusions exclusions = {.cover = &room.cover, .grows = 1};
     ovoid_contact_proof proof = {.exclusions = &exclusions};
-    ovoid_code code = ovoid_world_compute_proof(self->world, contact, &proof, &error);
+    do code = ovoid_world_compute_proof(self->world, contact, &proof, &error);
+    while (code == OVOID_OK && cover_room_grow(&room, proof.answer.limit));
     made->of = proof.answer;
     made->options = self->asked;
     int failed = answer_keep_exclusions(made, &exclusions);
     if (!failed && code != OVOID_OK) raise_error(state_of((PyObject *)self), &error);
-    if (failed || code != OVOID_OK || cover_keep(&made->cover, &cover)) Py_CLEAR(made);
+    if (cover_room_keep(&room, &made->cover) || failed || code != OVOID_OK) Py_CLEAR(made);
     return (PyObject *)made;
 }
 

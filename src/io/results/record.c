@@ -95,10 +95,7 @@ static void write_cover(FILE *file, const char *q, const void *line) {
 }
 
 static const char *read_cover(const json_t *value, void *line) {
-    ovoid_cover *cover = ((record_line *)line)->cover;
-    const char *wrong = record_cover_read(value, cover);
-    if (!wrong) ((ovoid_record *)line)->cover = cover;
-    return wrong;
+    return record_cover_read(value, &((ovoid_record *)line)->cover);
 }
 
 static const field_own own_a = {write_a, read_a}, own_b = {write_b, read_b}, own_within = {write_within, read_within},

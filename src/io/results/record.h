@@ -8,7 +8,6 @@
 typedef struct record_line {
     ovoid_record record;
     ovoid_body_answer solid; ///< of record.solid; zero where there is none
-    ovoid_cover *cover;      ///< where one that is read is put
 } record_line;
 
 /// All keys of a line of JSON, in their order; the columns of CSV are those in the same order but for those of
@@ -42,16 +41,17 @@ enum {
     RECORD_CONTACT_LIST = 1 << 22
 };
 
-/// A cover in JSON. record_cover_read: what is wrong, or NULL.
+/// A cover in JSON. record_cover_read: what is wrong, or NULL. *cover, which is NULL before, is the caller's to free:
+/// one block, also where something is wrong.
 void record_cover_write(FILE *file, const char *quote, const ovoid_cover *cover);
-const char *record_cover_read(const struct json_t *value, ovoid_cover *cover);
+const char *record_cover_read(const struct json_t *value, const ovoid_cover **cover);
 
 /// The table of ovoid_record_contact.
 extern const field_table record_contact_table;
 /// Sets what follows from the fields of contacts that were read; what is wrong, or NULL.
 const char *record_contacts_settle(ovoid_record *record);
-/// Frees the covers of contacts that were read, and leaves the record without contacts.
-void record_contacts_clear(ovoid_record *record);
+/// Frees the covers of a record that was read and of its contacts, and leaves it without them.
+void record_covers_clear(ovoid_record *record);
 /// The room that contacts take in a line, in items of OVOID_RECORD_ITEMS_MAX.
 size_t record_contacts_count_items(const ovoid_record *record);
 

@@ -52,10 +52,7 @@ static void write_cover(FILE *file, const char *quote, const void *item) {
 
 // The cover is the reader's, which frees it with its record.
 static const char *read_cover(const json_t *value, void *item) {
-    ovoid_record_contact *contact = item;
-    ovoid_cover *cover = malloc(sizeof *cover);
-    contact->cover = cover;
-    return cover ? record_cover_read(value, cover) : "needs more memory than there is";
+    return record_cover_read(value, &((ovoid_record_contact *)item)->cover);
 }
 
 static const field_own own_proof = {write_proof, read_proof}, own_share = {write_share, read_share},
@@ -113,7 +110,9 @@ const char *record_contacts_settle(ovoid_record *record) {
     return NULL;
 }
 
-void record_contacts_clear(ovoid_record *record) {
+void record_covers_clear(ovoid_record *record) {
+    free((void *)record->cover);
+    record->cover = NULL;
     for (size_t i = 0; i < record->contact_count; i++) free((void *)record->contacts[i].cover);
     record->contacts = NULL;
     record->contact_count = 0;
@@ -121,6 +120,9 @@ void record_contacts_clear(ovoid_record *record) {
 
 size_t record_contacts_count_items(const ovoid_record *record) {
     size_t items = 0;
-    for (size_t i = 0; i < record->contact_count; i++) items += record->contacts[i].cover ? 68 : 4;
+    for (size_t i = 0; i < record->contact_count; i++) {
+        const ovoid_cover *cover = record->contacts[i].cover;
+        items += 4 + (cover ? (size_t)cover->point_count / 8 : 0);
+    }
     return items;
 }

@@ -11,7 +11,6 @@ struct ovoid_results_reader {
     line_source source;
     json_t *json; ///< the last record, whose names point into it
     record_line line;
-    ovoid_cover cover;
     fields_reader fields;
 };
 
@@ -85,10 +84,9 @@ static const char *check_together(ovoid_results_reader *r, uint64_t found) {
 }
 
 static ovoid_code read_record(ovoid_results_reader *r, const char *text, size_t length, ovoid_error *error) {
-    record_contacts_clear(&r->line.record);
+    record_covers_clear(&r->line.record);
     fields_reader_clear(&r->fields);
-    r->line = (record_line){.record = {.frame = NAN, .part_a = OVOID_RECORD_NO_PART, .part_b = OVOID_RECORD_NO_PART},
-                            .cover = &r->cover};
+    r->line = (record_line){.record = {.frame = NAN, .part_a = OVOID_RECORD_NO_PART, .part_b = OVOID_RECORD_NO_PART}};
     ovoid_code code = load_line(r, text, length, error);
     if (code) return code;
     const char *wrong = fields_read(&r->fields, r->json, &record_table, &r->line);
@@ -131,7 +129,7 @@ void ovoid_results_reader_close(ovoid_results_reader *reader) {
     if (!reader) return;
     line_source_close(&reader->source);
     json_decref(reader->json);
-    record_contacts_clear(&reader->line.record);
+    record_covers_clear(&reader->line.record);
     fields_reader_clear(&reader->fields);
     free(reader);
 }

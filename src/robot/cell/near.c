@@ -69,7 +69,8 @@ static int take_overlap(near_search *s, const checker_pair *p, pair_name name) {
 
 static int ask_pair(void *context, const checker_pair *p, pair_name name) {
     near_search *s = context;
-    ovoid_cover cover;
+    uint64_t memory[OVOID_COVER_SIZE / sizeof(uint64_t)];
+    ovoid_cover cover = {.memory = memory, .size = sizeof memory};
     ovoid_options options = {.cap = add_up(s->margin, p->padding, p->error)};
     if (!(options.cap > 0)) options.cap = OVOID_LENGTH_MIN;
     if (s->without_depths && take_overlap(s, p, name)) return 1;

@@ -134,8 +134,7 @@ static cell_verdict look_for_free(prover *p) {
 
 // The upper end of the signed distance that a pair has in the middle; of solids also that of their hulls, raised.
 static ovoid_answer find_depth(prover *p, uint32_t pair, const path_pair *at) {
-    ovoid_cover cover;
-    ovoid_answer answer = ovoid_depth(&at->pair, NULL, get_proof(p, pair), &cover);
+    ovoid_answer answer = ovoid_depth(&at->pair, NULL, get_proof(p, pair), NULL);
     remember(p, pair, &answer.proof);
     if (!sides_have_solid(&at->solids) || answer.lower > at->error) return answer;
     double raised = solid_sides_raise(&at->solids, answer.upper);

@@ -5,6 +5,7 @@
 // and those of the x87; elsewhere what <fenv.h> shows.
 #include "check.h"
 #include "ovoid/ovoid.h"
+#include "proofs/covers.h"
 
 #include <fenv.h>
 
@@ -122,7 +123,7 @@ static void ask_distance(void) {
 }
 
 static void ask_depth(void) {
-    static ovoid_cover cover;
+    STATIC_COVER(cover);
     for (int i = 0; i < PAIRS; i++) {
         ovoid_answer x = ovoid_depth(&pairs[i], NULL, NULL, &cover);
         add_answer(&x);
@@ -175,7 +176,7 @@ static void ask_smooth(void) {
                 ADD(v[k]->hessian);
             }
         }
-    static ovoid_cover cover;
+    STATIC_COVER(cover);
     for (int i = 0; i < PAIRS; i++) {
         ovoid_answer x = ovoid_depth(&pairs[i], NULL, NULL, &cover);
         ovoid_gradient g = ovoid_answer_compute_gradient(&pairs[i], &x, &cover);

@@ -3,6 +3,7 @@
 // code that the headers name, and no answer beside it. A pointer that is followed all the same ends the program.
 #include "check.h"
 #include "ovoid/ovoid.h"
+#include "proofs/covers.h"
 
 static ovoid_shape *shape;
 static ovoid_compound *compound;
@@ -42,7 +43,7 @@ static void expect_refused(const ovoid_answer *x, ovoid_limit limit) {
 // ---- pairs
 
 static void ask_pair(wrong w) {
-    static ovoid_cover cover;
+    STATIC_COVER(cover);
     ovoid_pair p = make_pair(w);
     ovoid_answer x[5] = {ovoid_collide(&p, NULL, NULL), ovoid_within(&p, 1, NULL, NULL), ovoid_distance(&p, NULL, NULL),
                          ovoid_depth(&p, NULL, NULL, &cover), ovoid_pair_compute_bounds(&p)};

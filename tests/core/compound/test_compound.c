@@ -2,10 +2,11 @@
 // whose brackets are judged elsewhere by exact arithmetic; both brackets hold d, so they must meet, and both are
 // narrow.
 #include "compounds.h"
+#include "proofs/covers.h"
 
 enum { CAPACITY = 40000 };
 static ovoid_exclusion items[CAPACITY];
-static ovoid_cover cover;
+STATIC_COVER(cover);
 
 // Everything that an answer claims.
 static void check_answer(const ovoid_body_pair *pair, const ovoid_body_answer *x, const ovoid_exclusions *all,

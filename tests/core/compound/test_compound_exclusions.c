@@ -2,12 +2,14 @@
 // same and the count says that the proof is not all there.
 #include "compounds.h"
 #include "countdown.h"
+#include "proofs/covers.h"
 
 #include <string.h>
 
 enum { CAPACITY = 100000, PARTS = 200 };
 static ovoid_exclusion items[CAPACITY];
-static ovoid_cover cover, other;
+STATIC_COVER(cover);
+STATIC_COVER(other);
 
 typedef ovoid_body_answer query(const ovoid_body_pair *pair, const ovoid_options *options,
                                 const ovoid_body_evidence *evidence);

@@ -2,10 +2,11 @@
 // its normal shows (measured here from the vertices), or a set of exclusions with a hole in it, proves nothing.
 #include "compounds.h"
 #include "pairs.h"
+#include "proofs/covers.h"
 
 enum { CAPACITY = 20000 };
 static ovoid_exclusion items[CAPACITY];
-static ovoid_cover cover;
+STATIC_COVER(cover);
 
 static double find_extreme(const ovoid_body *body, uint32_t first, uint32_t end, vec3 n) {
     double most = -INFINITY;

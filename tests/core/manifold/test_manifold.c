@@ -2,6 +2,7 @@
 // judge, and the verifier.
 #include "manifolds.h"
 #include "places.h"
+#include "proofs/covers.h"
 
 static ovoid_quat turn_z(double angle) { return (ovoid_quat){cos(angle / 2), 0, 0, sin(angle / 2)}; }
 #define PI 3.14159265358979323846
@@ -246,7 +247,7 @@ static void check_against_depth(const ovoid_pair *pair, const ovoid_manifold *m)
 
 // Cold, then five small motions, each from the contact before.
 static void test_random(void) {
-    ovoid_cover cover;
+    LOCAL_COVER(cover);
     ovoid_manifold_options o = {.margin = 0.02, .cover = &cover};
     for (uint64_t seed = 1; seed <= 200; seed++) {
         uint64_t s = check_seed = seed;
@@ -278,7 +279,7 @@ static void test_random(void) {
 // kept corner stands for, and those that the points are chosen among.
 static void test_depth_of_points(void) {
     ovoid_manifold_points points;
-    ovoid_cover cover;
+    LOCAL_COVER(cover);
     const ovoid_manifold_options o = {.margin = 0.02, .keep = 0.03, .cover = &cover, .points = &points};
     int kept = 0;
     for (uint64_t seed = 1; seed <= 200; seed++) {
@@ -341,8 +342,9 @@ static int refuse_without_deepest(const ovoid_pair *pair, const ovoid_manifold *
 static void test_faces_without_search(void) {
     ovoid_error error;
     ovoid_shape *plate = ovoid_shape_create_box((ovoid_vec3){2, 2, 0.3}, NULL, &error);
-    static ovoid_cover cover, untouched;
-    memset(&untouched, 0x5a, sizeof untouched);
+    STATIC_COVER(cover);
+    ovoid_cover untouched = cover;
+    untouched.point_count = untouched.triangle_count = 77;
     const ovoid_manifold_options o = {.margin = 0.05, .cover = &cover};
     for (uint64_t seed = 1; seed <= 200; seed++) {
         uint64_t s = check_seed = seed;
@@ -358,7 +360,7 @@ static void test_faces_without_search(void) {
         // As they tilt an upper bound is one that can be verified: there is no cover of a search.
         const ovoid_manifold_options wide = {
             .margin = 0.05, .cover = &cover, .tolerance = random_uniform(&s, 1e-3, 4e-3)};
-        cover = (ovoid_cover){0};
+        cover.point_count = cover.triangle_count = 0;
         for (int k = 0; k < 3; k++) {
             pair.pose_b.rotation.x += 5e-4 * random_normal(&s);
             pair.pose_b.rotation.y += 5e-4 * random_normal(&s);
@@ -373,7 +375,7 @@ static void test_faces_without_search(void) {
 // Boxes along common axes, whose depth is the least of the three by hand: often not that of the faces that the line of
 // centres meets. Then frames in which they tilt: where there is a cover, an upper bound is one that can be verified.
 static void test_common_axes(void) {
-    static ovoid_cover cover;
+    STATIC_COVER(cover);
     int other = 0;
     for (uint64_t seed = 1; seed <= 1000; seed++) {
         uint64_t s = check_seed = seed;
@@ -415,9 +417,10 @@ static void test_common_axes(void) {
 static void test_apart_without_search(void) {
     ovoid_error error;
     ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, NULL, &error);
-    static ovoid_cover cover, untouched;
+    STATIC_COVER(cover);
+    ovoid_cover untouched = cover;
+    untouched.point_count = untouched.triangle_count = 77;
     const ovoid_manifold_options o = {.margin = 0.05, .cover = &cover};
-    memset(&untouched, 0x5a, sizeof untouched);
     ovoid_pair pair = pair_of(box, box, (vec3){2.2, 2.2, 2.2}, straight);
     ovoid_manifold m = ovoid_manifold_find(&pair, &o, NULL);
     CHECK_EQ(m.axis, OVOID_MANIFOLD_NONE);
@@ -443,7 +446,7 @@ static void test_deepest_of_many(void) {
     ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, NULL, &error);
     static ovoid_manifold_polygon polygon;
     ovoid_manifold_points points;
-    ovoid_cover cover;
+    LOCAL_COVER(cover);
     const ovoid_manifold_options o = {.cover = &cover, .points = &points};
     int many = 0, refused = 0;
     for (uint64_t seed = 1; seed <= 200; seed++) {
@@ -482,7 +485,7 @@ static void test_many_corners(void) {
     }
     ovoid_shape *prism = ovoid_shape_create_from_points(xyz, 200, NULL, &error);
     ovoid_manifold_points points;
-    ovoid_cover cover;
+    LOCAL_COVER(cover);
     const ovoid_manifold_options o = {.cover = &cover, .points = &points};
     for (int k = 0; k < 20; k++) {
         ovoid_pair pair = pair_of(box, prism, (vec3){0.1, 0.2, 1.95}, turn_z(0.3 + k));
@@ -602,7 +605,7 @@ static void test_angle(void) {
     ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){0.5, 0.5, 0.5}, NULL, &error);
     ovoid_pair pair =
         pair_of(box, box, (vec3){0, 0, 0.5 + sqrt(0.5) - 0.001}, (ovoid_quat){cos(PI / 8), sin(PI / 8), 0, 0});
-    static ovoid_cover cover;
+    STATIC_COVER(cover);
     const ovoid_manifold_options wide = {.margin = 0.02, .cover = &cover},
                                  narrow = {.margin = 0.02, .angle = 0.5, .cover = &cover};
     ovoid_manifold found = ovoid_manifold_find(&pair, &wide, NULL), few = ovoid_manifold_find(&pair, &narrow, NULL);

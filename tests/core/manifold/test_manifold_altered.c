@@ -3,6 +3,7 @@
 #include "alter.h"
 #include "manifolds.h"
 #include "places.h"
+#include "proofs/covers.h"
 
 #define VEC3(member)                                                                                                   \
     ALTER_FIELD(ovoid_manifold, member.x, ALTER_REAL, 1e-9), ALTER_FIELD(ovoid_manifold, member.y, ALTER_REAL, 1e-9),  \
@@ -101,7 +102,7 @@ static void place(ovoid_pair *pair, double want, uint64_t *s) {
 }
 
 int main(void) {
-    static ovoid_cover cover;
+    STATIC_COVER(cover);
     ovoid_manifold other = {0};
     for (uint64_t seed = 1; seed <= 400; seed++) {
         uint64_t s = check_seed = seed;

@@ -4,6 +4,7 @@
 #include "bits.h"
 #include "manifolds.h"
 #include "places.h"
+#include "proofs/covers.h"
 
 enum { SHAPES = 14 };
 
@@ -95,7 +96,7 @@ static void check_all(const ovoid_pair *pair, const ovoid_manifold_options *opti
 
 // Each pair of shapes, apart, touching and overlapping, at three scales.
 static void test_pairs(void) {
-    static ovoid_cover cover;
+    STATIC_COVER(cover);
     static const double scales[] = {1, 1e-9, 1e9};
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < SHAPES; i++)
@@ -118,7 +119,7 @@ static void test_pairs(void) {
 
 // Bodies in the same pose, and one whose centre is that of the other; margins up to 100 times the bodies.
 static void test_positions(void) {
-    static ovoid_cover cover;
+    STATIC_COVER(cover);
     for (int i = 0; i < SHAPES; i++)
         for (int j = 0; j < SHAPES; j++) {
             uint64_t s = check_seed = (uint64_t)(1000 + i * SHAPES + j);
@@ -138,7 +139,7 @@ static void test_positions(void) {
 
 // Boxes that touch exactly: by a face, by part of it, along an edge, at a corner.
 static void test_touching(void) {
-    static ovoid_cover cover;
+    STATIC_COVER(cover);
     static const vec3 at[] = {{2, 0, 0}, {2, 1, 0}, {2, 2, 0}, {2, 2, 2}, {0, 2, 1}, {2, 1e-7, 0}, {1, 2, 2}};
     ovoid_error error;
     ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, NULL, &error);
@@ -155,7 +156,7 @@ static void test_touching(void) {
 
 // Earlier contacts of any bytes: nothing breaks, and all but `upper` is true.
 static void test_bytes(void) {
-    static ovoid_cover cover;
+    STATIC_COVER(cover);
     ovoid_error error;
     ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, NULL, &error);
     for (uint64_t seed = 1; seed <= 20000; seed++) {

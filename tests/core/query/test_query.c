@@ -3,6 +3,7 @@
 // 1e-13 of the size for the rounding of the formula itself).
 #include "check.h"
 #include "ovoid/ovoid.h"
+#include "proofs/covers.h"
 
 static const ovoid_quat unturned = {1, 0, 0, 0};
 
@@ -34,7 +35,7 @@ static int holds(const ovoid_pair *p, const ovoid_answer *x, const ovoid_cover *
 
 // All five questions about a pair whose signed distance is known.
 static void check_pair(const ovoid_pair *p, double truth) {
-    static ovoid_cover cover;
+    STATIC_COVER(cover);
     double size = size_of(p), margin = 0.25 * size + 1e-100, slack = 1e-13 * size, tolerance = 2e-9 * size + 1e-128;
     int sign = truth > slack ? 1 : truth < -slack ? -1 : 0;
     ovoid_answer x[5] = {ovoid_collide(p, NULL, NULL), ovoid_within(p, margin, NULL, NULL),
@@ -211,7 +212,7 @@ static void check_options(void) {
     // One iteration: a true bracket, and the limit named.
     p.pose_b = (ovoid_pose){{2.4, 1.1, 0.7}, {0.9, 0.1, -0.3, 0.2}};
     o = (ovoid_options){.iterations = 1};
-    ovoid_cover cover;
+    LOCAL_COVER(cover);
     x = ovoid_depth(&p, &o, NULL, &cover);
     CHECK(x.lower <= x.upper && (x.limit == OVOID_LIMIT_ITERATIONS || x.limit == OVOID_LIMIT_NONE) &&
           holds(&p, &x, &cover));
@@ -276,7 +277,8 @@ static void check_foreign_proofs(void) {
 
 // Whatever is altered in an answer, the check notices.
 static void check_altered(void) {
-    static ovoid_cover cover, empty;
+    STATIC_COVER(cover);
+    STATIC_COVER(empty);
     ovoid_shape *a = box(1, 1, 1, 0);
     ovoid_pair p = {a, a, at(0, 0, 0), {{2.7, 0.4, 0.3}, {0.9, 0.2, 0.1, 0.3}}}, q = p;
     ovoid_answer x = ovoid_distance(&p, NULL, NULL), y;
@@ -305,7 +307,7 @@ static void check_altered(void) {
     cover.triangle_count--;
     REJECTED(&q, &deep, &cover);
     cover.triangle_count++;
-    cover.a[cover.triangles[0][0]] ^= 7;
+    ((uint32_t *)cover.a)[cover.triangles[0][0]] ^= 7;
     REJECTED(&q, &deep, &cover);
     ovoid_shape_destroy(a);
 }

@@ -7,6 +7,7 @@
 
 #include "check.h"
 #include "places.h"
+#include "proofs/covers.h"
 
 typedef long double real;
 typedef struct point {
@@ -85,7 +86,7 @@ static ovoid_shape *make_random(uint64_t *s, double off) {
 
 /// 1 if it was answered without a search.
 static int check_depth(const ovoid_pair *p) {
-    static ovoid_cover cover;
+    STATIC_COVER(cover);
     ovoid_answer x = ovoid_depth(p, NULL, NULL, &cover), same = ovoid_depth(p, NULL, NULL, NULL);
     ovoid_error error;
     CHECK(ovoid_answer_verify(p, &x, &(ovoid_answer_basis){.cover = &cover}, &error) == OVOID_OK);

@@ -7,6 +7,7 @@
 
 #include "check.h"
 #include "places.h"
+#include "proofs/covers.h"
 
 #include <string.h>
 
@@ -21,7 +22,7 @@ static ovoid_vec3 random_place(uint64_t *r) {
 
 /// The answer, verified; is_quick: it must be one in closed form, whatever earlier proof comes with it.
 static ovoid_answer ask(const ovoid_pair *pair, int is_depth, int is_quick) {
-    static ovoid_cover cover;
+    STATIC_COVER(cover);
     ovoid_error error = {0};
     ovoid_answer answer = is_depth ? ovoid_depth(pair, NULL, NULL, &cover) : ovoid_distance(pair, NULL, NULL);
     const ovoid_answer_basis basis = {.cover = is_depth ? &cover : NULL};
@@ -216,7 +217,8 @@ static void test_refused(void) {
     CHECK_EQ((int)ovoid_distance(&pair, &wrong, NULL).limit, (int)OVOID_LIMIT_OPTIONS);
     CHECK_EQ((int)ovoid_within(&pair, NAN, NULL, NULL).limit, (int)OVOID_LIMIT_OPTIONS);
     CHECK_EQ((int)ovoid_distance(&pair, &capped, NULL).stage, (int)OVOID_STAGE_SPHERE);
-    ovoid_cover cover = {.point_count = 3, .triangle_count = 3};
+    LOCAL_COVER(cover);
+    cover.point_count = cover.triangle_count = 3;
     CHECK_EQ((int)ovoid_depth(&pair, NULL, NULL, &cover).status, (int)OVOID_SEPARATED);
     CHECK_EQ((int)cover.point_count, 0);
     ovoid_shape_destroy(ball);

@@ -4,6 +4,7 @@
 #include "check.h"
 #include "options.h"
 #include "ovoid/ovoid.h"
+#include "proofs/covers.h"
 
 enum { PAIRS = 3000, KINDS = 4, VERTICES = 40 };
 
@@ -75,7 +76,7 @@ static int is_stuck(const ovoid_answer *x) {
 static long asked, decided_by_proof;
 
 static void compare(int query, const ovoid_pair *p, const ovoid_proof *earlier, const ovoid_answer *cold) {
-    static ovoid_cover cover;
+    STATIC_COVER(cover);
     ovoid_answer warm = ask(query, p, earlier, &cover);
     ovoid_error error = {0};
     asked++;
@@ -148,7 +149,7 @@ static void check_compounds(const ovoid_pair *p, const ovoid_proof *foreign) {
     ovoid_posed_shape b[2] = {{p->shape_b, ovoid_pose_make_identity()}, {p->shape_b, {{0, 0, 30}, {1, 0, 0, 0}}}};
     ovoid_compound *ca = ovoid_compound_create(a, 2, NULL, NULL), *cb = ovoid_compound_create(b, 2, NULL, NULL);
     static ovoid_exclusion items[64];
-    static ovoid_cover cover;
+    STATIC_COVER(cover);
     ovoid_exclusions all = {.items = items, .capacity = 64, .cover = &cover};
     ovoid_body_pair pair = {{.compound = ca, .pose = p->pose_a}, {.compound = cb, .pose = p->pose_b}};
     ovoid_body_answer cold = ovoid_body_depth(&pair, NULL, NULL);
@@ -165,7 +166,7 @@ static void check_compounds(const ovoid_pair *p, const ovoid_proof *foreign) {
 }
 
 static void check_pair(uint64_t *s, int kind, ovoid_proof foreign[4]) {
-    static ovoid_cover cover;
+    STATIC_COVER(cover);
     ovoid_pair p = make_pair(s, kind);
     if (!CHECK(p.shape_a && p.shape_b)) return;
     for (int query = 0; query < 4; query++) {
@@ -211,7 +212,7 @@ static void check_sizes(uint64_t *s) {
             ovoid_pair p = {cube, cube, ovoid_pose_make_identity(), ovoid_pose_make_identity()};
             p.pose_b.position.x = (turned % 3) * 0.4 * half;
             if (turned > 2) p.pose_b.rotation = random_pose(s, 0).rotation;
-            static ovoid_cover cover;
+            STATIC_COVER(cover);
             ovoid_answer deep = ovoid_depth(&p, NULL, NULL, &cover), sign = ovoid_collide(&p, NULL, NULL);
             CHECK_EQ(sign.status, OVOID_OVERLAPPING);
             CHECK_EQ(deep.status, OVOID_OVERLAPPING);

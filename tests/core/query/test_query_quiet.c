@@ -2,6 +2,7 @@
 // are replaced by counters in this program. Truth: the counter. glibc only, and not on sanitizers, which own malloc.
 #include "check.h"
 #include "ovoid/ovoid.h"
+#include "proofs/covers.h"
 
 #if defined(__SANITIZE_ADDRESS__) || !defined(__GLIBC__)
 #define OWN_MALLOC 0
@@ -47,7 +48,7 @@ int main(void) {
     ovoid_shape *a = ovoid_shape_create_prism(&(ovoid_prism){1, 1, 40}, NULL, NULL);
     ovoid_shape *b = ovoid_shape_create_box((ovoid_vec3){0.5, 1, 2}, NULL, NULL);
     CHECK(a && b && allocations > 0);
-    static ovoid_cover cover;
+    STATIC_COVER(cover);
     uint64_t s = 1;
     ovoid_posed_shape parts[3] = {
         {a, {{0, 0, 3}, {1, 0, 0, 0}}}, {b, {{1, 0, 0}, {1, 2, 0, 0}}}, {b, {{0, -2, 0}, {3, 2, 0, 1}}}};

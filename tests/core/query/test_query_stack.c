@@ -4,6 +4,7 @@
 // under a sanitizer, which makes stacks several times as large, nor without optimisation.
 #define _XOPEN_SOURCE 700 // pthread_attr_setstack
 #include "bits.h"
+#include "proofs/covers.h"
 
 #include <pthread.h>
 
@@ -34,7 +35,7 @@ static _Alignas(65536) unsigned char stack[STACK];
 static ovoid_pair pair, round_pair;
 static ovoid_shape *cylinder; ///< beside the pair's second shape: the round pair
 static ovoid_answer answer, round_answer;
-static ovoid_cover cover;
+STATIC_COVER(cover);
 static ovoid_smooth smooth;
 static ovoid_gradient gradient;
 static ovoid_impact impact;

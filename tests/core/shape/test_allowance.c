@@ -3,6 +3,7 @@
 // as the search makes them; a hull of displaced points by no more than the displacement; cylinders and cones have
 // supports in closed form. Each query of the shape with its allowance is compared with that of the true body.
 #include "compounds.h"
+#include "proofs/covers.h"
 
 #include "linear/exact.h"
 #include "linear/mat3.h"
@@ -119,7 +120,7 @@ static void check_decided(const ovoid_answer *x, const ovoid_answer *truth) {
 }
 
 static void check_pair(const trial *t) {
-    static ovoid_cover cover;
+    STATIC_COVER(cover);
     ovoid_answer truth = ovoid_depth(&t->bodies, NULL, NULL, NULL), x;
     double slack = 3e-9 * size_of(&t->shapes);
 
@@ -260,7 +261,7 @@ static void test_compounds(void) {
         ovoid_body_pair shapes = {{.compound = a.shape, .pose = at}, {.compound = b.shape, .pose = to}},
                         bodies = {{.compound = a.body, .pose = at}, {.compound = b.body, .pose = to}};
         ovoid_exclusion items[256];
-        static ovoid_cover cover;
+        STATIC_COVER(cover);
         ovoid_exclusions all = {.items = items, .capacity = 256, .cover = &cover};
         ovoid_body_answer truth = ovoid_body_depth(&bodies, NULL, NULL),
                           x = ovoid_body_depth(&shapes, NULL, &(ovoid_body_evidence){.exclusions = &all});

@@ -2,6 +2,7 @@
 // as far from it as that says; a body drawn in across its axis has the shape that it was drawn from for its bound. Each
 // answer is checked without a search, by the shape that it is about, and is refused by one with another axis.
 #include "compounds.h"
+#include "proofs/covers.h"
 
 #include "linear/mat3.h"
 #include "linear/rotation.h"
@@ -97,7 +98,7 @@ static void check_other_axis(const rest *r, const ovoid_answer *x, const ovoid_c
 
 // On its base: decided, however near.
 static void check_stands(int is_cone, double scale, double gap, uint64_t *s) {
-    static ovoid_cover cover;
+    STATIC_COVER(cover);
     double turn = random_uniform(s, 0, 3);
     rest r = make_rest(is_cone, scale, gap, (ovoid_quat){cos(turn), 0, 0, sin(turn)}, s);
     ovoid_status wanted = gap > 1e-8 ? OVOID_SEPARATED : gap < -1e-8 ? OVOID_OVERLAPPING : OVOID_TOUCHING;
@@ -136,7 +137,7 @@ static void test_leaning(void) {
     static const double tilts[] = {1e-9, 1e-6, 1e-3, 0.1};
     uint64_t s = 5;
     for (int i = 0; i < 10000; i++) {
-        static ovoid_cover cover;
+        STATIC_COVER(cover);
         check_seed = s;
         int is_cone = i & 1, is_small = i % 4 < 2;
         double scale = pow(10, random_uniform(&s, -9, 9)), tilt = tilts[i / 4 % 4],

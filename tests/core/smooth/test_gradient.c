@@ -8,6 +8,7 @@
 #include "bits.h"
 #include "linear/mat3.h"
 #include "pairs.h"
+#include "proofs/covers.h"
 
 typedef long double real;
 typedef struct rvec {
@@ -131,7 +132,7 @@ static void test_random(void) {
     long shown[2] = {0}, count[2] = {0};
     long exact = 0, all = 0;
     double worst = 0;
-    static ovoid_cover cover;
+    STATIC_COVER(cover);
     for (uint64_t seed = 1; seed <= 250; seed++) {
         uint64_t s = check_seed = seed;
         ovoid_shape *a = small_hull(&s, seed % 3 ? 0 : 0.2), *b = small_hull(&s, 0);
@@ -173,7 +174,7 @@ static void test_random(void) {
 }
 
 static ovoid_gradient ask(const ovoid_shape *a, const ovoid_shape *b, vec3 at, ovoid_quat turned) {
-    static ovoid_cover cover;
+    STATIC_COVER(cover);
     ovoid_pair pair = {a, b, {{0, 0, 0}, {1, 0, 0, 0}}, {at, turned}};
     ovoid_answer x = ovoid_depth(&pair, NULL, NULL, &cover);
     return ovoid_answer_compute_gradient(&pair, &x, &cover);
@@ -237,11 +238,10 @@ static void test_kinks(void) {
     g = ovoid_answer_compute_gradient(&pair, &x, NULL);
     CHECK(!g.has_translation && g.gradient[6] != 0);
     x.proof.a[0] = 1000;
-    static ovoid_cover wrong;
-    wrong.point_count = 4;
-    wrong.triangle_count = 4;
+    static own_cover wrong;
+    own_cover_set(&wrong, 4, 4);
     wrong.triangles[2][1] = 9999;
-    g = ovoid_answer_compute_gradient(&pair, &x, &wrong);
+    g = ovoid_answer_compute_gradient(&pair, &x, &wrong.cover);
     CHECK(!g.has_translation);
     ovoid_shape_destroy(cube);
     ovoid_shape_destroy(capsule);

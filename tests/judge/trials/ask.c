@@ -3,6 +3,7 @@
 #include "ask.h"
 
 #include "check.h"
+#include "proofs/covers.h"
 #include "report.h"
 #include "shapes.h"
 
@@ -217,7 +218,7 @@ static void ask_limited(const hearing *h) {
     case 2: options.absolute_tolerance = random_uniform(h->state, 0, size); break;
     default: options.cap = fabs(h->d) * random_uniform(h->state, 0, 2); break;
     }
-    ovoid_cover cover;
+    LOCAL_COVER(cover);
     ovoid_answer x = random_next(h->state) % 2 ? ovoid_depth(h->pair, &options, NULL, &cover)
                                                : (cover.point_count = 0, ovoid_distance(h->pair, &options, NULL));
     hearing with_options = *h;
@@ -231,7 +232,7 @@ static void ask_limited(const hearing *h) {
 }
 
 static void ask_warm(const hearing *h, const ovoid_proof *warm, const ovoid_proof *other) {
-    ovoid_cover cover;
+    LOCAL_COVER(cover);
     ovoid_answer x = ovoid_depth(h->pair, NULL, warm, &cover);
     hear_depth(h, &x, &cover, "depth, warm");
     x = ovoid_collide(h->pair, NULL, other);
@@ -243,7 +244,7 @@ static void ask_warm(const hearing *h, const ovoid_proof *warm, const ovoid_proo
 
 ovoid_proof trial_ask(tally *t, const ovoid_pair *pair, const trial_hints *hints, uint64_t *state) {
     hearing h = {t, pair, hints, state, 0, NULL};
-    ovoid_cover cover;
+    LOCAL_COVER(cover);
     t->pairs++;
     ovoid_answer depth = ovoid_depth(pair, NULL, NULL, &cover);
     hear_depth(&h, &depth, &cover, "depth");

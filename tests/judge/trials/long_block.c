@@ -22,6 +22,7 @@ typedef struct work {
     uint64_t until_exact;
     ovoid_proof ring[RING]; // the last proofs found, of whatever pair
     uint32_t at;
+    uint64_t memory[OVOID_COVER_SIZE / sizeof(uint64_t)];
     ovoid_cover cover;
 } work;
 
@@ -319,6 +320,7 @@ static uint64_t nanoseconds_now(void) {
 void block_execute(const block_run *run, counts *sum) {
     uint64_t start = nanoseconds_now(), r = run->seed;
     work *w = calloc(1, sizeof *w);
+    if (w) w->cover = (ovoid_cover){.memory = w->memory, .size = sizeof w->memory};
     if (!w) abort();
     w->run = run;
     w->until_exact = run->sample;
