@@ -2,12 +2,19 @@
 // order of the list.
 #include "base/environment.h"
 #include "base/error.h"
+#include "exact/cover_memory.h"
 #include "world/step.h"
 
 // ---- deciding
 
 // How many pairs ahead the place of the second body is prefetched. The list is sorted by the first one.
 enum { PLACES_AHEAD = 16 };
+
+static size_t count_contacts(const world_pair *pairs, uint32_t count) {
+    size_t contacts = 0;
+    for (uint32_t i = 0; i < count; i++) contacts += (pairs[i].flags & PAIR_CONTACT) != 0;
+    return contacts;
+}
 
 static void decide_chunk(ovoid_world *w, world_pair *pairs, uint32_t count, chunk *out) {
     uint16_t open[CHUNK];
@@ -17,12 +24,13 @@ static void decide_chunk(ovoid_world *w, world_pair *pairs, uint32_t count, chun
         open[open_count] = (uint16_t)i;
         open_count += !step_is_answered(w, &pairs[i]);
     }
+    *out = (chunk){.queried = open_count};
     for (uint32_t i = 0; i < open_count; i++) {
         step_prefetch(w, pairs, open, i, open_count);
         pair_update(w, &pairs[open[i]]);
+        out->full += (pairs[open[i]].flags & PAIR_FULL) != 0;
     }
-    *out = (chunk){0, open_count};
-    for (uint32_t i = 0; i < count; i++) out->contacts += (pairs[i].flags & PAIR_CONTACT) != 0;
+    out->contacts = count_contacts(pairs, count);
 }
 
 static void decide_chunks(void *work, uint32_t first, uint32_t end, uint32_t worker) {
@@ -32,14 +40,35 @@ static void decide_chunks(void *work, uint32_t first, uint32_t end, uint32_t wor
         decide_chunk(w, &w->pairs[(size_t)c * CHUNK], step_get_chunk_size(w, c), &w->chunks[c]);
 }
 
-static void decide(ovoid_world *w, uint32_t chunks, ovoid_contacts *found) {
+// The pairs of a chunk whose searches filled their memory, one after another in the world's. Where that is not to be
+// had they are forgotten, so that the next call asks them again, and 0 is returned.
+static int decide_full(ovoid_world *w, world_pair *pairs, uint32_t count, chunk *out) {
+    size_t size = cover_get_memory_size(OVOID_COVER_POINTS_MAX);
+    int has_memory = world_reserve(w, (void **)&w->cover_memory, &w->cover_size, 0, size, 1);
+    ovoid_cover cover = {.memory = w->cover_memory, .size = w->cover_size};
+    for (uint32_t i = 0; i < count; i++) {
+        if (!(pairs[i].flags & PAIR_FULL)) continue;
+        if (has_memory)
+            pair_update_with(w, &pairs[i], &cover);
+        else
+            pairs[i].flags &= (uint16_t) ~(PAIR_FULL | PAIR_KNOWN);
+    }
+    out->contacts = count_contacts(pairs, count);
+    return has_memory;
+}
+
+static int decide(ovoid_world *w, uint32_t chunks, ovoid_contacts *found) {
+    int has_memory = 1;
     task_host_run(&w->host, &(task){decide_chunks, w, chunks, 1});
     for (uint32_t c = 0; c < chunks; c++) {
+        if (w->chunks[c].full)
+            has_memory &= decide_full(w, &w->pairs[(size_t)c * CHUNK], step_get_chunk_size(w, c), &w->chunks[c]);
         size_t here = w->chunks[c].contacts;
         w->chunks[c].contacts = found->count;
         found->count += here;
         found->queried += w->chunks[c].queried;
     }
+    return has_memory;
 }
 
 // ---- writing
@@ -88,8 +117,7 @@ static ovoid_code compute_contacts(ovoid_world *w, const ovoid_contact_query *q,
     uint32_t chunks;
     step_take_query(w, q, 0);
     if (!step_begin(w, &chunks, &found)) return step_refuse_memory(error);
-    decide(w, chunks, &found);
-    if (!reserve_contacts(w, found.count)) return step_refuse_memory(error);
+    if (!decide(w, chunks, &found) || !reserve_contacts(w, found.count)) return step_refuse_memory(error);
     task_host_run(&w->host, &(task){write_chunks, w, chunks, 1});
     step_end(w, &found);
     found.items = w->contacts;

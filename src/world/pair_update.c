@@ -6,6 +6,7 @@
 #include "world/pair_update.h"
 
 #include "body/body_find.h"
+#include "exact/cover_memory.h"
 
 #define SLACK_SET 0x1p-48
 #define SLACK_REPORTED 0x1p-49
@@ -139,14 +140,18 @@ double pair_compute_age(const ovoid_world *w, const world_pair *p, const pair_ca
            SLACK_REPORTED * (sum_abs(d) + sum_abs(cache->between) + t + fabs(cache->lower) + fabs(cache->upper));
 }
 
-static void query_shapes(const ovoid_world *w, const world_pair *p, const pair_cache *cache, ovoid_answer *out) {
+// cover: with memory for the search, or NULL.
+static void query_shapes(const ovoid_world *w, const world_pair *p, ovoid_cover *cover, ovoid_answer *out) {
+    const pair_cache *cache = &w->pair_cache[p->slot];
     const ovoid_body *a = &w->bodies[p->a].body, *b = &w->bodies[p->b].body;
     ovoid_pair both = {a->shape, b->shape, a->pose, b->pose};
     ovoid_proof earlier;
     int is_warm = cache->proof != OVOID_PROOF_NONE;
     if (is_warm) write_proof(cache, &earlier);
     const query_goal goal = make_goal(w, p->a, p->b);
-    answer_find_internal(&both, &(query_request){&w->query_options, &goal, is_warm ? &earlier : NULL, NULL}, out);
+    ovoid_options options = w->query_options;
+    options.iterations = cover_get_iterations(cover, options.iterations);
+    answer_find_internal(&both, &(query_request){&options, &goal, is_warm ? &earlier : NULL, cover}, out);
 }
 
 static void cache_answer(ovoid_world *w, const world_pair *p, pair_cache *cache, const ovoid_answer *answer) {
@@ -161,15 +166,17 @@ static void cache_answer(ovoid_world *w, const world_pair *p, pair_cache *cache,
         w->witnesses[p->slot] = (ovoid_witness){answer->point_a, answer->point_b, answer->normal};
 }
 
-static void query_pair(ovoid_world *w, const world_pair *p, pair_cache *cache) {
+static void query_pair(ovoid_world *w, const world_pair *p, ovoid_cover *cover) {
+    pair_cache *cache = &w->pair_cache[p->slot];
     if (w->bodies[p->a].body.shape && w->bodies[p->b].body.shape) {
         ovoid_answer x;
-        query_shapes(w, p, cache, &x);
+        query_shapes(w, p, cover, &x);
         cache_answer(w, p, cache, &x);
         return;
     }
     ovoid_body_answer x;
-    pair_query(w, (ovoid_couple){p->a, p->b}, cache, NULL, &x);
+    ovoid_exclusions with_cover = {.cover = cover};
+    pair_query(w, (ovoid_couple){p->a, p->b}, cache, cover ? &with_cover : NULL, &x);
     cache->part_a = x.part_a;
     cache->part_b = x.part_b;
     ovoid_answer own = ovoid_body_answer_get_answer(&x);
@@ -184,8 +191,18 @@ void pair_renew(const ovoid_world *w, world_pair *p, pair_cache *cache) {
 
 void pair_update(ovoid_world *w, world_pair *p) {
     pair_cache *cache = &w->pair_cache[p->slot];
-    if (!(p->flags & PAIR_KNOWN) || !pair_revalidate(w, p, cache)) query_pair(w, p, cache);
+    p->flags &= (uint16_t)~PAIR_FULL;
+    if (!(p->flags & PAIR_KNOWN) || !pair_revalidate(w, p, cache)) {
+        query_pair(w, p, NULL);
+        if (w->kind == OVOID_QUERY_DEPTH && cache->limit == OVOID_LIMIT_CAPACITY) p->flags |= PAIR_FULL;
+    }
     pair_renew(w, p, cache);
+}
+
+void pair_update_with(ovoid_world *w, world_pair *p, ovoid_cover *cover) {
+    p->flags &= (uint16_t)~PAIR_FULL;
+    query_pair(w, p, cover);
+    pair_renew(w, p, &w->pair_cache[p->slot]);
 }
 
 // ---- contacts

@@ -12,8 +12,12 @@ void pair_query(const ovoid_world *w, ovoid_couple pair, const pair_cache *cache
 /// Sets how long the cached answer holds for the world's query: kind, v, c and CONTACT.
 void pair_set_age(const ovoid_world *w, world_pair *p, const pair_cache *cache);
 
-/// Answers the pair from its revalidated proof or by a query, caches the answer and sets its age.
+/// Answers the pair from its revalidated proof or by a query, caches the answer and sets its age. FULL is set where a
+/// search for a depth filled its memory.
 void pair_update(ovoid_world *w, world_pair *p);
+
+/// Asks a pair anew whose search for a depth filled its own memory (PAIR_FULL), with that of the cover.
+void pair_update_with(ovoid_world *w, world_pair *p, ovoid_cover *cover);
 
 /// Notes that the cached bounds are those at the present poses, and sets their age.
 void pair_renew(const ovoid_world *w, world_pair *p, pair_cache *cache);

@@ -58,7 +58,7 @@ static inline int groups_are_paired(const ovoid_groups *a, const ovoid_groups *b
 ///   SPHERE: |d| - c > 0            the enclosing spheres are farther than the margin
 /// with t the sum of both travels.
 typedef enum pair_kind { PAIR_OPEN = 0, PAIR_PLANE, PAIR_BALL, PAIR_SPHERE } pair_kind;
-enum { PAIR_CONTACT = 1, PAIR_STILL = 2, PAIR_KNOWN = 4, PAIR_CHECK = 8 };
+enum { PAIR_CONTACT = 1, PAIR_STILL = 2, PAIR_KNOWN = 4, PAIR_CHECK = 8, PAIR_FULL = 16 };
 typedef struct world_pair {
     uint32_t a, b;
     vec3 v;
@@ -99,9 +99,10 @@ typedef struct gathered {
     int failed;
 } gathered;
 
-/// Counts of a chunk of CHUNK pairs: its contacts, later the contacts before it; its pairs that were queried again.
+/// Counts of a chunk of CHUNK pairs: its contacts, later the contacts before it; its pairs that were queried again, and
+/// those of them whose search for a depth filled its memory.
 typedef struct chunk {
-    size_t contacts, queried;
+    size_t contacts, queried, full;
 } chunk;
 
 /// How far beyond the margin contacts of a body are wanted.
@@ -146,6 +147,8 @@ struct ovoid_world {
     size_t key_capacity;
     chunk *chunks;
     size_t chunk_capacity;
+    unsigned char *cover_memory; ///< of searches for depths that fill their own; NULL: none did yet
+    size_t cover_size;
     // The last step.
     int has_query, wants_manifolds;
     ovoid_query_kind kind;

@@ -25,10 +25,10 @@ using proof = zeroed<ovoid_proof>;
 class cover : public ovoid_cover {
   public:
     /** For up to that many points: 10 KB, and beyond 512 points 150 bytes each. Throws std::bad_alloc. */
-    explicit cover(std::uint32_t points = OVOID_COVER_POINTS)
-        : ovoid_cover{}, data_(new unsigned char[ovoid_cover_get_size(points)]) {
-        memory = data_.get();
+    explicit cover(std::uint32_t points = OVOID_COVER_POINTS) : ovoid_cover{} {
         size = ovoid_cover_get_size(points);
+        data_.reset(new unsigned char[size]);
+        memory = data_.get();
     }
     /** The other cover has no memory then, and shows nothing. */
     cover(cover &&from) noexcept : ovoid_cover(from), data_(std::move(from.data_)) {
