@@ -58,7 +58,8 @@ static int prove_quickly(const ovoid_polytope *p, const certificate *c, vec3 cen
     // The entries of Q are products of the map's, summed, scaled and rounded: 6 roundings.
     double most = certificate_compute_bound_quickly(c, p, center, map) * (1 + 16 * ROUNDING * size);
     fit->ellipsoid = e;
-    fit->volume = ellipsoid_compute_measure(&e, 3);
+    fit->volume =
+        f.defect < FACTOR_DEFECT_MOST ? ball_get_measure(3) * factor_get_content(&f) : ellipsoid_compute_measure(&e, 3);
     fit->gap = most / (clear * clear * clear * (1 - 32 * ROUNDING)) - 1;
     return fit->gap >= 0;
 }

@@ -194,6 +194,8 @@ static void solve_model(solver *w, double least) {
         add_halfspace(w, &q, i, 0);
         qp_settle(&q);
     }
+    qp_refine(&q);
+    compute_step(w, &q);
     w->s->count = q.count;
     for (int k = 0; k < q.count; k++) w->s->item[k] = q.item[k], w->s->weight[k] = q.x[k];
 }

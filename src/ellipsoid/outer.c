@@ -154,7 +154,9 @@ static int fit_quickly(const ovoid_polytope *p, const design *d, double gap, ovo
     double error = 2 * (d->count + 16) * ROUNDING * size + off * off;
     fit->ellipsoid = (ovoid_ellipsoid){center, sym3_scale(q, scale)};
     sym3dd stored = sym3dd_from(fit->ellipsoid.q);
-    fit->volume = ball_get_measure(3) * sym3dd_compute_content(&stored, 3, NULL);
+    double content = f.defect < FACTOR_DEFECT_MOST ? scale * sqrt(scale) * factor_get_content(&f)
+                                                   : sym3dd_compute_content(&stored, 3, NULL);
+    fit->volume = ball_get_measure(3) * content;
     fit->gap = scale * sqrt(scale) * (1 + 4 * error) - 1;
     fit->iterations = d->steps;
     fit->converged = fit->gap <= gap && fit->gap >= 0;

@@ -77,9 +77,9 @@ static void solve(const qp *q, const double *c, double *x) {
     }
 }
 
-// One step of refinement, which removes most of the ridge, unless an unknown would leave.
-static void refine(qp *q) {
-    double rest[QP_SIZE], more[QP_SIZE];
+// The rest of the equations without the ridge, solved with it.
+void qp_refine(qp *q) {
+    double rest[QP_SIZE] = {0}, more[QP_SIZE];
     for (int i = 0; i < q->count; i++) {
         rest[i] = q->c[i];
         for (int j = 0; j < q->count; j++) rest[i] -= q->gram[i][j] * q->x[j];
@@ -102,10 +102,7 @@ void qp_settle(qp *q) {
                 if (goal[i] <= 0 && part * (q->x[i] - goal[i]) >= q->x[i])
                     part = q->x[i] / (q->x[i] - goal[i]), gone = i;
             for (int i = 0; i < q->count; i++) q->x[i] += part * (goal[i] - q->x[i]);
-            if (gone < 0) {
-                refine(q);
-                return;
-            }
+            if (gone < 0) return;
         }
         drop(q, gone);
     }

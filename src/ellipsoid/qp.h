@@ -24,6 +24,9 @@ void qp_clear(qp *q);
 /// Adds the unknown whose item, row and c stand at index q->count, with the value x >= 0.
 void qp_add(qp *q, double x);
 
+/// A step of refinement of a settled program, which removes most of the ridge, unless an unknown would leave.
+void qp_refine(qp *q);
+
 /// Moves x from a feasible point to the minimum of the unknowns it has; those that reach zero are dropped. Cost: the
 /// rows of a Cholesky factor for the unknowns that are new, and for those behind each that is dropped.
 void qp_settle(qp *q);

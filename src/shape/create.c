@@ -135,12 +135,15 @@ static int fill_upright(sym3 q, double w[6]) {
 static shape_inner make_inside(sym3 q, uint32_t rank) {
     shape_inner in = {.reach = sqrt(sym3_trace(q)) * (1 + 1e-7)};
     factor f;
+    double size;
     if (rank < 3) return in;
     if (fill_upright(q, in.w)) {
         in.least = least_radius(q);
         return in;
     }
-    if (!factor_make(q, &f) || f.count < 3 || !(f.defect < 1e-12)) return in;
+    if (!(factor_make_quickly(q, &f, &size) && f.defect < FACTOR_DEFECT_MOST) &&
+        !(factor_make(q, &f) && f.count == 3 && f.defect < FACTOR_DEFECT_MOST))
+        return in;
     in.least = least_radius(q);
     for (int i = 0, k = 0; i < 3; i++)
         for (int j = 0; j <= i; j++) in.w[k++] = f.w[i][j] * f.scale[j];
