@@ -81,10 +81,11 @@ template <class S> bool make_couple(const posed<S> &a, const posed<S> &b, body_c
 /// A plane and another geometry: the answer from a to b, or false if FCL has to answer.
 template <class S> bool make_plane_answer(const posed<S> &a, const posed<S> &b, plane_answer &answer) {
     const bool is_a = a.is_flat();
-    const posed<S> &other = is_a ? b : a;
-    ovoid_pose unused;
-    if (other.is_flat() || !to_pose<S>(a.pose, unused) || !to_pose<S>(b.pose, unused)) return false;
-    answer = ask_plane(other.of, other.pose, is_a ? make_plane(a.of, a.pose) : make_plane(b.of, b.pose));
+    const posed<S> &flat = is_a ? a : b, &other = is_a ? b : a;
+    const bool is_sphere = other.type == ::fcl::GEOM_SPHERE;
+    if (other.is_flat() || !is_rigid<S>(flat.pose)) return false;
+    if (!(is_sphere ? is_in_range<S>(other.pose) : is_rigid<S>(other.pose))) return false;
+    answer = ask_plane<S>({other.of, other.type}, other.pose, make_plane<S>({flat.of, flat.type}, flat.pose));
     return std::isfinite(answer.distance);
 }
 
@@ -119,7 +120,7 @@ template <class S> bool collide_plane(contact_list<S> &to, const posed<S> &a, co
     if (other.of->getObjectType() != ::fcl::OT_BVH || to.room() == 1)
         contacts.add(answer);
     else
-        list_plane(other.of, other.pose, make_plane(flat.of, flat.pose),
+        list_plane(other.of, other.pose, make_plane<S>({flat.of, flat.type}, flat.pose),
                    [&](const plane_answer &at) { return contacts.add(at); });
     return true;
 }

@@ -18,6 +18,25 @@ namespace detail {
 
 using vector = ::fcl::Vector3<double>;
 
+template <class S> vector to_vector(const ::fcl::Vector3<S> &v) {
+    return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
+}
+
+/// A transform in doubles, entry by entry: Eigen would copy the matrix for a cast of type.
+template <class S> class placing {
+  public:
+    explicit placing(const ::fcl::Transform3<S> &of) : of_(of) {}
+    vector turn(const vector &v) const { return {row(0, v), row(1, v), row(2, v)}; }
+    vector turn_back(const vector &v) const { return {column(0, v), column(1, v), column(2, v)}; }
+    vector position() const { return {at(0, 3), at(1, 3), at(2, 3)}; }
+
+  private:
+    double at(int i, int k) const { return static_cast<double>(of_.matrix().coeff(i, k)); }
+    double row(int i, const vector &v) const { return at(i, 0) * v[0] + at(i, 1) * v[1] + at(i, 2) * v[2]; }
+    double column(int k, const vector &v) const { return at(0, k) * v[0] + at(1, k) * v[1] + at(2, k) * v[2]; }
+    const ::fcl::Transform3<S> &of_;
+};
+
 /// The sign of a direction's component; 0 where the component is no more than a rounding, so that of a face or an edge
 /// that is parallel to the plane the middle counts, as in FCL.
 inline double side_of(double component) { return std::fabs(component) <= 1e-15 ? 0 : std::copysign(1, component); }
@@ -60,15 +79,15 @@ template <class S> void add_mesh(supporter<S> &to, const mesh_view<S> &mesh) {
 }
 
 /// The farthest point of a geometry along a unit direction of its frame; its height is -infinity if there is none.
-template <class S> extreme find_extreme(const geometry<S> *g, const vector &n) {
+template <class S> extreme find_extreme(const typed<S> &geometry, const vector &n) {
     supporter<S> to(n);
-    switch (g->getNodeType()) {
+    const auto *g = geometry.of;
+    switch (geometry.type) {
     case ::fcl::GEOM_BOX: {
         const vector half = static_cast<const ::fcl::Box<S> *>(g)->side.template cast<double>() / 2;
         to.add_point(vector(half[0] * side_of(n[0]), half[1] * side_of(n[1]), half[2] * side_of(n[2])));
         break;
     }
-    case ::fcl::GEOM_SPHERE: to.add_ball(static_cast<const ::fcl::Sphere<S> *>(g)->radius, vector::Zero()); break;
     case ::fcl::GEOM_ELLIPSOID: {
         const vector radii = static_cast<const ::fcl::Ellipsoid<S> *>(g)->radii.template cast<double>();
         const vector scaled = radii.cwiseProduct(n);
@@ -115,20 +134,21 @@ struct plane {
 };
 
 /// The plane in the world; its normal is not finite if it was no plane.
-template <class S> plane make_plane(const geometry<S> *g, const ::fcl::Transform3<S> &pose) {
-    const bool is_halfspace = g->getNodeType() == ::fcl::GEOM_HALFSPACE;
+template <class S> plane make_plane(const typed<S> &geometry, const ::fcl::Transform3<S> &pose) {
+    const bool is_halfspace = geometry.type == ::fcl::GEOM_HALFSPACE;
     vector n;
     double d;
     if (is_halfspace) {
-        const auto *h = static_cast<const ::fcl::Halfspace<S> *>(g);
-        n = h->n.template cast<double>(), d = static_cast<double>(h->d);
+        const auto *h = static_cast<const ::fcl::Halfspace<S> *>(geometry.of);
+        n = to_vector<S>(h->n), d = static_cast<double>(h->d);
     } else {
-        const auto *h = static_cast<const ::fcl::Plane<S> *>(g);
-        n = h->n.template cast<double>(), d = static_cast<double>(h->d);
+        const auto *h = static_cast<const ::fcl::Plane<S> *>(geometry.of);
+        n = to_vector<S>(h->n), d = static_cast<double>(h->d);
     }
     const double length = n.norm();
-    n = pose.linear().template cast<double>() * n / length;
-    return {n, d / length + n.dot(pose.translation().template cast<double>()), is_halfspace};
+    const placing<S> at(pose);
+    n = at.turn(n) / length;
+    return {n, d / length + n.dot(at.position()), is_halfspace};
 }
 
 /// Where a geometry meets a plane: points and normal in the world, from the geometry to the plane.
@@ -157,15 +177,19 @@ inline plane_answer answer_plane(const plane &p, const extreme &low, const extre
 
 /// Heights above the plane, points in the world.
 template <class S>
-extreme find_height(const geometry<S> *g, const ::fcl::Transform3<S> &pose, const plane &p, double sign) {
-    const auto turn = pose.linear().template cast<double>().eval();
-    extreme e = find_extreme(g, vector(turn.transpose() * p.n * sign));
-    e.point = turn * e.point + pose.translation().template cast<double>();
+extreme find_height(const typed<S> &g, const ::fcl::Transform3<S> &pose, const plane &p, double sign) {
+    const placing<S> at(pose);
+    extreme e{vector::Zero(), 0, -1};
+    if (g.type == ::fcl::GEOM_SPHERE)
+        e.point =
+            at.position() + p.n * (sign * static_cast<double>(static_cast<const ::fcl::Sphere<S> *>(g.of)->radius));
+    else
+        e = find_extreme(g, vector(at.turn_back(p.n) * sign)), e.point = at.turn(e.point) + at.position();
     e.height = p.n.dot(e.point) - p.d;
     return e;
 }
 
-template <class S> plane_answer ask_plane(const geometry<S> *g, const ::fcl::Transform3<S> &pose, const plane &p) {
+template <class S> plane_answer ask_plane(const typed<S> &g, const ::fcl::Transform3<S> &pose, const plane &p) {
     const extreme low = find_height(g, pose, p, -1);
     return answer_plane(p, low, p.is_halfspace ? low : find_height(g, pose, p, 1));
 }

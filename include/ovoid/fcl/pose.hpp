@@ -44,6 +44,26 @@ template <class S> bool to_pose(const ::fcl::Transform3<S> &t, ovoid_pose &pose)
     return true;
 }
 
+/// Is the position of a transform finite, and within ovoid's range?
+template <class S> bool is_in_range(const ::fcl::Transform3<S> &t) {
+    const auto is_in = [&t](int i) {
+        return std::fabs(static_cast<double>(t.matrix().coeff(i, 3))) <= OVOID_LENGTH_MAX;
+    };
+    return is_in(0) && is_in(1) && is_in(2);
+}
+/// Is a transform a rigid motion in that range? Most are seen to be by the columns' lengths and their cross product,
+/// which costs less than a pose.
+template <class S> bool is_rigid(const ::fcl::Transform3<S> &t) {
+    const auto m = [&t](int i, int k) { return static_cast<double>(t.matrix().coeff(i, k)); };
+    const auto dot = [&m](int i, int k) { return m(0, i) * m(0, k) + m(1, i) * m(1, k) + m(2, i) * m(2, k); };
+    const auto cross = [&m](int i, int k) { return m(i, 0) * m(k, 1) - m(k, 0) * m(i, 1); };
+    const double columns = std::fabs(dot(0, 0) - 1) + std::fabs(dot(1, 1) - 1) + std::fabs(dot(0, 1));
+    const double hand =
+        std::fabs(cross(1, 2) - m(0, 2)) + std::fabs(cross(2, 0) - m(1, 2)) + std::fabs(cross(0, 1) - m(2, 2));
+    ovoid_pose unused;
+    return columns + hand <= 1e-14 ? is_in_range<S>(t) : to_pose<S>(t, unused);
+}
+
 /// The transform of a pose.
 template <class S>::fcl::Transform3<S> from_pose(const ovoid_pose &pose) {
     double rows[9];
