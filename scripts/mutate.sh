@@ -32,7 +32,7 @@ tests_of() {
     boxes) echo "test_simd_box_axes test_query_boxes $query" ;;
     closed) echo "test_query_closed test_judge_closed test_query_batch test_prepared test_allowance test_query_boxes $query" ;;
     exact) echo "test_linear test_hull $query" ;;
-    hull) echo "test_linear test_hull test_measures test_shape $query" ;;
+    hull) echo "test_linear test_hull_sort test_hull test_measures test_shape $query" ;;
     shape) echo "test_centered_box test_regular_solid test_measures test_shape test_shape_triangles test_shape_file $query" ;;
     ellipsoid) echo "test_ellipsoid_quick test_ellipsoid_contain test_ellipsoid_overlap test_ellipsoid_gap test_ellipsoid_exact test_ellipsoid_nearest test_ellipsoid_outer test_ellipsoid_inner $query" ;;
     simd) echo "test_simd $query" ;;

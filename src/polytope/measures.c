@@ -33,18 +33,19 @@ static void add_simplex(moments *m, double measure, int dimension, const vec3 v[
 typedef struct frame {
     const ovoid_polytope *polytope;
     vec3 middle;
-    double unit;
+    double unit, inverse; // a power of two, and its inverse
 } frame;
 
 static vec3 compute_mean(const ovoid_polytope *p, vec3 near, double unit) {
     vec3 sum = {0, 0, 0};
+    double inverse = 1 / unit;
     for (uint32_t i = 0; i < p->vertex_count; i++)
-        sum = vec3_add(sum, vec3_scale(vec3_sub(vec3_at(p->vertices, i), near), 1 / unit));
+        sum = vec3_add(sum, vec3_scale(vec3_sub(vec3_at(p->vertices, i), near), inverse));
     return vec3_add(near, vec3_scale(sum, unit / p->vertex_count));
 }
 
 static vec3 get_corner(const frame *f, uint32_t v) {
-    return vec3_scale(vec3_sub(vec3_at(f->polytope->vertices, v), f->middle), 1 / f->unit);
+    return vec3_scale(vec3_sub(vec3_at(f->polytope->vertices, v), f->middle), f->inverse);
 }
 
 static void add_triangles(moments *m, const frame *f) {
@@ -79,7 +80,7 @@ static ovoid_measures compute_measures(const ovoid_polytope *polytope) {
     result.sphere_radius = s.radius;
 
     double unit = ldexp(1, find_unit_exponent(vec3_max_abs(vec3_sub(result.box.max, result.box.min))));
-    frame f = {polytope, compute_mean(polytope, s.center, unit), unit};
+    frame f = {polytope, compute_mean(polytope, s.center, unit), unit, 1 / unit};
     moments m = {0};
     if (polytope->rank >= 2) add_triangles(&m, &f);
     if (polytope->rank == 1) add_segment(&m, &f);

@@ -33,9 +33,23 @@ void sort_indices(uint32_t *index, uint32_t *scratch, uint32_t count, index_orde
 // Radix sort is faster from this number of entries on.
 enum { BYTES = 8, VALUES = 256, RADIX_LEAST = 256 };
 
+// Short runs are sorted by insertion.
+enum { RUN = 8 };
+
+static void sort_run(sort_entry *entries, uint32_t count) {
+    for (uint32_t i = 1; i < count; i++) {
+        sort_entry entry = entries[i];
+        uint32_t k = i;
+        for (; k > 0 && entries[k - 1].key > entry.key; k--) entries[k] = entries[k - 1];
+        entries[k] = entry;
+    }
+}
+
 // Merges runs between the two arrays in turn. Returns the one that holds the result.
 static sort_entry *merge_entries(sort_entry *from, sort_entry *to, uint32_t count) {
-    for (uint32_t run = 1; run < count; run *= 2) {
+    for (uint32_t start = 0; start < count; start += RUN)
+        sort_run(from + start, count - start < RUN ? count - start : RUN);
+    for (uint32_t run = RUN; run < count; run *= 2) {
         for (uint32_t start = 0; start < count; start += 2 * run) {
             uint32_t i = start, middle = start + run < count ? start + run : count, j = middle;
             uint32_t end = middle + run < count ? middle + run : count;

@@ -14,17 +14,17 @@ typedef struct cloud {
     const double *xyz;
     uint32_t count;
     vec3 middle;
-    double unit; // a power of two
+    double unit, inverse; // a power of two, and its inverse
 } cloud;
 
 static vec3 get_point(const cloud *c, uint32_t i) {
-    return vec3_scale(vec3_sub(vec3_at(c->xyz, i), c->middle), 1 / c->unit);
+    return vec3_scale(vec3_sub(vec3_at(c->xyz, i), c->middle), c->inverse);
 }
 
 static cloud make_cloud(const double *xyz, uint32_t count) {
     box b = box_make_around(xyz, count);
     double unit = ldexp(1, find_unit_exponent(vec3_max_abs(vec3_sub(b.max, b.min))));
-    return (cloud){xyz, count, vec3_add(vec3_scale(b.min, 0.5), vec3_scale(b.max, 0.5)), unit};
+    return (cloud){xyz, count, vec3_add(vec3_scale(b.min, 0.5), vec3_scale(b.max, 0.5)), unit, 1 / unit};
 }
 
 // The sphere through k <= 4 points, with its centre in their span; 0 if there is none in doubles.
@@ -86,9 +86,9 @@ double sphere_compute_radius(const double *xyz, uint32_t count, vec3 center) {
     double size = 0, farthest = 0;
     for (uint32_t i = 0; i < count; i++) size = max2(size, vec3_max_abs(vec3_sub(vec3_at(xyz, i), center)));
     if (size == 0) return 0;
-    double unit = ldexp(1, find_unit_exponent(size));
+    double unit = ldexp(1, find_unit_exponent(size)), inverse = 1 / unit;
     for (uint32_t i = 0; i < count; i++)
-        farthest = max2(farthest, vec3_norm_squared(vec3_scale(vec3_sub(vec3_at(xyz, i), center), 1 / unit)));
+        farthest = max2(farthest, vec3_norm_squared(vec3_scale(vec3_sub(vec3_at(xyz, i), center), inverse)));
     // Differences, squares and sums are within 5 roundings of the square, so 2.5 of the root; its own rounding and
     // those of this line make 6. What underflows is below the last term.
     return sqrt(farthest) * (1 + 8 * 0x1p-53) * unit + 0x1p-1074;

@@ -17,7 +17,8 @@ static int count_crossing(vec3 c, vec3 q, const vec3 corner[3]) {
     return side == 0 ? 2 : side == -s0 ? side : 0;
 }
 
-// A slab around the ray, as thin as rounding allows: a triangle to one side of it does not meet the line.
+// A slab around the ray, as thin as rounding allows: a triangle to one side of it does not meet the line. Of two slabs
+// at right angles one mostly shows that.
 typedef struct slab {
     vec3 point, normal;
     double half;
@@ -26,8 +27,7 @@ typedef struct slab {
 // Lengths are in units of the body, whose coordinates are below 1 in size. Within the body a point of the line is off
 // the middle plane by the slope of the line, known to 8 roundings, times its distance from c; the corners' heights are
 // computed to within 8 roundings of theirs.
-static slab make_slab(vec3 c, vec3 q) {
-    vec3 along = vec3_unit(vec3_sub(q, c)), normal = vec3_orthogonal(along);
+static slab make_slab(vec3 c, vec3 along, vec3 normal) {
     double most = 2 * (1 + vec3_max_abs(c));
     return (slab){c, normal, most * (fabs(vec3_dot(normal, along)) + 64 * ROUNDING)};
 }
@@ -50,14 +50,15 @@ int64_t polytope_compute_winding(const ovoid_polytope *polytope, vec3 point) {
         vec3 q = vec3_scale(vec3_at(polytope->vertices, aim[0]), wa);
         q = vec3_add_scaled(q, vec3_at(polytope->vertices, aim[1]), wb);
         q = vec3_scale(vec3_add_scaled(q, vec3_at(polytope->vertices, aim[2]), wc), unit);
-        slab near = make_slab(c, q);
+        vec3 along = vec3_unit(vec3_sub(q, c)), normal = vec3_orthogonal(along);
+        slab near = make_slab(c, along, normal), across = make_slab(c, along, vec3_cross(along, normal));
         int64_t winding = 0;
         int met = 0;
         for (uint32_t t = 0; t < polytope->triangle_count && !met; t++) {
             vec3 corner[3];
             for (int i = 0; i < 3; i++)
                 corner[i] = vec3_scale(vec3_at(polytope->vertices, polytope->triangles[3 * (size_t)t + i]), unit);
-            int crossing = is_beside(&near, corner) ? 0 : count_crossing(c, q, corner);
+            int crossing = is_beside(&near, corner) || is_beside(&across, corner) ? 0 : count_crossing(c, q, corner);
             met = crossing == 2;
             winding += met ? 0 : crossing;
         }

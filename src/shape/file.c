@@ -158,9 +158,13 @@ typedef struct reader {
     const ovoid_allocator *allocator, *work; // of the shape; of working memory
 } reader;
 
+// Four bytes at a time are one load with most compilers.
 static uint64_t get_integer(reader *r, int bytes) {
     uint64_t value = 0;
-    for (int i = 0; i < bytes; i++) value |= (uint64_t)r->bytes[r->at++] << 8 * i;
+    for (int i = 0; i < bytes; i += 4, r->at += 4) {
+        const uint8_t *b = r->bytes + r->at;
+        value |= (b[0] | (uint64_t)b[1] << 8 | (uint64_t)b[2] << 16 | (uint64_t)b[3] << 24) << 8 * i;
+    }
     return value;
 }
 

@@ -119,7 +119,7 @@ static int is_convex(const tables *t, const uint32_t *loop, uint32_t count, vec3
     return area > 0;
 }
 
-// Replaces the loop that begins at `start` by the triangle to the left of a directed edge.
+// Puts the triangle to the left of a directed edge at `start`.
 static uint32_t put_triangle(tables *t, uint32_t edge, uint32_t start) {
     for (uint32_t i = 0; i < 3; i++, edge = t->next[edge]) {
         t->loop_vertices[start + i] = t->tails[edge];
@@ -142,8 +142,11 @@ static void fill_loops(tables *t, uint32_t loop_count) {
         uint32_t first = t->starts[f], start = count;
         t->starts[f] = start;
         if (first == NOTHING) continue;
+        if (t->p->rank == 3 && is_triangle(t, first)) {
+            count = put_triangle(t, first, start);
+            continue;
+        }
         count = append_loop(t, first, start);
-        if (t->p->rank == 3 && is_triangle(t, first)) continue;
         vec3 normal = shape_get_facet_normal(t->shape, f);
         if (t->p->rank == 3 && !is_convex(t, t->loop_vertices + start, count - start, normal))
             count = put_triangle(t, first, start);
