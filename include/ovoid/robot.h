@@ -291,9 +291,9 @@ typedef struct ovoid_robot_checker_options {
 } ovoid_robot_checker_options;
 
 /**
- * A checker; NULL on failure: MEMORY. Its queries allocate only after the cell has changed. The first checker of a
- * robot makes tables for pairs of its links, shared by all its checkers, by the robot's allocator: some tens of
- * milliseconds and about a megabyte for an arm (docs/robot-states.md).
+ * A checker; NULL on failure: MEMORY. Its queries allocate only after the cell has changed, and 4.9 MB once where the
+ * depth of a near pair needs them. The first checker of a robot makes tables for pairs of its links, shared by all its
+ * checkers, by the robot's allocator: some tens of milliseconds and about a megabyte for an arm (docs/robot-states.md).
  */
 OVOID_API ovoid_robot_checker *ovoid_robot_checker_create(const ovoid_robot_cell *cell,
                                                           const ovoid_robot_checker_options *options,

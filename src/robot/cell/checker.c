@@ -64,6 +64,7 @@ static const struct {
 
 static void release_all(ovoid_robot_checker *checker) {
     allocator_release(&checker->allocator, checker->block);
+    allocator_release(&checker->allocator, checker->cover.memory);
     if (checker->path) checker->path_destroy(checker->path);
     *checker =
         (ovoid_robot_checker){.cell = checker->cell, .allocator = checker->allocator, .kernels = checker->kernels};

@@ -104,7 +104,8 @@ struct ovoid_robot_checker {
     int has_limits; ///< the state that is placed, or the states, are within their limits
     const pair_table **pair_tables, **group_tables; ///< of each pair of items, of groups; NULL: there is none
     void *block;                                    ///< the memory of all these arrays
-    path_memory *path;                              ///< NULL: no path was searched since the cell has changed
+    ovoid_cover cover; ///< of depths that need more memory than a search has; NULL: none did
+    path_memory *path; ///< NULL: no path was searched since the cell has changed
     void (*path_destroy)(path_memory *memory);
 };
 

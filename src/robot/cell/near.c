@@ -1,6 +1,7 @@
 // The near pairs of a state, each with its distance or depth, its points and its gradient by the robot's variables.
 #include "base/environment.h"
 #include "base/error.h"
+#include "exact/cover_memory.h"
 #include "ovoid/smooth.h"
 #include "robot/cell/checker.h"
 
@@ -67,14 +68,27 @@ static int take_overlap(near_search *s, const checker_pair *p, pair_name name) {
     return 1;
 }
 
+// Memory for searches that fill their own, made by the first of them. 0 where there is none.
+static int take_memory(ovoid_robot_checker *checker) {
+    ovoid_cover *cover = &checker->cover;
+    if (cover->memory) return 1;
+    cover->size = cover_get_memory_size(OVOID_COVER_POINTS_MAX);
+    cover->memory = allocator_allocate(&checker->allocator, cover->size, 1);
+    return cover->memory != NULL;
+}
+
 static int ask_pair(void *context, const checker_pair *p, pair_name name) {
     near_search *s = context;
     uint64_t memory[OVOID_COVER_SIZE / sizeof(uint64_t)];
-    ovoid_cover cover = {.memory = memory, .size = sizeof memory};
+    ovoid_cover own = {.memory = memory, .size = sizeof memory}, *cover = &own;
     ovoid_options options = {.cap = add_up(s->margin, p->padding, p->error)};
     if (!(options.cap > 0)) options.cap = OVOID_LENGTH_MIN;
     if (s->without_depths && take_overlap(s, p, name)) return 1;
-    ovoid_answer answer = ovoid_depth(&p->pair, &options, pair_get_earlier(s->checker, p), &cover);
+    ovoid_answer answer = ovoid_depth(&p->pair, &options, pair_get_earlier(s->checker, p), cover);
+    if (answer.limit == OVOID_LIMIT_CAPACITY && take_memory(s->checker)) {
+        cover = &s->checker->cover;
+        answer = ovoid_depth(&p->pair, &options, pair_get_earlier(s->checker, p), cover);
+    }
     pair_remember(s->checker, p, &answer.proof);
     int asks_solids = sides_have_solid(&p->solids) && !(lower_outward(p, answer.lower) > s->margin);
     if (asks_solids) answer = solid_pair_distance(&p->pair, &p->solids, &options, &answer, pair_get_clear(p));
@@ -82,7 +96,7 @@ static int ask_pair(void *context, const checker_pair *p, pair_name name) {
     if (lower > s->margin) return 1;
     *p->near = s->checker->state;
     uint32_t slot = near_list_find_slot(&s->list, lower);
-    if (slot != NEAR_LIST_FULL) keep(s, slot, p, &answer, asks_solids ? NULL : &cover);
+    if (slot != NEAR_LIST_FULL) keep(s, slot, p, &answer, asks_solids ? NULL : cover);
     if (s->wants_one) s->margin = min2(s->margin, s->list.items[0].upper);
     return 1;
 }
