@@ -1,7 +1,6 @@
 // The near pairs of a state, each with its distance or depth, its points and its gradient by the robot's variables.
 #include "base/environment.h"
 #include "base/error.h"
-#include "exact/cover_memory.h"
 #include "ovoid/smooth.h"
 #include "robot/cell/checker.h"
 
@@ -72,7 +71,7 @@ static int take_overlap(near_search *s, const checker_pair *p, pair_name name) {
 static int take_memory(ovoid_robot_checker *checker) {
     ovoid_cover *cover = &checker->cover;
     if (cover->memory) return 1;
-    cover->size = cover_get_memory_size(OVOID_COVER_POINTS_MAX);
+    cover->size = ovoid_cover_get_size(OVOID_COVER_POINTS_MAX);
     cover->memory = allocator_allocate(&checker->allocator, cover->size, 1);
     return cover->memory != NULL;
 }
