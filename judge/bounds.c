@@ -175,14 +175,13 @@ static shell make_hull(const claim *c) {
 static ovoid_code read_cover(const claim *c, const ovoid_cover *cover, shell *out) {
     judge *j = c->context;
     const posed *s = c->s;
-    uint32_t na = s->a.polytope.vertex_count, nb = s->b.polytope.vertex_count;
     if (!cover) return judge_reject(c->error, OVOID_ERROR_PROOF, "the upper bound rests on a cover, and none is given");
     if (cover->point_count > OVOID_COVER_POINTS_MAX || cover->triangle_count > 2 * OVOID_COVER_POINTS_MAX)
         return judge_reject(c->error, OVOID_ERROR_INDEX, "the cover has more points or triangles than a surface");
     uint32_t half = (cover->triangle_count + 1) / 2;
     take_room(j, cover->point_count > half ? cover->point_count : half);
     for (uint32_t i = 0; i < cover->point_count; i++) {
-        if (cover->a[i] >= na || cover->b[i] >= nb)
+        if (!body_has_vertex(&s->a, cover->a[i]) || !body_has_vertex(&s->b, cover->b[i]))
             return judge_reject(c->error, OVOID_ERROR_INDEX, "point %u of the cover has no such vertex", i);
         j->points[i] = posed_vertex_difference(s, cover->a[i], cover->b[i]);
     }

@@ -115,7 +115,7 @@ static ovoid_code verify_indices(const posed *s, const ovoid_proof *proof, ovoid
     if (proof->count > OVOID_PROOF_PAIRS)
         return judge_reject(error, OVOID_ERROR_INDEX, "%u pairs, more than a proof has", proof->count);
     for (uint32_t i = 0; i < proof->count; i++)
-        if (proof->a[i] >= s->a.polytope.vertex_count || proof->b[i] >= s->b.polytope.vertex_count)
+        if (!body_has_vertex(&s->a, proof->a[i]) || !body_has_vertex(&s->b, proof->b[i]))
             return judge_reject(error, OVOID_ERROR_INDEX, "entry %u of the proof has no such vertex", i);
     return OVOID_OK;
 }

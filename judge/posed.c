@@ -108,7 +108,29 @@ static nvec vertex_at(pool *p, const ovoid_polytope *polytope, uint32_t i) {
     return nvec_from(p, (ovoid_vec3){v[0], v[1], v[2]});
 }
 
-nvec body_vertex(pool *p, const body *b, uint32_t i) { return body_point(p, b, vertex_at(p, &b->polytope, i)); }
+// The point of a rim that a proof's number names, by the operations in doubles that query.h defines it by.
+static ovoid_vec3 find_rim_point(const body *b, uint32_t i) {
+    ovoid_round round = ovoid_shape_get_round(b->shape);
+    double t = (double)(i & 0xfffffff) / 0x1p28, part = round.radius / (1 + t * t);
+    double v[2] = {(1 - t * t) * part, 2 * t * part};
+    for (uint32_t quarter = i >> 28 & 3; quarter; quarter--) {
+        double x = v[0];
+        v[0] = -v[1];
+        v[1] = x;
+    }
+    double z = i & 0x40000000u ? round.half_length : -round.half_length;
+    ovoid_vec3 origin = b->polytope.origin;
+    return (ovoid_vec3){v[0] - origin.x, v[1] - origin.y, z - origin.z};
+}
+
+int body_has_vertex(const body *b, uint32_t i) {
+    if (i < b->polytope.vertex_count) return 1;
+    return i >> 31 && b->round != OVOID_ROUND_NONE && (b->round == OVOID_ROUND_CYLINDER || !(i & 0x40000000u));
+}
+
+nvec body_vertex(pool *p, const body *b, uint32_t i) {
+    return body_point(p, b, i >> 31 ? nvec_from(p, find_rim_point(b, i)) : vertex_at(p, &b->polytope, i));
+}
 
 // A direction in doubles, its largest part about 1, and the factor that scales vertices to at most 1, so that dot
 // products of both are off by less than 2^-48 (each part by a rounding of 2^-52, three products and two sums).

@@ -60,6 +60,8 @@ nvec body_rotate_back(pool *p, const body *b, nvec v);
 /// n times the world point of a body-frame point, of a vertex.
 nvec body_point(pool *p, const body *b, nvec local);
 nvec body_vertex(pool *p, const body *b, uint32_t i);
+/// 1 if a proof may name that vertex: of the polyhedron, or a point of a true body's rim.
+int body_has_vertex(const body *b, uint32_t i);
 
 /// An upper bound of n `across` |direction x axis|: the length by which the true body exceeds the shape along the
 /// direction if its allowance is along an axis, times n |direction|. 0 of true cylinders and cones.

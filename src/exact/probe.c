@@ -7,8 +7,8 @@ void prober_make(prober *p, search *s, int is_steady) {
     const ovoid_shape *a = f->a, *b = f->b;
     uint32_t count = b->padded_count, most = is_steady ? PROBE_POSED : PROBE_POSED_FEW;
     p->s = s;
-    p->is_posed = count <= most && a->padded_count <= PROBE_POSED;
-    p->is_small = is_steady && a->padded_count <= PROBE_ALL && count <= PROBE_ALL;
+    p->is_posed = !f->is_true && count <= most && a->padded_count <= PROBE_POSED;
+    p->is_small = !f->is_true && is_steady && a->padded_count <= PROBE_ALL && count <= PROBE_ALL;
     p->a = shape_get_points(a);
     p->b = shape_get_points(b);
     if (!p->is_posed) return;

@@ -1,10 +1,10 @@
-// The lower bound of bodies of which one is a true cylinder or cone, by their own supports.
+// A true cylinder or cone and a point, or a sphere, in closed form.
 #ifndef OVOID_EXACT_ROUND_H
 #define OVOID_EXACT_ROUND_H
 
 #include "pair/search.h"
 
-/// Raises the lower bound of a search that has ended, from its normal n. The goal's tolerance is that of the shapes.
-void round_run(search *s, vec3 n);
+/// Takes the bounds of a pair of them; 1 if that answers the query. The frame is that of true bodies.
+int round_take_point(search *s);
 
 #endif

@@ -43,7 +43,8 @@ static reached find_reached(const motion_body *b, vec3 m, support_result found) 
     const ovoid_shape *s = b->moving->shape;
     reached end;
     if (shape_is_round(s)) {
-        end.value = round_find_support(s, m, &end.point);
+        round_end found_end = round_find_support(s, m);
+        end = (reached){found_end.value, shape_get_vertex(s, found_end.vertex)};
     } else {
         end.value = found.value + shape_compute_across(s, m, AXIS_CLAIM);
         end.point = vec3_at(shape_vertices(s), found.index);

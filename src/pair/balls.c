@@ -4,8 +4,7 @@
 //
 // In the half plane of the distance from the axis and the height z, a cylinder is a rectangle and a cone a triangle.
 // The largest ball about a point inside reaches to the nearest side. A point outside is no farther from the body than
-// from the point that it becomes when its height, then its distance from the axis is cut off at the body. In a box the
-// ball reaches to the nearest face.
+// from the point that it becomes when its height, then its distance from the axis is cut off at the body.
 #include "pair/balls.h"
 
 // The distance from the axis to the side at a height from -half to half.
@@ -27,37 +26,14 @@ static vec3 cut_off_at_round(const ovoid_round *round, vec3 v) {
     return (vec3){v.x * part, v.y * part, z};
 }
 
-static double find_room_in_box(const parallelepiped *box, vec3 off) {
-    double room = INFINITY;
-    for (int k = 0; k < 3; k++) {
-        vec3 n = vec3_unit(vec3_cross(vec3_unit(box->axis[(k + 1) % 3]), vec3_unit(box->axis[(k + 2) % 3])));
-        room = min2(room, fabs(vec3_dot(n, box->axis[k])) - fabs(vec3_dot(n, off)));
-    }
-    return room;
-}
-
-static vec3 cut_off_at_box(const parallelepiped *box, vec3 off) {
-    vec3 held = off;
-    for (int k = 0; k < 3; k++) {
-        vec3 axis = vec3_unit(box->axis[k]);
-        double length = vec3_norm(box->axis[k]), along = vec3_dot(axis, off), most = max2(-length, min2(length, along));
-        if (along != most) held = vec3_add_scaled(held, axis, most - along);
-    }
-    return held;
-}
-
 vec3 balls_cut_off(const ovoid_shape *s, vec3 x) {
-    vec3 from = shape_is_round(s) ? vec3_neg(s->origin) : s->box.center, v = vec3_sub(x, from);
-    vec3 held = shape_is_round(s) ? cut_off_at_round(&s->round, v) : cut_off_at_box(&s->box, v);
-    return vec3_add(from, held);
+    return vec3_sub(cut_off_at_round(&s->round, vec3_add(x, s->origin)), s->origin);
 }
 
-// The radius of the largest ball about x, in the body frame.
+// The radius of the largest ball about x, in the body frame; of a round body alone.
 static double find_room(const ovoid_shape *s, vec3 x) {
-    if (!balls_fit(s)) return -INFINITY;
-    int is_round = shape_is_round(s);
-    double room = is_round ? find_room_in_round(&s->round, vec3_add(x, s->origin))
-                           : find_room_in_box(&s->box, vec3_sub(x, s->box.center));
+    if (!shape_is_round(s)) return -INFINITY;
+    double room = find_room_in_round(&s->round, vec3_add(x, s->origin));
     return room >= 0 ? room : -vec3_norm(vec3_sub(balls_cut_off(s, x), x));
 }
 
@@ -78,7 +54,7 @@ static vec3 find_mean(const ovoid_shape *s, const uint32_t *v, const double *w, 
     vec3 sum = {0, 0, 0};
     double all = 0;
     for (uint32_t i = 0; i < count; i++) {
-        sum = vec3_add_scaled(sum, vec3_at(shape_vertices(s), v[i]), w[i]);
+        sum = vec3_add_scaled(sum, shape_get_vertex(s, v[i]), w[i]);
         all += w[i];
     }
     return vec3_scale(sum, 1 / all);

@@ -16,10 +16,8 @@ typedef struct ball_centers {
     int is_point_a, is_point_b;
 } ball_centers;
 
-/// 1 if the balls in a shape are known in closed form: a true cylinder or cone, or a box.
-static inline int balls_fit(const ovoid_shape *s) { return shape_is_round(s) || s->box.is_right; }
-
-/// The point of such a body that x becomes when it is cut off at the body, to rounding; x where it is inside.
+/// The point of a true cylinder or cone that x becomes when it is cut off at the body, to rounding; x where it is
+/// inside.
 vec3 balls_cut_off(const ovoid_shape *shape, vec3 x);
 
 /// The distance of the centres minus the radii of the balls, plus `error`; infinity if there are none.

@@ -133,8 +133,8 @@ int surface_take_cover(surface *s, const pair_frame *f, const ovoid_cover *cover
         return 0;
     int is_small = cover->point_count <= OVOID_COVER_POINTS;
     for (uint32_t i = 0; i < cover->point_count; i++) {
-        if (cover->a[i] >= f->a->vertex_count || cover->b[i] >= f->b->vertex_count) return 0;
-        if (is_small) w[i] = frame_difference(f, cover->a[i], cover->b[i]);
+        if (!shape_has_vertex(f->a, cover->a[i]) || !shape_has_vertex(f->b, cover->b[i])) return 0;
+        if (is_small) w[i] = frame_proof_difference(f, cover->a[i], cover->b[i]);
     }
     *s = (surface){
         is_small ? w : NULL, cover->triangles, cover->point_count, cover->triangle_count, f, cover->a, cover->b};

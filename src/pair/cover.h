@@ -22,7 +22,7 @@ static inline surface surface_make(const vec3 *points, uint32_t point_count, con
 }
 
 static inline vec3 surface_get_point(const surface *s, uint32_t i) {
-    return s->points ? s->points[i] : frame_difference(s->frame, s->a[i], s->b[i]);
+    return s->points ? s->points[i] : frame_proof_difference(s->frame, s->a[i], s->b[i]);
 }
 
 /// Over the differences of a cover; few points are computed once, into w (OVOID_COVER_POINTS). 0 if counts or vertices

@@ -33,7 +33,7 @@ int fine_make(const ovoid_pair *pair, fine_frame *f) {
 }
 
 static dd3 vertex(const fine_frame *f, const ovoid_shape *shape, const dd33 *rotation, uint32_t i) {
-    return dd33_mul_vec3(rotation, vec3_scale(vec3_at(shape_vertices(shape), i), f->unit));
+    return dd33_mul_vec3(rotation, vec3_scale(shape_get_vertex(shape, i), f->unit));
 }
 
 dd3 fine_difference(const fine_frame *f, uint32_t a, uint32_t b) {

@@ -12,7 +12,7 @@
 
 #include "linear/dd3.h"
 #include "ovoid/query.h"
-#include "shape/block.h"
+#include "shape/rim.h"
 
 #define FINE_CHECK (96 * 0x1p-102)
 

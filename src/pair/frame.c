@@ -4,6 +4,7 @@
 #include "linear/both.h"
 #include "linear/dd3.h"
 #include "linear/pose.h"
+#include "pair/round.h"
 
 // R(q)/|q|^2 v in double-double: v + 2 (w (p x v) + p x (p x v)) / |q|^2 with q = (w, p).
 static dd3 rotate_exactly(ovoid_quat q, vec3 v) {
@@ -127,6 +128,7 @@ static frame_support find_support_apart(const pair_frame *f, vec3 n, vec3 in_b) 
 }
 
 frame_support frame_find_support(const pair_frame *f, vec3 n) {
+    if (f->is_true) return round_find_ends(f, n);
     if (f->a->support.k | f->b->support.k)
         return find_support_apart(f, n, vec3_neg(mat3_mul_transposed_vec3(f->rotation, n)));
     simd_pair ends = frame_find_pair(f, n, vec3_neg(mat3_mul_transposed_vec3(f->rotation, n)));

@@ -15,7 +15,7 @@
 
 #include "linear/mat3.h"
 #include "ovoid/prepared.h"
-#include "shape/block.h"
+#include "shape/rim.h"
 #include "simd/pair.h"
 
 #define FRAME_CLAIM (256 * 0x1p-53)
@@ -42,6 +42,8 @@ typedef struct pair_frame {
     double hidden;                     ///< the lengths that underflow and far origins can hide, whatever the size
     double lower_radii; ///< the sums of both shapes' lower_radius and of their upper_radius (block.h); they differ
     double upper_radii; ///< by the allowances
+    int is_true;        ///< 1: supports are those of true cylinders and cones, which have no allowance then (round.h)
+    double beyond;      ///< how far these exceed the polyhedra's spheres and ellipsoids
     // By frame_relate: B in the frame of A.
     mat3 rotation;    ///< x_a_frame = rotation x_b + translation
     vec3 translation; ///< of B's body frame
@@ -62,6 +64,8 @@ static inline void frame_set_lengths(pair_frame *f) {
     f->size = f->a->span + f->b->span + vec3_norm(f->offset) + f->lower_radii;
     f->claim = FRAME_CLAIM * f->size + 2 * f->hidden;
     f->check = FRAME_CHECK * f->size + f->hidden;
+    f->is_true = 0;
+    f->beyond = 0;
 }
 
 /// frame_place of prepared shapes, both of which must be ready, in two steps: everything but the rotations; the
@@ -101,7 +105,11 @@ static inline vec3 frame_vertex_a(const pair_frame *f, uint32_t i) { return vec3
 static inline vec3 frame_vertex_b(const pair_frame *f, uint32_t i) {
     return frame_b(f, vec3_at(shape_vertices(f->b), i));
 }
-/// The difference of two vertices, B minus A.
+/// The difference of two vertices of a proof, B minus A.
+static inline vec3 frame_proof_difference(const pair_frame *f, uint32_t a, uint32_t b) {
+    return vec3_sub(frame_b(f, shape_get_vertex(f->b, b)), shape_get_vertex(f->a, a));
+}
+/// The difference of two vertices of the polyhedra, B minus A.
 static inline vec3 frame_difference(const pair_frame *f, uint32_t a, uint32_t b) {
     return vec3_sub(frame_vertex_b(f, b), frame_vertex_a(f, a));
 }
@@ -118,7 +126,8 @@ static inline vec3 frame_direction_from_world(const pair_frame *f, vec3 n) {
     return mat3_mul_transposed_vec3(f->world, n);
 }
 
-/// Where A and B are extreme toward each other along a unit direction n from A to B.
+/// Where A and B are extreme toward each other along a unit direction n from A to B; of true bodies, if the frame says
+/// so.
 typedef struct frame_support {
     uint32_t a, b;
     double gap; ///< min over B of n.x - max over A of n.x, off by at most 100 u s

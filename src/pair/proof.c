@@ -7,7 +7,7 @@ int proof_is_sound(const pair_frame *f, const ovoid_proof *p) {
     if (!vec3_is_finite(p->normal) || !vec3_is_finite(p->normal_low) || p->count > OVOID_PROOF_PAIRS) return 0;
     double sum_a = 0, sum_b = 0;
     for (uint32_t i = 0; i < p->count; i++) {
-        if (p->a[i] >= f->a->vertex_count || p->b[i] >= f->b->vertex_count) return 0;
+        if (!shape_has_vertex(f->a, p->a[i]) || !shape_has_vertex(f->b, p->b[i])) return 0;
         if (!(p->weight_a[i] >= 0) || !(p->weight_b[i] >= 0)) return 0;
         sum_a += p->weight_a[i];
         sum_b += p->weight_b[i];
@@ -19,8 +19,8 @@ witness_points proof_compute_points(const pair_frame *f, const ovoid_proof *p) {
     witness_points w = {{0, 0, 0}, {0, 0, 0}};
     double sum_a = 0, sum_b = 0;
     for (uint32_t i = 0; i < p->count; i++) {
-        w.a = vec3_add_scaled(w.a, frame_vertex_a(f, p->a[i]), p->weight_a[i]);
-        w.b = vec3_add_scaled(w.b, frame_vertex_b(f, p->b[i]), p->weight_b[i]);
+        w.a = vec3_add_scaled(w.a, shape_get_vertex(f->a, p->a[i]), p->weight_a[i]);
+        w.b = vec3_add_scaled(w.b, frame_b(f, shape_get_vertex(f->b, p->b[i])), p->weight_b[i]);
         sum_a += p->weight_a[i];
         sum_b += p->weight_b[i];
     }

@@ -19,7 +19,7 @@ int proof_is_sound(const pair_frame *frame, const ovoid_proof *proof);
 
 /// The difference b[i] - a[i] of a proof's entry.
 static inline difference proof_difference(const pair_frame *f, const ovoid_proof *p, uint32_t i) {
-    return (difference){frame_difference(f, p->a[i], p->b[i]), p->a[i], p->b[i]};
+    return (difference){frame_proof_difference(f, p->a[i], p->b[i]), p->a[i], p->b[i]};
 }
 
 #endif

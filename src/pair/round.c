@@ -1,17 +1,57 @@
 // Supports of cylinders and cones in closed form.
 #include "pair/round.h"
 
-double round_find_support(const ovoid_shape *s, vec3 n, vec3 *point) {
+round_end round_find_support(const ovoid_shape *s, vec3 n) {
     double half = s->round.half_length, radius = s->round.radius, across = sqrt(n.x * n.x + n.y * n.y);
-    double end = n.z < 0 ? -half : half, rim = radius;
-    if (s->round.kind == OVOID_ROUND_CONE) {
-        int is_apex = half * n.z >= radius * across - half * n.z;
-        end = is_apex ? half : -half;
-        rim = is_apex ? 0 : radius;
+    double shift = vec3_dot(n, s->origin);
+    if (s->round.kind == OVOID_ROUND_CYLINDER) {
+        int is_upper = n.z > 0;
+        double end = is_upper ? half : -half;
+        return (round_end){(end * n.z + radius * across) - shift, rim_find(n.x, n.y, across, is_upper)};
     }
-    double part = across > 0 ? rim / across : 0;
-    *point = (vec3){n.x * part - s->origin.x, n.y * part - s->origin.y, end - s->origin.z};
-    return (end * n.z + rim * across) - vec3_dot(n, s->origin);
+    double apex = half * n.z, rim = radius * across - half * n.z;
+    if (half > 0 && apex >= rim) return (round_end){apex - shift, s->vertex_count - 1};
+    return (round_end){rim - shift, rim_find(n.x, n.y, across, 0)};
+}
+
+void frame_make_true(pair_frame *f) {
+    double a = shape_is_round(f->a) ? f->a->radius : f->a->lower_radius;
+    double b = shape_is_round(f->b) ? f->b->radius : f->b->lower_radius;
+    f->is_true = 1;
+    f->beyond = nextafter(f->lower_radii - (a + b), INFINITY);
+    f->lower_radii = a + b;
+    f->claim += ROUND_CLAIM * f->size;
+}
+
+int round_has_axis(const pair_frame *f) {
+    return (!shape_is_round(f->a) && shape_has_axis(f->a)) || (!shape_is_round(f->b) && shape_has_axis(f->b));
+}
+
+double round_compute_gain(const pair_frame *f, vec3 in_a, vec3 in_b, double error) {
+    double a = shape_is_round(f->a) ? 0 : shape_compute_gain(f->a, in_a, error);
+    return a + (shape_is_round(f->b) ? 0 : shape_compute_gain(f->b, in_b, error));
+}
+
+// One body's support along n, in its body frame, and its vertex.
+typedef struct true_end {
+    double value;
+    vec3 point;
+    uint32_t vertex;
+} true_end;
+
+static true_end find_end(const ovoid_shape *s, vec3 n) {
+    if (shape_is_round(s)) {
+        round_end end = round_find_support(s, n);
+        return (true_end){end.value, shape_get_vertex(s, end.vertex), end.vertex};
+    }
+    simd_extreme x = shape_find_extreme(s, n);
+    return (true_end){x.value, {x.x, x.y, x.z}, x.index};
+}
+
+frame_support round_find_ends(const pair_frame *f, vec3 n) {
+    true_end a = find_end(f->a, n), b = find_end(f->b, vec3_neg(mat3_mul_transposed_vec3(f->rotation, n)));
+    double gap = (vec3_dot(n, f->translation) - b.value) - a.value;
+    return (frame_support){a.vertex, b.vertex, gap, vec3_sub(frame_b(f, b.point), a.point)};
 }
 
 double round_compute_radii(const pair_frame *f, vec3 n, double error) {
@@ -22,8 +62,7 @@ double round_compute_radii(const pair_frame *f, vec3 n, double error) {
 }
 
 static double measure_support(const ovoid_shape *s, vec3 n) {
-    vec3 point;
-    if (shape_is_round(s)) return round_find_support(s, n, &point);
+    if (shape_is_round(s)) return round_find_support(s, n).value;
     simd_points points = shape_get_points(s);
     return simd_find_support(&points, n).value;
 }

@@ -4,6 +4,9 @@
 // h |n_z| + R n_r from its centre, a cone max(h n_z, R n_r - h n_z). With u = 2^-53 either is off by less than
 // 12 u (h + R), beside what n itself is off by, of which frame.h speaks: no point of the round body is farther from the
 // origin of its frame than the vertices of its polyhedron. So ROUND_CLAIM and ROUND_CHECK are added to the frame's.
+//
+// A search of true bodies is that of polyhedra with 2^30 corners on each rim (shape/rim.h): its points, hulls and
+// covers are of corners that are within `inside` of the body, and its gaps are those of the body itself.
 #ifndef OVOID_PAIR_ROUND_H
 #define OVOID_PAIR_ROUND_H
 
@@ -14,8 +17,23 @@
 
 static inline int frame_has_round(const pair_frame *f) { return shape_is_round(f->a) | shape_is_round(f->b); }
 
-/// The support of a round body along the unit n, both in its body frame; its point.
-double round_find_support(const ovoid_shape *shape, vec3 n, vec3 *point);
+/// Sets the frame's lengths to those of true bodies, whose supports are then found and whose allowances are gone.
+void frame_make_true(pair_frame *frame);
+
+/// As frame_has_axis and frame_compute_gain, of bodies that are not round.
+int round_has_axis(const pair_frame *frame);
+double round_compute_gain(const pair_frame *frame, vec3 in_a, vec3 in_b, double error);
+
+/// The support of a round body along n, of any length, and the vertex nearest to its point (shape/rim.h); in the body
+/// frame.
+typedef struct round_end {
+    double value;
+    uint32_t vertex;
+} round_end;
+round_end round_find_support(const ovoid_shape *shape, vec3 n);
+
+/// frame_find_support of true bodies.
+frame_support round_find_ends(const pair_frame *frame, vec3 n);
 
 /// What a lower bound along n loses to radii and allowances if it is by the gap of true bodies where these are known.
 /// error: as in block.h.

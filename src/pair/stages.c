@@ -106,7 +106,7 @@ void stage_outer(search *s, vec3 *n) {
     vec3 d = vec3_sub(frame_b(f, b->center), a->center);
     double gap;
     *n = ellipsoids_find_direction(a->q, sym3_rotate(b->q, f->rotation), d, &gap);
-    double lower = gap - f->lower_radii - f->claim;
+    double lower = gap - (f->lower_radii + f->beyond) - f->claim;
     if (!(lower > s->goal.far)) return;
     s->lower = lower;
     s->normal = *n;

@@ -59,7 +59,7 @@ static void take_spheres(search *s) {
     const pair_frame *f = s->frame;
     vec3 d = vec3_sub(frame_b(f, f->b->center), f->a->center), n = vec3_unit(d);
     if (!(vec3_norm_squared(n) > 0.5)) n = (vec3){1, 0, 0};
-    s->lower = vec3_dot(n, d) - (f->a->reach + f->b->reach) - f->lower_radii - f->claim;
+    s->lower = vec3_dot(n, d) - (f->a->reach + f->b->reach) - (f->lower_radii + f->beyond) - f->claim;
     s->normal = n;
 }
 
@@ -78,7 +78,10 @@ static void complete(search *s) {
 // an allowance is along an axis it loses less there (block.h): that is given back once the search has ended.
 
 static double compute_gain(const search *s, vec3 n) {
-    return frame_compute_gain(s->frame, n, mat3_mul_transposed_vec3(s->frame->rotation, n), AXIS_CLAIM);
+    const pair_frame *f = s->frame;
+    vec3 in_b = mat3_mul_transposed_vec3(f->rotation, n);
+    if (f->is_true) return round_compute_gain(f, n, in_b, AXIS_CLAIM);
+    return frame_compute_gain(f, n, in_b, AXIS_CLAIM);
 }
 
 // The normal of the lower bound, in the frame.
@@ -100,13 +103,6 @@ static void try_axis(search *s, vec3 axis) {
     s->world = s->world_low = (vec3){0, 0, 0};
 }
 
-// 1 if a narrower bracket would say more: the sign, or the distance or depth that the goal asks for.
-static int is_worth_rounding(const search *s) {
-    if (s->lower > s->goal.far || s->upper <= s->goal.near) return 0;
-    if (!search_is_sign_known(s)) return 1;
-    return s->goal.wants_bracket && (s->upper >= 0 || s->goal.wants_depth);
-}
-
 static void drop_gain(search *s, double gain) {
     s->goal.has_axis = 0;
     s->goal.tolerance -= gain;
@@ -120,7 +116,6 @@ static void take_gain(search *s) {
     if (!s->goal.has_axis) return;
     const pair_frame *f = s->frame;
     drop_gain(s, compute_gain(s, get_normal(s)));
-    if (frame_has_round(f) && is_worth_rounding(s)) round_run(s, get_normal(s));
     if (search_is_sign_known(s)) return;
     try_axis(s, f->a->allowance.axis);
     try_axis(s, mat3_mul_vec3(f->rotation, f->b->allowance.axis));
@@ -232,25 +227,13 @@ static void run_stages(search *s, double sphere_gap, const ovoid_proof *earlier,
     stage_support(s, n, start->count > 1 ? &fresh : start);
 }
 
-// Bodies that are apart, of which one is a true cylinder or cone: their own search from the direction that parted them.
-// 1 if that answers the query; else nothing has changed.
-COMPILER_NOINLINE static int run_round(search *s) {
-    if (!frame_has_round(s->frame) || !s->goal.wants_bracket || !(s->lower + s->frame->lower_radii > 0)) return 0;
-    search t = *s;
-    drop_gain(&t, compute_gain(&t, t.normal));
-    round_run(&t, t.normal);
-    if (!search_is_done(&t)) return 0;
-    *s = t;
-    return 1;
-}
-
 // GJK, then EPA where the cores touch or overlap and GJK cannot narrow the bracket. A depth query tries EPA first,
 // unless the cores are known to be apart.
 static void run_exact(search *s, simplex *start, ovoid_cover *cover) {
-    if (s->goal.has_axis && run_round(s)) return;
     int cores_apart = s->lower + s->frame->lower_radii > 0;
     if (s->goal.wants_depth && !cores_apart &&
-        (boxes_take_depth(s, cover) || inside_take_depth(s, cover) || epa_run(s, start, 1, cover)))
+        ((!s->frame->is_true && (boxes_take_depth(s, cover) || inside_take_depth(s, cover))) ||
+         epa_run(s, start, 1, cover)))
         return;
     gjk_end end = gjk_run(s, start);
     if (end == GJK_ANSWERED) return;
@@ -343,6 +326,7 @@ static inline beginning begin(const ovoid_pair *pair, const query_request *reque
 static void search_in_doubles(const open_query *q, const ovoid_proof *earlier, search *s) {
     simplex start;
     search_make(s, q->placed.frame, q->placed.goal);
+    if (s->frame->is_true && round_take_point(s)) return;
     run_stages(s, q->placed.sphere_gap, earlier, &start);
     if (!search_is_done(s)) run_exact(s, &start, q->cover);
 }
@@ -383,7 +367,7 @@ COMPILER_NOINLINE static void search_again(const open_query *q, search *s, ovoid
     *out = warm;
 }
 
-void answer_run_search(const open_query *q, ovoid_answer *out) {
+static void run_search(const open_query *q, ovoid_answer *out) {
     const ovoid_proof *earlier = q->placed.earlier;
     search s;
     search_in_doubles(q, earlier, &s);
@@ -395,6 +379,28 @@ void answer_run_search(const open_query *q, ovoid_answer *out) {
     answer_write(&s, out);
     // Another normal of the same gap may decide what this one leaves to the allowances.
     if (earlier && q->placed.goal->has_axis && out->status == OVOID_UNDECIDED) search_again(q, &s, out);
+}
+
+// The same with the supports of true bodies.
+COMPILER_NOINLINE static void run_true_search(const open_query *q, ovoid_answer *out) {
+    pair_frame f = *q->placed.frame;
+    query_goal goal = *q->placed.goal;
+    open_query of_true = *q;
+    frame_make_true(&f);
+    goal.tolerance -= goal.allowance;
+    goal.allowance = frame_get_allowance(&f);
+    goal.tolerance += goal.allowance;
+    goal.has_axis = round_has_axis(&f);
+    of_true.placed.frame = &f;
+    of_true.placed.goal = &goal;
+    run_search(&of_true, out);
+}
+
+void answer_run_search(const open_query *q, ovoid_answer *out) {
+    if (frame_has_round(q->placed.frame))
+        run_true_search(q, out);
+    else
+        run_search(q, out);
 }
 
 static open_query make_open(const ovoid_pair *pair, const query_request *request, query_start *s) {

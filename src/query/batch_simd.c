@@ -131,6 +131,8 @@ static inline void place_frame(group_lane at, pair_frame *f) {
     f->check = FRAME_CHECK * size + hidden;
     f->hidden = hidden;
     f->lower_radii = f->upper_radii = o->radii.lane[at.k];
+    f->is_true = 0;
+    f->beyond = 0;
 }
 
 // The frame of a lane after the ellipsoids, as frame_make makes it.

@@ -4,6 +4,7 @@
 #include "shape/round.h"
 
 #include "linear/vec3.h"
+#include "shape/rim.h"
 
 // What rounding adds to the distance from an axis, of that distance.
 #define OFF_AXIS (16 * 0x1p-53)
@@ -42,4 +43,14 @@ int round_is_held(const ovoid_shape *s, const ovoid_round *round) {
     if (!is_cone) return all == 2 * count && is_lifted(s, round, count);
     vec3 apex = get_vertex(s, count);
     return apex.x == 0 && apex.y == 0 && apex.z == round->half_length;
+}
+
+vec3 rim_compute_point(const ovoid_shape *s, uint32_t number) {
+    double t = (number & (RIM_STEPS - 1)) * (1 / (double)RIM_STEPS), part = s->round.radius / (1 + t * t);
+    double c = (1 - t * t) * part, d = 2 * t * part, half = s->round.half_length;
+    uint32_t quarter = number >> 28 & 3;
+    double x = quarter & 1 ? d : c, y = quarter & 1 ? c : d;
+    if (quarter == 1 || quarter == 2) x = -x;
+    if (quarter & 2) y = -y;
+    return vec3_sub((vec3){x, y, number & RIM_UPPER ? half : -half}, s->origin);
 }

@@ -31,7 +31,7 @@ static void take_vertices(feature *own, const uint32_t *index, const double *wei
     own->count = 0;
     own->point = (vec3){0, 0, 0};
     for (uint32_t i = 0; i < count; i++) {
-        own->point = vec3_add_scaled(own->point, vec3_at(shape_vertices(own->shape), index[i]), weight[i] / sum);
+        own->point = vec3_add_scaled(own->point, shape_get_vertex(own->shape, index[i]), weight[i] / sum);
         int is_known = !(weight[i] > 0x1p-40 * sum);
         for (int k = 0; k < own->count; k++) is_known |= own->v[k] == index[i];
         if (!is_known) own->v[own->count++] = index[i];
@@ -70,6 +70,7 @@ static double find_slope(const feature *own) {
 feature feature_make(const ovoid_shape *shape, vec3 n, weighted_vertices of) {
     feature own = {.shape = shape, .n = n};
     take_vertices(&own, of.index, of.weight, of.count);
+    if (shape_is_round(shape)) return own;
     if (own.count == 2) {
         vec3 e = vec3_sub(vec3_at(shape_vertices(shape), own.v[1]), vec3_at(shape_vertices(shape), own.v[0]));
         own.edge = vec3_unit(vec3_add_scaled(e, n, -vec3_dot(n, e)));

@@ -23,7 +23,7 @@ typedef struct weighted_vertices {
     uint32_t count;
 } weighted_vertices;
 
-/// The feature of vertices; its slope: the least of the edges that leave it, along n.
+/// The feature of vertices; its slope: the least of the edges that leave it, along n. Of a round body the point alone.
 feature feature_make(const ovoid_shape *shape, vec3 n, weighted_vertices of);
 
 /// An upper bound of the angle whose cosine is 1 - rest; pi where rest is not below 2.

@@ -22,7 +22,11 @@ static ovoid_quat random_turn(uint64_t *s) {
 
 static ovoid_shape *make_round(uint64_t *s) {
     double radius = random_uniform(s, 0.1, 1), half = random_next(s) % 8 ? random_uniform(s, 0.05, 1) : 0;
-    ovoid_shape_options o = {.tolerance = random_next(s) % 2 ? 0.02 * radius : 0};
+    // 3 to 7, 16 and 32 sides.
+    uint64_t sides = random_next(s) % 4;
+    ovoid_shape_options o = {.tolerance = sides == 0   ? random_uniform(s, 0.1, 0.5) * radius
+                                          : sides == 1 ? 0.02 * radius
+                                                       : 0};
     if (random_next(s) % 4 == 0) o.radius = 0.125;
     return (random_next(s) % 2 ? ovoid_shape_create_cylinder : ovoid_shape_create_cone)(radius, half, &o, NULL);
 }
@@ -49,14 +53,16 @@ static void check_accepted(judge *context, const ovoid_pair *p, const ovoid_answ
     accepted++;
 }
 
-// Balls show no more than 2e-12 above their claim.
-static void check_upper_lie(judge *context, const ovoid_pair *p, const ovoid_answer *x) {
+// Balls, points and covers show no more than 2e-12 above their claim.
+static void check_upper_lie(judge *context, const ovoid_pair *p, const ovoid_answer *x, const ovoid_cover *cover) {
     ovoid_answer lie = *x;
     lie.upper -= 2e-12;
-    if (!(lie.lower <= lie.upper) || x->proof.kind != OVOID_PROOF_BALLS) return;
+    int is_sharp =
+        x->proof.kind == OVOID_PROOF_BALLS || x->proof.kind == OVOID_PROOF_POINTS || x->proof.kind == OVOID_PROOF_COVER;
+    if (!(lie.lower <= lie.upper) || !is_sharp) return;
     lie.status = lie.lower > 0 ? OVOID_SEPARATED : lie.upper < 0 ? OVOID_OVERLAPPING : OVOID_UNDECIDED;
-    CHECK(judge_verify_answer(context, p, &lie, NULL, NULL) != OVOID_OK);
-    CHECK(ovoid_answer_verify(p, &lie, NULL, NULL) != OVOID_OK);
+    CHECK(judge_verify_answer(context, p, &lie, cover, NULL) != OVOID_OK);
+    CHECK(ovoid_answer_verify(p, &lie, &(ovoid_answer_basis){.cover = cover}, NULL) != OVOID_OK);
     refused++;
 }
 
@@ -129,8 +135,11 @@ static void check_pair(judge *context, const ovoid_pair *p, uint64_t *s) {
     ovoid_answer x = ovoid_depth(p, NULL, NULL, &cover);
     check_accepted(context, p, &x, &cover);
     check_lie(context, p, &x, &cover);
-    check_upper_lie(context, p, &x);
+    check_upper_lie(context, p, &x, &cover);
     int is_found = x.limit == OVOID_LIMIT_NONE || x.limit == OVOID_LIMIT_ALLOWANCE;
+    ovoid_allowance known = ovoid_shape_get_allowance(p->shape_b), other = ovoid_shape_get_allowance(p->shape_a);
+    int has_width = known.outside + other.outside > 0 && (known.axis.z == 0 || other.axis.z == 0);
+    if (!has_width) CHECK_LE(x.upper - x.lower, 1e-9 * 16);
     if (is_found) CHECK_EQ(judge_verify_points(context, p, &x, NULL), OVOID_OK);
     check_best(p, &x, s);
     ovoid_proof earlier = x.proof;

@@ -91,6 +91,11 @@ static void check_motions(const hanging *h) {
         check_impact(h, &x);
         CHECK_EQ(ovoid_impact_verify(&p, &x, &(ovoid_motion_basis){.steps = steps}, &error), OVOID_OK);
     }
+    ovoid_moving_pair near = {.a = plate, .b = {h->body, plate.motion, none}};
+    near.b.motion = ovoid_motion_make_velocity(h->at, (vec3){0.1, 0, -0.5 * h->gap}, (vec3){0, 0, 0}, 1);
+    ovoid_approach y = ovoid_approach_find(&near, &o);
+    check_bracket(&(hanging){.gap = h->gap > 0 ? 0.5 * h->gap : h->gap}, y.lower, y.upper);
+    if (h->gap > 0) CHECK_LE(y.upper - y.lower, 1e-7);
     ovoid_pair p = {h->plate, h->body, h->under, h->at};
     ovoid_impact x = ovoid_shape_cast(&p, (ovoid_vec3){1, 0, 0}, 0, NULL);
     check_impact(h, &x);
@@ -136,7 +141,7 @@ static void check_robot(const hanging *h) {
         CHECK_EQ(ovoid_robot_path_find_hit(x, &(ovoid_robot_path_query){&path, &o}, &is, &error), OVOID_OK);
         CHECK_EQ(is.status, wanted);
         // Along the plate a few steps are enough, since these are measured by the true supports too.
-        if (h->gap > 0) CHECK_LE((double)is.step_count, 8);
+        if (h->gap > 0) CHECK_LE((double)is.step_count, 64);
         if (has_steps)
             CHECK_EQ(ovoid_robot_path_verify(cell, &is, &(ovoid_robot_path_basis){{&path, &o}, steps}, &error),
                      OVOID_OK);

@@ -409,14 +409,20 @@ test('what a contact cannot be asked of is refused', () => {
   assert.throws(() => ovoid.computePolygon(box, box, null, null, { ...ovoid.findManifold(box, box), part_a: 3 }), /no such parts/);
 });
 
-// Every kind of proof has its name: that of a cylinder's distance is the last.
+// Every kind of proof has its name: that of a cylinder and a ball is the last. Beside a wedge its points are of the rim,
+// whose numbers have their highest bit set.
 test('the proof of a true cylinder holds, read back from JSON too', () => {
   const can = Shape.cylinder(5, 20), wedge = Shape.fromPoints([[0, 0, 0], [40, 0, 0], [0, 20, 0], [40, 20, 0], [0, 0, 30], [0, 20, 30]].flat());
-  const pose = { xyz: [35, 10, 90] }, { distance, verify } = ovoid, answer = distance(wedge, can, null, pose), { status, stage, limit, iterations, lower, upper, point_a, point_b, normal, proof } = answer;
-  assert.equal(proof.kind, 'balls');
-  assert.ok(upper - lower < 1e-6);
-  const read = JSON.parse(JSON.stringify({ status, stage, limit, iterations, lower, upper, point_a, point_b, normal, proof }));
-  for (const claim of [answer, read]) assert.equal(verify(wedge, can, null, pose, claim), null);
-  read.proof.inner_b[0] += 1;
-  assert.notEqual(verify(wedge, can, null, pose, { ...read, upper: read.upper - 0.5 }), null);
+  const { distance, verify } = ovoid;
+  for (const [other, kind] of [[wedge, 'points'], [Shape.sphere(3), 'balls']]) {
+    const pose = { xyz: [35, 10, 90] }, answer = distance(other, can, null, pose), { status, stage, limit, iterations, lower, upper, point_a, point_b, normal, proof } = answer;
+    assert.equal(proof.kind, kind);
+    if (kind === 'points') assert.ok(Math.max(...proof.b) >= 2 ** 31);
+    assert.ok(upper - lower < 1e-6);
+    const read = JSON.parse(JSON.stringify({ status, stage, limit, iterations, lower, upper, point_a, point_b, normal, proof }));
+    for (const claim of [answer, read]) assert.equal(verify(other, can, null, pose, claim), null);
+    if (kind === 'balls') read.proof.inner_b[0] += 1;
+    else read.proof.b[0] = 2 ** 31;
+    assert.notEqual(verify(other, can, null, pose, { ...read, upper: read.upper - 0.5 }), null);
+  }
 });
