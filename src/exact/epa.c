@@ -220,17 +220,22 @@ static double measure_face(const expansion *e, const face *f) {
 
 // The radius that the surface keeps from the origin, as triangle_compute_clearance finds it: the normal of a face that
 // is outward (and so no sliver) was computed in the same operations, and n.w differs by less than 1100 u s between its
-// corners, which matters for the nearest only. 0 where a face may not be outward; the surface must then be measured
-// (surface_compute_depth).
+// corners, which matters for the nearest only. Slivers, of which curved bodies have many, are measured one by one. 0
+// where a face may not be outward; the surface must then be measured (surface_compute_depth).
 static double measure_faces(const search *s, const expansion *e) {
-    double doubt = epa_get_face_doubt(s), least = INFINITY;
+    double doubt = epa_get_face_doubt(s), least = INFINITY, slivers = INFINITY;
     for (uint32_t i = 0; i < e->faces; i++) {
         const face *f = &e->f[i];
-        if (!f->alive) continue;
-        if (!f->outward) return 0;
-        least = min2(least, f->low);
+        if (f->alive && f->outward) least = min2(least, f->low);
     }
-    double depth = least + doubt;
+    for (uint32_t i = 0; i < e->faces; i++) {
+        const face *f = &e->f[i];
+        if (!f->alive || f->outward) continue;
+        vec3 a = e->w[f->v[0]], b = e->w[f->v[1]], c = e->w[f->v[2]], n;
+        if (!s->frame->is_true || !triangle_is_outward(a, b, c, e->doubt)) return 0;
+        slivers = min2(slivers, triangle_compute_clearance(a, b, c, least, &n));
+    }
+    double depth = min2(least + doubt, slivers);
     for (uint32_t i = 0; i < e->faces; i++) {
         const face *f = &e->f[i];
         if (f->alive && f->low <= least + 2 * doubt) depth = min2(depth, measure_face(e, f));

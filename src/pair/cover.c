@@ -90,7 +90,7 @@ static long count_crossings(const surface *s, vec3 u, double slack, double enoug
 
 // With L = |b - a| + |c - a|, the corners' errors move det = ((b - a) x (c - a)).a by less than 8 reach L error, and
 // its evaluation by less than 64 u reach^2 L.
-static int is_outward(vec3 a, vec3 b, vec3 c, double doubt) {
+int triangle_is_outward(vec3 a, vec3 b, vec3 c, double doubt) {
     vec3 e1 = vec3_sub(b, a), e2 = vec3_sub(c, a);
     double det = vec3_dot(vec3_cross(e1, e2), a);
     return det > 0 && det * det > doubt * (vec3_norm_squared(e1) + vec3_norm_squared(e2));
@@ -101,7 +101,8 @@ static int is_outward(vec3 a, vec3 b, vec3 c, double doubt) {
 static int is_star(const surface *s, double doubt) {
     for (uint32_t t = 0; t < s->triangle_count; t++) {
         const uint16_t *v = s->triangles[t];
-        if (!is_outward(surface_get_point(s, v[0]), surface_get_point(s, v[1]), surface_get_point(s, v[2]), doubt))
+        if (!triangle_is_outward(surface_get_point(s, v[0]), surface_get_point(s, v[1]), surface_get_point(s, v[2]),
+                                 doubt))
             return 0;
     }
     return 1;

@@ -36,6 +36,8 @@ static inline double triangle_compute_doubt(double reach, double error) {
     return 128 * off * off;
 }
 
+int triangle_is_outward(vec3 a, vec3 b, vec3 c, double doubt);
+
 /// A lower bound of the distance of the origin to a triangle; negative if none is found. *normal: the unit direction
 /// along which all of the triangle is at least that far. A bound of at least `enough` need not be the best.
 double triangle_compute_clearance(vec3 a, vec3 b, vec3 c, double enough, vec3 *normal);
