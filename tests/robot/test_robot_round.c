@@ -96,6 +96,12 @@ static void check_motions(const hanging *h) {
     ovoid_approach y = ovoid_approach_find(&near, &o);
     check_bracket(&(hanging){.gap = h->gap > 0 ? 0.5 * h->gap : h->gap}, y.lower, y.upper);
     if (h->gap > 0) CHECK_LE(y.upper - y.lower, 1e-7);
+    // One that rolls above the plate: to the tolerance of an approach, 1e-6 of a size below 10.
+    ovoid_pose high = h->at;
+    high.position.z += 1;
+    near.b.motion = ovoid_motion_make_velocity(high, (vec3){0.1, 0, 0}, (vec3){4, 1, 0}, 1);
+    y = ovoid_approach_find(&near, &o);
+    CHECK_LE(y.upper - y.lower, 1e-5);
     ovoid_pair p = {h->plate, h->body, h->under, h->at};
     ovoid_impact x = ovoid_shape_cast(&p, (ovoid_vec3){1, 0, 0}, 0, NULL);
     check_impact(h, &x);
