@@ -5,6 +5,7 @@
 #include "linear/vec3.h"
 #include "ovoid/ovoid.h"
 #include "places.h"
+#include "proofs/covers.h"
 #include "shape/rim.h"
 #include "shape/round.h"
 
@@ -74,7 +75,8 @@ static void test_numbers(void) {
 
 // A proof with points of rims is refused for the polyhedron alone, and with points that a cone has not.
 static void test_proofs(void) {
-    static ovoid_cover cover, other;
+    STATIC_COVER(cover);
+    static own_cover other;
     ovoid_shape *cylinder = ovoid_shape_create_cylinder(0.5, 0.5, NULL, NULL),
                 *cone = ovoid_shape_create_cone(0.5, 0.5, NULL, NULL),
                 *plain =
@@ -88,7 +90,7 @@ static void test_proofs(void) {
                         {random_vec3(&s, 0.5), random_quat(&s)},
                         {random_vec3(&s, 0.5), random_quat(&s)}};
         ovoid_answer x = ovoid_depth(&p, NULL, NULL, &cover);
-        const ovoid_answer_basis basis = {.cover = &cover}, spoilt = {.cover = &other};
+        const ovoid_answer_basis basis = {.cover = &cover}, spoilt = {.cover = &other.cover};
         CHECK_EQ(ovoid_answer_verify(&p, &x, &basis, NULL), OVOID_OK);
         CHECK_LE(x.upper - x.lower, 1e-8);
         ovoid_pair q = p;
@@ -98,10 +100,10 @@ static void test_proofs(void) {
         if (has_rim) CHECK_EQ(ovoid_answer_verify(&q, &x, &basis, NULL), OVOID_ERROR_PROOF);
         rims += has_rim;
         if (cover.point_count == 0) continue;
-        other = cover;
+        own_cover_copy(&other, &cover);
         other.b[random_next(&s) % cover.point_count] = 0x7fffffff;
         CHECK_EQ(ovoid_answer_verify(&p, &x, &spoilt, NULL), OVOID_ERROR_PROOF);
-        other = cover;
+        own_cover_copy(&other, &cover);
         other.a[random_next(&s) % cover.point_count] = 0xffffffff;
         if (i & 1) CHECK_EQ(ovoid_answer_verify(&p, &x, &spoilt, NULL), OVOID_ERROR_PROOF);
         covers++;
