@@ -2,7 +2,6 @@
 // stays in registers, as only inline functions see it. What is not answered here goes through the pipeline.
 #include "query/spheres.h"
 
-#include "exact/cover_memory.h"
 #include "linear/pose.h"
 #include "query/begin.h"
 
@@ -30,7 +29,6 @@ ovoid_answer spheres_find(const ovoid_pair *pair, const query_request *request) 
     if (reject_by_spheres(&f, goal.far, &found)) return answer_find_by_value(pair, request);
     const placed_query query = {&f, &goal, NULL, found.lower, 1};
     if (!closed_run_origins(&query, &end)) return answer_find_by_value(pair, request);
-    if (!goal.has_cover) cover_clear(request->cover);
     ovoid_verdict verdict = answer_make_small_verdict(&end, &goal);
     end.points = (simplex){.count = 1, .weight = {1}};
     end.inner = (vec3){0, 0, 0};

@@ -132,9 +132,34 @@ static void check_memory(void) {
     end(&x);
 }
 
+// The same of bodies that the world knows from another query and that do not move: with the k-th allocation of the
+// first depths failing, the call after it finds them.
+static void check_asked_again(void) {
+    stage x;
+    ovoid_contacts found;
+    ovoid_code code = OVOID_ERROR_MEMORY;
+    begin(&x, 6);
+    for (long k = 0; code != OVOID_OK; k++) {
+        countdown memory = {100000, 0};
+        ovoid_allocator allocator = countdown_make_allocator(&memory);
+        ovoid_world *w = make_world(&x, 1, &allocator);
+        ovoid_contact_query collide = {.kind = OVOID_QUERY_COLLIDE};
+        CHECK(ovoid_world_compute_contacts(w, &collide, &found, NULL) == OVOID_OK);
+        memory.left = k;
+        code = ovoid_world_compute_contacts(w, &depth, &found, NULL);
+        memory.left = 1000;
+        CHECK(ovoid_world_compute_contacts(w, &depth, &found, NULL) == OVOID_OK && found.count == PAIRS);
+        for (size_t i = 0; i < found.count; i++) CHECK_EQ((int)found.items[i].verdict.limit, (int)OVOID_LIMIT_NONE);
+        ovoid_world_destroy(w);
+        CHECK_EQ(memory.held, 0);
+    }
+    end(&x);
+}
+
 int main(void) {
     for (uint64_t seed = 1; seed <= 3; seed++) check_frames(check_seed = seed);
     check_seed = 0;
     check_memory();
+    check_asked_again();
     return check_end();
 }
