@@ -50,9 +50,6 @@ static double find_upper(const pair_frame *f, small_gjk_end kind, double claim, 
     return -depth - f->upper_radii;
 }
 
-// How deep the spheres overlap, of the sum of their radii, where the inner ellipsoids are likely to overlap too.
-#define INNER_DEPTH 0.4
-
 // An overlap that is proven without a search. The lower bound is that of the spheres, along the line of centres.
 static void end_at_overlap(const placed_query *q, double upper, ovoid_stage stage, small_end *end) {
     end->lower = q->sphere_gap;
@@ -96,7 +93,7 @@ small_gjk_query small_make_query(const pair_frame *f, const query_goal *goal) {
 int small_begin(const placed_query *q, small_gjk_query *gjk, small_end *end) {
     const pair_frame *f = q->frame;
     if (!(vec3_norm_squared(f->between) > 1e-150)) return 0;
-    if (q->sphere_gap < -INNER_DEPTH * (f->a->reach + f->b->reach) && run_inner(q, end)) return 1;
+    if (small_tries_inner(q->sphere_gap, f->a->reach + f->b->reach) && run_inner(q, end)) return 1;
     *gjk = small_make_query(f, q->goal);
     return -1;
 }

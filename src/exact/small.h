@@ -57,6 +57,10 @@ static inline int small_takes(const query_goal *goal, const ovoid_shape *a, cons
 /// proof. 1: answered; 0: unusual, and nothing is known.
 int small_run(const placed_query *query, small_end *end);
 
+/// 1 where the spheres overlap so deeply that the inner ellipsoids are likely to overlap too. reach: the sum of the
+/// spheres' radii.
+static inline int small_tries_inner(double sphere_gap, double reach) { return sphere_gap < -0.4 * reach; }
+
 /// The pair as the kernel takes it, from the line of centres.
 small_gjk_query small_make_query(const pair_frame *frame, const query_goal *goal);
 

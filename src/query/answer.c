@@ -144,16 +144,6 @@ void answer_write(search *s, ovoid_answer *out) {
     out->point_b = frame_point_to_world(f, w.b);
 }
 
-// Rounding radii move the witness points along their difference, or where the radii overlap along the normal, as in
-// witness_compute_points.
-static inline void add_radii(const small_end *end, const pair_frame *f, vec3 *a, vec3 *b) {
-    double radii = f->a->radius + f->b->radius;
-    if (!(radii > 0) || end->kind != OVOID_PROOF_POINTS) return;
-    vec3 d = vec3_sub(*b, *a), n = vec3_norm(d) > radii ? vec3_unit(d) : end->normal;
-    *a = vec3_add_scaled(*a, n, f->a->radius);
-    *b = vec3_add_scaled(*b, n, -f->b->radius);
-}
-
 // A weighted vertex.
 static inline vec3 get_share(const double *vertices, uint32_t i, double weight) {
     return vec3_scale(vec3_at(vertices, i), weight);
@@ -177,10 +167,9 @@ static inline __attribute__((always_inline)) small_points find_small_points(cons
         a = vec3_add(a, get_share(of_a, p[3].a, w[3]));
         b = vec3_add(b, get_share(of_b, p[3].b, w[3]));
     }
-    a = mat3_mul_vec3(f->world, a);
-    b = vec3_add(f->offset, mat3_mul_vec3(f->world_b, b));
-    add_radii(end, f, &a, &b);
-    return (small_points){vec3_add(f->world_origin, a), vec3_add(f->world_origin, b)};
+    small_points found = {mat3_mul_vec3(f->world, a), vec3_add(f->offset, mat3_mul_vec3(f->world_b, b))};
+    if (end->kind == OVOID_PROOF_POINTS) small_points_add_radii(&found, f, end->normal);
+    return (small_points){vec3_add(f->world_origin, found.a), vec3_add(f->world_origin, found.b)};
 }
 
 ovoid_witness answer_make_small_witness(const small_end *end, const pair_frame *f) {

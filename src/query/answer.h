@@ -16,6 +16,16 @@ typedef struct small_points {
     vec3 a, b;
 } small_points;
 
+/// Moves the points of the cores to the rounded bodies: along their difference, or where the radii overlap along the
+/// normal, as in witness_compute_points.
+static inline void small_points_add_radii(small_points *p, const pair_frame *f, vec3 normal) {
+    double radii = f->a->radius + f->b->radius;
+    if (!(radii > 0)) return;
+    vec3 d = vec3_sub(p->b, p->a), n = vec3_norm(d) > radii ? vec3_unit(d) : normal;
+    p->a = vec3_add_scaled(p->a, n, f->a->radius);
+    p->b = vec3_add_scaled(p->b, n, -f->b->radius);
+}
+
 /// The initialisers of a proof and of an answer. Within one expression gcc 12 builds it in the place of what it is for;
 /// it would copy a variable, or what a function returns.
 #define SMALL_PROOF(x)                                                                                                 \

@@ -6,7 +6,7 @@
 // with an earlier proof that the spheres leave open.
 //
 // No lane depends on the others, so nothing depends on which couples share a group, and a batch may be cut anywhere.
-// Working memory: five lane groups on the stack, 26 KB; they are gone while the couples that they left open are
+// Working memory: six lane groups on the stack, 31 KB; they are gone while the couples that they left open are
 // searched, which takes more.
 #include "query/batch_simd.h"
 
@@ -14,15 +14,7 @@
 #include "base/error.h"
 #include "exact/closed.h"
 #include "pair/reject.h"
-#include "query/batch_small.h"
-
-// A lane group: eight couples, their bodies and shapes as the kernels read them.
-typedef struct lane_group {
-    size_t index[PAIR8];
-    pair8_places at; ///< their bodies and shapes
-    pair8 *lanes;
-    int is_placed; ///< the columns of the spheres are filled
-} lane_group;
+#include "query/batch_group.h"
 
 // A couple that the lanes leave open, with what they found: alone, nothing.
 typedef struct open_couple {
@@ -33,9 +25,9 @@ typedef struct open_couple {
     int is_alone;
 } open_couple;
 
-// An eight leaves at most eight open, those that wait are at most PAIR8_GROUPS eights, and so many small ones are on
-// their way.
-enum { OPEN_MOST = 80, OPEN_FULL = OPEN_MOST - (PAIR8_GROUPS + 1) * PAIR8 - SMALL_POOL_PLACES };
+// A lane group leaves at most eight open, those that wait are at most PAIR8_GROUPS groups and one of few small ones,
+// and so many small ones are on their way.
+enum { OPEN_MOST = 88, OPEN_FULL = OPEN_MOST - (PAIR8_GROUPS + 2) * PAIR8 - SMALL_POOL_PLACES };
 
 typedef struct open_list {
     open_couple items[OPEN_MOST];
@@ -51,7 +43,9 @@ typedef struct batch_state {
     lane_group *waiting; ///< couples on their way to the ellipsoids: PAIR8_GROUPS groups
     pair8 *lanes;        ///< of `waiting`
     unsigned waiting_count;
-    small_pool *small; ///< couples of small bodies
+    lane_group *few; ///< small couples of a distance, from groups that have few of them
+    unsigned few_count;
+    small_pool *small; ///< other couples of small bodies
     open_list *open;
 } batch_state;
 
@@ -91,49 +85,6 @@ void batch_query_single(const ovoid_batch *batch, size_t i, query_goal goal) {
 }
 
 // ---- one lane
-
-static vec3 get3(const lane_column *c, unsigned k) { return (vec3){c[0].lane[k], c[1].lane[k], c[2].lane[k]}; }
-static void put3(lane_column *c, unsigned k, vec3 v) {
-    c[0].lane[k] = v.x;
-    c[1].lane[k] = v.y;
-    c[2].lane[k] = v.z;
-}
-static mat3 get9(const lane_column *c, unsigned k) { return (mat3){get3(c, k), get3(c + 3, k), get3(c + 6, k)}; }
-
-// The body whose pose begins at a row of numbers.
-static const ovoid_posed_shape *get_body(const double *pose) {
-    return (const void *)((const char *)pose - offsetof(ovoid_posed_shape, pose));
-}
-static const ovoid_posed_shape *get_a(const lane_group *e, unsigned k) { return get_body(e->at.pose_a[k]); }
-static const ovoid_posed_shape *get_b(const lane_group *e, unsigned k) { return get_body(e->at.pose_b[k]); }
-
-// Lane k of a group.
-typedef struct group_lane {
-    const lane_group *e;
-    unsigned k;
-} group_lane;
-
-// The frame of a lane, as frame_place makes it. What frame_relate makes is not written.
-static inline void place_frame(group_lane at, pair_frame *f) {
-    const pair8 *o = at.e->lanes;
-    const ovoid_posed_shape *a = get_a(at.e, at.k), *b = get_b(at.e, at.k);
-    double size = o->size.lane[at.k], hidden = OVOID_LENGTH_MIN;
-    f->a = a->shape;
-    f->b = b->shape;
-    f->world = get9(o->world_a, at.k);
-    f->world_b = get9(o->world_b, at.k);
-    f->world_origin = a->pose.position;
-    f->offset = get3(o->offset, at.k);
-    f->between = get3(o->between, at.k);
-    f->turned_a = f->turned_b = NULL;
-    f->size = size;
-    f->claim = FRAME_CLAIM * size + 2 * hidden;
-    f->check = FRAME_CHECK * size + hidden;
-    f->hidden = hidden;
-    f->lower_radii = f->upper_radii = o->radii.lane[at.k];
-    f->is_true = 0;
-    f->beyond = 0;
-}
 
 // The frame of a lane after the ellipsoids, as frame_make makes it.
 static pair_frame get_frame(group_lane at) {
@@ -330,25 +281,33 @@ COMPILER_NOINLINE static void search_all_open(const ovoid_batch *batch, query_go
 
 // ---- a lane group
 
-// The supports along the ellipsoids' direction for the lanes of `open`.
-static void meet(const batch_state *c, lane_group *e, unsigned open) {
-    pair8 *o = e->lanes;
+// The vertices of the supports of a lane group.
+typedef struct lane_ends {
     uint32_t a[PAIR8], b[PAIR8];
-    for (unsigned rest = open; rest; rest &= rest - 1) {
+} lane_ends;
+
+// The supports of the lanes `some` along their directions n and `low`.
+static void find_supports(const lane_group *e, unsigned some, lane_ends *found) {
+    pair8 *o = e->lanes;
+    for (unsigned rest = some; rest; rest &= rest - 1) {
         unsigned k = compiler_count_low_zeros(rest);
-        pair_frame f;
-        f.a = get_a(e, k)->shape;
-        f.b = get_b(e, k)->shape;
-        simd_pair ends = frame_find_pair(&f, get3(o->n, k), get3(o->low, k));
+        const ovoid_shape *a = get_a(e, k)->shape, *b = get_b(e, k)->shape;
+        simd_pair ends = shapes_find_pair(a, b, get3(o->n, k), get3(o->low, k));
         o->high_value.lane[k] = ends.high.value;
         o->low_value.lane[k] = ends.low.value;
-        put3(o->vertex_a, k, frame_vertex_a(&f, a[k] = ends.high.index));
-        put3(o->vertex_b, k, vec3_at(shape_vertices(f.b), b[k] = ends.low.index));
+        put3(o->vertex_a, k, vec3_at(shape_vertices(a), found->a[k] = ends.high.index));
+        put3(o->vertex_b, k, vec3_at(shape_vertices(b), found->b[k] = ends.low.index));
     }
-    c->kernels->supports(o);
+}
+
+// The supports along the ellipsoids' direction for the lanes of `open`.
+static void meet(const batch_state *c, const lane_group *e, unsigned open) {
+    lane_ends ends;
+    find_supports(e, open, &ends);
+    c->kernels->supports(e->lanes);
     for (unsigned rest = open; rest; rest &= rest - 1) {
         unsigned k = compiler_count_low_zeros(rest);
-        end_at_support(c, (group_lane){e, k}, a[k], b[k]);
+        end_at_support(c, (group_lane){e, k}, ends.a[k], ends.b[k]);
     }
 }
 
@@ -398,6 +357,8 @@ static void end_group(const batch_state *c, lane_group *e, unsigned some, const 
     if (open) meet(c, e, open);
 }
 
+// ---- couples that wait
+
 // Lanes from `count` on repeat lane 0.
 static void fill(lane_group *e, unsigned count) {
     for (unsigned k = count; k < PAIR8; k++) {
@@ -408,15 +369,28 @@ static void fill(lane_group *e, unsigned count) {
     }
 }
 
-// Fills the columns of a waiting group that the ellipsoids read. Couples that came from several groups are placed
-// again, in lanes: this costs less than copying some forty columns lane by lane.
+// Fills the columns of a waiting group. Couples that came from several groups are placed again, in lanes: this costs
+// less than copying some forty columns lane by lane.
 static void place_again(const batch_state *c, lane_group *e) {
     pair8_query numbers = c->numbers;
     numbers.keeps_all = 1;
     if (!e->is_placed) (void)c->kernels->spheres(&e->at, &numbers, e->lanes);
-    // Distances of bodies far apart start from the line of centres.
+}
+
+// Appends lane k of e to a group of couples that wait, at lane `at`; e may be that group.
+static void append(lane_group *to, unsigned at, const lane_group *e, unsigned k) {
+    to->index[at] = e->index[k];
+    to->at.pose_a[at] = e->at.pose_a[k];
+    to->at.pose_b[at] = e->at.pose_b[k];
+    to->at.shape_a[at] = e->at.shape_a[k];
+    to->at.shape_b[at] = e->at.shape_b[k];
+    to->is_placed = 0;
+}
+
+// Distances of bodies far apart start from the line of centres.
+static void choose_directions(const batch_state *c, pair8 *o) {
     for (unsigned k = 0; k < PAIR8; k++)
-        e->lanes->line.lane[k] = c->goal.far == INFINITY && e->lanes->lower.lane[k] > e->lanes->reach.lane[k];
+        o->line.lane[k] = c->goal.far == INFINITY && o->lower.lane[k] > o->reach.lane[k];
 }
 
 // Takes all waiting couples through the ellipsoids to their answers.
@@ -426,6 +400,7 @@ static void settle(batch_state *c) {
     if (last) fill(&c->waiting[groups - 1], last);
     for (unsigned i = 0; i < groups; i++) {
         place_again(c, &c->waiting[i]);
+        choose_directions(c, c->waiting[i].lanes);
         waiting[i].from = find_ellipsoids(&c->waiting[i]);
         waiting[i].lanes = c->waiting[i].lanes;
     }
@@ -437,14 +412,8 @@ static void settle(batch_state *c) {
 
 // Appends lane k of e to the waiting couples; e may be the group that it goes to.
 static void wait_for_others(batch_state *c, const lane_group *e, unsigned k) {
-    lane_group *to = &c->waiting[c->waiting_count / PAIR8];
-    unsigned at = c->waiting_count++ % PAIR8;
-    to->index[at] = e->index[k];
-    to->at.pose_a[at] = e->at.pose_a[k];
-    to->at.pose_b[at] = e->at.pose_b[k];
-    to->at.shape_a[at] = e->at.shape_a[k];
-    to->at.shape_b[at] = e->at.shape_b[k];
-    to->is_placed = 0;
+    append(&c->waiting[c->waiting_count / PAIR8], c->waiting_count % PAIR8, e, k);
+    c->waiting_count++;
 }
 
 // How many couples ahead the beginning of shapes is prefetched; bodies twice as many.
@@ -515,10 +484,44 @@ COMPILER_NOINLINE static unsigned find_warm(const ovoid_batch *batch, const lane
     return warm;
 }
 
+// ---- distances of small bodies
+
+// Searches the lanes `some` of a group.
+static void search_group(batch_state *c, const lane_group *e, unsigned some) {
+    const ovoid_batch *to = c->batch;
+    const group_search task = {&c->goal, &c->numbers, {end_small, c, c->wants_evidence}, to->proofs || to->answers};
+    group_search_run(&task, e, some);
+}
+
+// Searches the few that wait.
+static void search_few(batch_state *c) {
+    if (!c->few_count) return;
+    unsigned some = (1u << c->few_count) - 1;
+    fill(c->few, c->few_count);
+    place_again(c, c->few);
+    c->few_count = 0;
+    search_group(c, c->few, some);
+}
+
+// Fewer lanes of a group do not pay for its search.
+enum { FEW = 4 };
+
+// Searches the lanes `some`, `count` of them, at once or, where there are others, with those of other groups.
+static void search_or_wait(batch_state *c, const lane_group *e, unsigned some, unsigned count) {
+    if (count >= FEW || c->batch->couple_count < FEW) {
+        search_group(c, e, some);
+        return;
+    }
+    for (; some; some &= some - 1) {
+        append(c->few, c->few_count++, e, compiler_count_low_zeros(some));
+        if (c->few_count == PAIR8) search_few(c);
+    }
+}
+
 // Answers those of the lanes `open` that have a closed form, and searches the small ones from the line of centres where
 // a distance is asked for, which needs no ellipsoids. The mask of both.
 static unsigned add_small(batch_state *c, const lane_group *e, unsigned open) {
-    unsigned small = 0;
+    unsigned small = 0, searched = 0, count = 0;
     int is_distance = c->goal.far == INFINITY;
     for (unsigned rest = open; rest; rest &= rest - 1) {
         unsigned k = compiler_count_low_zeros(rest);
@@ -527,6 +530,11 @@ static unsigned add_small(batch_state *c, const lane_group *e, unsigned open) {
         int is_closed = closed_fits(a, b);
         if (!is_closed && !(is_distance && small_fits(&c->goal, a, b, sphere_gap))) continue;
         small |= 1u << k;
+        if (!is_closed && !small_tries_inner(sphere_gap, e->lanes->reach.lane[k])) {
+            searched |= 1u << k;
+            count++;
+            continue;
+        }
         pair_frame *frame = small_pool_get_frame(c->small);
         query_goal goal = get_goal(c, (group_lane){e, k});
         const placed_query query = {frame, &goal, NULL, sphere_gap, 0};
@@ -537,6 +545,7 @@ static unsigned add_small(batch_state *c, const lane_group *e, unsigned open) {
         else
             small_pool_add(c->small, e->index[k], &query);
     }
+    search_or_wait(c, e, searched, count);
     return small;
 }
 
@@ -554,7 +563,7 @@ static void take_group(batch_state *c, size_t first, unsigned count, lane_group 
         leave_alone(c, first + compiler_count_low_zeros(rest));
     for (unsigned rest = apart; rest; rest &= rest - 1)
         end_at_spheres(c, (group_lane){e, compiler_count_low_zeros(rest)}, &found);
-    open &= ~add_small(c, e, open);
+    if (open) open &= ~add_small(c, e, open);
     for (unsigned rest = open; rest; rest &= rest - 1) {
         unsigned k = compiler_count_low_zeros(rest);
         fetch_ellipsoids((const void *)e->at.shape_a[k]);
@@ -572,14 +581,16 @@ static void take_group(batch_state *c, size_t first, unsigned count, lane_group 
 // Runs from couple `first` on, until enough couples are left open or all are done; returns the next one. batch: the
 // state without its working memory.
 COMPILER_NOINLINE static size_t run_lanes(const batch_state *batch, size_t first, open_list *open) {
-    pair8 lanes[PAIR8_GROUPS + 1];
-    lane_group groups[PAIR8_GROUPS + 1];
-    for (unsigned i = 0; i <= PAIR8_GROUPS; i++) groups[i].lanes = &lanes[i];
+    pair8 lanes[PAIR8_GROUPS + 2];
+    lane_group groups[PAIR8_GROUPS + 2];
+    for (unsigned i = 0; i < PAIR8_GROUPS + 2; i++) groups[i].lanes = &lanes[i];
     small_pool small;
     batch_state c = *batch;
     c.waiting = groups;
     c.lanes = lanes;
     c.waiting_count = 0;
+    c.few = &groups[PAIR8_GROUPS + 1];
+    c.few_count = 0;
     c.small = &small;
     c.open = open;
     size_t count = c.batch->couple_count;
@@ -590,6 +601,7 @@ COMPILER_NOINLINE static size_t run_lanes(const batch_state *batch, size_t first
         take_group(&c, first, left < PAIR8 ? (unsigned)left : PAIR8, &groups[PAIR8_GROUPS]);
     }
     if (c.waiting_count) settle(&c);
+    search_few(&c);
     small_pool_finish(&small);
     return first;
 }
@@ -603,7 +615,7 @@ void batch_run(const ovoid_batch *batch, query_goal goal, const ovoid_options *o
                                .goal = goal,
                                .numbers = {goal.far, options->absolute_tolerance, options->relative_tolerance,
                                            FRAME_REJECT, FRAME_CLAIM, OVOID_LENGTH_MIN, OVOID_LENGTH_MAX,
-                                           wants_evidence},
+                                           goal.iterations, wants_evidence},
                                .wants_evidence = wants_evidence};
     for (size_t next = 0; next < batch->couple_count;) {
         open.count = 0;

@@ -13,7 +13,10 @@ void small_pool_make(small_pool *pool, const query_goal *goal, small_owner owner
     pool->owner = owner;
     pool->has_lanes = count >= FEW;
     pool->place = 0;
-    for (int i = 0; i < SMALL_POOL_GROUPS; i++) pool->groups[i].active = pool->groups[i].measured = 0;
+    for (int i = 0; i < SMALL_POOL_GROUPS; i++) {
+        pool->groups[i].bodies = &pool->bodies[PAIR8 * i];
+        pool->groups[i].active = pool->groups[i].measured = 0;
+    }
 }
 
 // small_finish of a lane that ended apart, for a verdict alone: the lanes have its bounds.
@@ -74,9 +77,6 @@ pair_frame *small_pool_get_frame(small_pool *p) {
     return p->owner.wants_evidence ? &p->couples[p->place].frame : &p->frame;
 }
 
-// 1 where a place in the lanes costs more than it saves: the first supports end most searches of bodies far apart.
-static int is_short(const placed_query *q) { return q->sphere_gap > q->frame->a->reach + q->frame->b->reach; }
-
 // Searches a couple by itself.
 static void run_alone(small_pool *p, size_t index, const placed_query *q, const small_gjk_query *gjk) {
     small_gjk_result r;
@@ -99,7 +99,7 @@ void small_pool_add(small_pool *p, size_t index, const placed_query *q) {
     int is_over = small_begin(q, &gjk, &end);
     if (is_over >= 0)
         p->owner.finish(p->owner.self, index, q, is_over ? &end : NULL);
-    else if (!p->has_lanes || is_short(q))
+    else if (!p->has_lanes)
         run_alone(p, index, q, &gjk);
     else
         begin_in_lane(p, index, q, &gjk);

@@ -25,6 +25,7 @@ typedef struct small_owner {
 /// The searches of a batch: all couples have its goal, but for the tolerance.
 typedef struct small_pool {
     gjk8 groups[SMALL_POOL_GROUPS];
+    small_gjk_bodies bodies[SMALL_POOL_PLACES];
     small_couple couples[SMALL_POOL_PLACES];
     pair_frame frame; ///< the next couple's, where no evidence is wanted: one that stays in the cache
     const gjk8_kernels *kernels;

@@ -24,10 +24,10 @@ typedef struct gjk8 {
     lane_column lower, upper; ///< the bounds of lanes that ended apart: along the heading; of the latest support
     double far, near;
     int wants_bracket;
-    unsigned active;        ///< lanes that are at work
-    unsigned measured;      ///< those of them whose latest support is known already
-    uint32_t blocks[PAIR8]; ///< points of the larger body, in eights
-    small_gjk_bodies bodies[PAIR8];
+    unsigned active;          ///< lanes that are at work
+    unsigned measured;        ///< those of them whose latest support is known already
+    uint32_t blocks[PAIR8];   ///< points of the larger body, in eights
+    small_gjk_bodies *bodies; ///< PAIR8 of them, set by the caller: where `begin` poses them
 } gjk8;
 
 /// How lanes of a round ended; the others go on.

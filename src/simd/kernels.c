@@ -30,6 +30,8 @@ static box_axes_function *const box_axes_of[SIMD_ISA_COUNT] =
     KERNELS(box_axes_find_scalar, box_axes_find_avx2, box_axes_find_avx512);
 static epa8_function *const epa8_of[SIMD_ISA_COUNT] = KERNELS(epa8_grow_scalar, epa8_grow_avx2, epa8_grow_avx512);
 static const gjk8_kernels *const gjk8_of[SIMD_ISA_COUNT] = KERNELS(&gjk8_scalar, &gjk8_avx2, &gjk8_avx512);
+static const group_gjk_kernels *const group_gjk_of[SIMD_ISA_COUNT] =
+    KERNELS(&group_gjk_scalar, &group_gjk_avx2, &group_gjk_avx512);
 static const pair8_kernels *const pair8_of[SIMD_ISA_COUNT] = KERNELS(&pair8_scalar, &pair8_avx2, &pair8_avx512);
 static const patch_kernels *const patch_of[SIMD_ISA_COUNT] = KERNELS(&patch_scalar, &patch_avx2, &patch_avx2);
 static const solid8_kernels *const solid8_of[SIMD_ISA_COUNT] = KERNELS(&solid8_scalar, &solid8_avx2, &solid8_avx512);
@@ -45,6 +47,7 @@ void areas_compute(const simd_triangles *triangles, vec3 *areas) { areas_of[find
 int box_axes_find(const box_axes_query *query, box_axes *out) { return box_axes_of[find_widest()](query, out); }
 epa8_end epa8_grow(epa8 *s, const epa8_query *query) { return epa8_of[find_widest()](s, query); }
 const gjk8_kernels *gjk8_get_kernels(void) { return gjk8_of[find_widest()]; }
+const group_gjk_kernels *group_gjk_get_kernels(void) { return group_gjk_of[find_widest()]; }
 const pair8_kernels *pair8_get_kernels(void) { return pair8_of[find_widest()]; }
 const patch_kernels *patch_get_kernels(void) { return patch_of[find_widest()]; }
 const solid8_kernels *solid8_get_kernels(void) { return solid8_of[find_widest()]; }

@@ -57,6 +57,7 @@ typedef struct pair8_query {
     double far, absolute, relative; ///< answered when lower > far; the tolerance, of the size
     double reject, claim;           ///< FRAME_REJECT, FRAME_CLAIM
     double hidden, length_most;     ///< OVOID_LENGTH_MIN, OVOID_LENGTH_MAX
+    uint32_t iterations;            ///< most steps of a search
     int keeps_all;                  ///< `spheres` fills its columns even where the origins part all lanes
 } pair8_query;
 

@@ -202,12 +202,16 @@ LANES_INLINE gjk8_ends advance_lanes(gjk8 *g, int at) {
     return (gjk8_ends){a << at, n << at, i << at, (~(a | n | i | on) & ((1u << LANES) - 1)) << at};
 }
 
+// 1 where some of the lanes from `at` on are of the mask.
+static inline int has_lanes(unsigned mask, int at) { return (mask >> at & ((1u << LANES) - 1)) != 0; }
+
 LANES_TARGET static gjk8_ends run_advance(gjk8 *g) {
     gjk8_ends all = {0, 0, 0, 0};
     for (unsigned rest = g->active & ~g->measured; rest; rest &= rest - 1)
         measure_lane(g, (unsigned)__builtin_ctz(rest));
     g->measured = 0;
     for (int at = 0; at < PAIR8; at += LANES) {
+        if (!has_lanes(g->active, at)) continue;
         gjk8_ends some = advance_lanes(g, at);
         all.apart |= some.apart & g->active;
         all.near |= some.near & g->active;

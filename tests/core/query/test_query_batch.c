@@ -189,25 +189,26 @@ static int make_shapes(ovoid_shape *shapes[SHAPES], uint64_t *s) {
     return 1;
 }
 
-// Needles of too many vertices for the kernel of small bodies, side by side: the outer ellipsoids part many of them,
-// and each lane's answer has that lane's normal.
-static ovoid_shape *make_needle(uint64_t *s) {
+// Needles of too many vertices for the kernel of small bodies, side by side, every third one rounded: the outer
+// ellipsoids part many of them, and each lane's answer has that lane's normal.
+static ovoid_shape *make_needle(uint64_t *s, double radius) {
     double xyz[3 * 80];
     for (int i = 0; i < 3 * 80; i++) xyz[i] = random_normal(s) * (i % 3 ? 0.04 : 0.5);
-    return ovoid_shape_create_from_points(xyz, 80, NULL, NULL);
+    const ovoid_shape_options o = {.radius = radius};
+    return ovoid_shape_create_from_points(xyz, 80, &o, NULL);
 }
 
 static void check_needles(uint64_t *s) {
     ovoid_shape *shapes[SHAPES];
-    long parted[2] = {0, 0};
+    long parted[3] = {0, 0, 0};
     memset(before, 0, sizeof before);
     for (int i = 0; i < SHAPES; i++)
-        if (!CHECK((shapes[i] = make_needle(s)) != NULL)) return;
+        if (!CHECK((shapes[i] = make_needle(s, i % 3 ? 0 : 0.05)) != NULL)) return;
     for (int i = 0; i < BODIES; i++) {
         bodies[i] = (ovoid_posed_shape){shapes[i % SHAPES], make_pose(s)};
         bodies[i].pose.position.x *= 0.2, bodies[i].pose.position.y *= 0.2, bodies[i].pose.position.z *= 0.2;
     }
-    for (int question = 0; question < 2; question++) {
+    for (int question = 0; question < 3; question++) {
         ovoid_batch batch = {bodies, BODIES, couples, COUPLES, NULL, NULL, verdicts, answers, NULL};
         CHECK(ask_batch(question, &batch, NULL) == OVOID_OK);
         compare(question, NULL, 0);
@@ -286,13 +287,14 @@ int main(void) {
     for (int i = 0; i < SHAPES; i++) ovoid_shape_destroy(shapes[i]);
     check_needles(&s);
     check_origins();
-    // So small that what underflow can hide is a part of every bound.
-    scale = 1e-115;
-    if (!make_shapes(shapes, &s)) return check_end();
-    make_bodies(shapes, &s);
-    check_all(1);
-    check_widths();
+    // So small that what underflow can hide is a part of every bound, then most of it.
+    for (scale = 1e-115; scale > 1e-130; scale *= 1e-12) {
+        if (!make_shapes(shapes, &s)) return check_end();
+        make_bodies(shapes, &s);
+        check_all(1);
+        check_widths();
+        for (int i = 0; i < SHAPES; i++) ovoid_shape_destroy(shapes[i]);
+    }
     check_refusals();
-    for (int i = 0; i < SHAPES; i++) ovoid_shape_destroy(shapes[i]);
     return check_end();
 }

@@ -27,6 +27,8 @@ static void compare(const gjk8 *g, unsigned lanes, small_gjk_end end, couple *co
 // All couples of one goal, as a batch has them.
 static void run_goal(uint64_t *s) {
     static gjk8 g;
+    static small_gjk_bodies bodies[PAIR8];
+    g.bodies = bodies;
     static couple couples[PAIR8];
     couple *at[PAIR8];
     small_gjk_query goal;

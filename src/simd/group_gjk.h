@@ -1,0 +1,43 @@
+// GJK of the couples of a lane group (pair8.h), all from the line of centres, from the spheres to the nearest points
+// without leaving the lanes. Bodies are never posed: a direction is turned into both body frames, and the vertices of
+// the supports are turned back, for eight couples at once. The tests and the step are those of gjk8.h.
+//
+// Lanes that end wait for the slowest one: for distances this costs less than to pose the bodies and to fill the lanes
+// again (docs/query.md).
+#ifndef OVOID_SIMD_GROUP_GJK_H
+#define OVOID_SIMD_GROUP_GJK_H
+
+#include "simd/gjk8.h"
+
+typedef struct group_gjk {
+    gjk8 search;                                  ///< without bodies
+    simd_points points_a[PAIR8], points_b[PAIR8]; ///< set by the caller for the lanes at work: at most SMALL_GJK_POINTS
+    lane_column along_a[3], along_b[3];           ///< the heading in the body frames
+    lane_column high, low;                        ///< the latest supports: A's and B's values,
+    lane_column vertex_a[3], vertex_b[3];         ///< and vertices, body frames
+    lane_column count;                            ///< set by the caller before `finish`: corners, 1 to 3,
+    lane_column corner[3 * 3];                    ///< their differences, world,
+    lane_column corner_a[3 * 3];                  ///< and A's vertices, body frame
+    lane_column weight[3];                        ///< written by `finish`: of the corners, zero of those that are none
+    lane_column point_a[3], point_b[3]; ///< nearest points of the cores, world, from the origin of A's body frame
+    lane_column normal[3];              ///< unit, world
+    lane_column lower, upper;
+} group_gjk;
+
+/// Kernels of one instruction set. The group has gone through `spheres`.
+typedef struct group_gjk_kernels {
+    /// Begins all lanes; those at work are in s->search.active, and its near, far (infinite) and wants_bracket are set.
+    void (*begin)(const pair8 *o, const pair8_query *query, group_gjk *s);
+    /// The supports of the lanes at work along the heading. Nothing of the others changes.
+    void (*support)(const pair8 *o, group_gjk *s);
+    /// The first support becomes the simplex, and may be the nearest point already. Lanes that end are at work no
+    /// more. Later supports go to `advance` of gjk8.h, as measured.
+    gjk8_ends (*start)(group_gjk *s);
+    /// The bounds, weights and nearest points of the lanes of a mask, which ended near.
+    void (*finish)(const pair8 *o, unsigned lanes, group_gjk *s);
+} group_gjk_kernels;
+
+/// The kernels of the widest instruction set of this machine.
+const group_gjk_kernels *group_gjk_get_kernels(void);
+
+#endif

@@ -1,0 +1,175 @@
+// The kernels of group_gjk.h, written once over lanes; scalar.c, avx2.c and avx512.c include this after kernels/pair8.h
+// and kernels/gjk8.h. The errors are those of exact/small.c (docs/error-analysis.md).
+#include "simd/group_gjk.h"
+
+LANES_TARGET static void run_group_begin(const pair8 *o, const pair8_query *query, group_gjk *s) {
+    gjk8 *g = &s->search;
+    for (int at = 0; at < PAIR8; at += LANES) {
+        if (!has_lanes(g->active, at)) continue;
+        lane zero = lane_set(0), radii = get(&o->radii, at);
+        lane3 n = get3(o->between, at), none = {zero, zero, zero};
+        lane square = lane3_dot(n, n);
+        put3(g->start, at, n);
+        put3(g->n, at, n);
+        put(&g->start_square, at, square);
+        put(&g->square, at, square);
+        for (int i = 0; i < 3; i++) {
+            put3(&g->old[i].x, at, none);
+            put(&g->old[i].id, at, zero);
+            put(&g->is_valid[i], at, zero);
+        }
+        put3(s->vertex_a, at, none);
+        put3(s->vertex_b, at, none);
+        put(&s->high, at, zero);
+        put(&s->low, at, zero);
+        put(&g->fresh.id, at, zero);
+        put(&g->is_first, at, zero);
+        put(&g->steps, at, zero);
+        put(&g->most, at, lane_set(query->iterations));
+        put(&g->claim, at, compute_claim(query, get(&o->size, at)));
+        put(&g->lower_radii, at, radii);
+        put(&g->upper_radii, at, radii);
+        put(&g->tolerance, at, get(&o->tolerance, at));
+    }
+}
+
+// ---- supports
+
+// The supports of lane k, for bodies of so many eights of points.
+SMALL_GJK_INLINE void find_ends(group_gjk *s, unsigned k, uint32_t blocks) {
+    const simd_points *a = &s->points_a[k], *b = &s->points_b[k];
+    vec3 in_a = {s->along_a[0].lane[k], s->along_a[1].lane[k], s->along_a[2].lane[k]};
+    vec3 in_b = {s->along_b[0].lane[k], s->along_b[1].lane[k], s->along_b[2].lane[k]};
+    support_result high = find_extreme_point(a, in_a, blocks, 0), low = find_extreme_point(b, in_b, blocks, 1);
+    s->high.lane[k] = high.value;
+    s->low.lane[k] = low.value;
+    s->vertex_a[0].lane[k] = a->x[high.index];
+    s->vertex_a[1].lane[k] = a->y[high.index];
+    s->vertex_a[2].lane[k] = a->z[high.index];
+    s->vertex_b[0].lane[k] = b->x[low.index];
+    s->vertex_b[1].lane[k] = b->y[low.index];
+    s->vertex_b[2].lane[k] = b->z[low.index];
+    s->search.fresh.id.lane[k] = high.index + SMALL_GJK_POINTS * low.index;
+}
+
+LANES_TARGET static void find_lane_ends(group_gjk *s, unsigned k) {
+    uint32_t a = s->points_a[k].padded_count, b = s->points_b[k].padded_count;
+    switch ((a > b ? a : b) / 8) {
+    case 1: find_ends(s, k, 1); break;
+    case 2: find_ends(s, k, 2); break;
+    case 3: find_ends(s, k, 3); break;
+    default: find_ends(s, k, 4); break;
+    }
+}
+
+// The difference of the vertices and the gap. For lanes whose supports are as before they are as before.
+LANES_INLINE void meet_ends(const pair8 *o, group_gjk *s, int at) {
+    gjk8 *g = &s->search;
+    lane3 a = lane9_mul3(get9(o->world_a, at), get3(s->vertex_a, at));
+    lane3 b = lane9_mul3(get9(o->world_b, at), get3(s->vertex_b, at));
+    lane3 offset = get3(o->offset, at);
+    put3(&g->fresh.x, at, lane3_add(offset, lane3_sub(b, a)));
+    put(&g->gap, at, (lane3_dot(get3(g->n, at), offset) + get(&s->low, at)) - get(&s->high, at));
+}
+
+LANES_TARGET static void run_group_support(const pair8 *o, group_gjk *s) {
+    unsigned active = s->search.active;
+    for (int at = 0; at < PAIR8; at += LANES) {
+        if (!has_lanes(active, at)) continue;
+        lane3 n = get3(s->search.n, at);
+        put3(s->along_a, at, lane9_mul3_transposed(get9(o->world_a, at), n));
+        put3(s->along_b, at, lane9_mul3_transposed(get9(o->world_b, at), n));
+    }
+    for (unsigned rest = active; rest; rest &= rest - 1) find_lane_ends(s, (unsigned)__builtin_ctz(rest));
+    for (int at = 0; at < PAIR8; at += LANES)
+        if (has_lanes(active, at)) meet_ends(o, s, at);
+}
+
+// Of begin() of kernels/small_gjk.h what follows the first support.
+LANES_TARGET static gjk8_ends run_group_start(group_gjk *s) {
+    gjk8 *g = &s->search;
+    gjk8_ends all = {0, 0, 0, 0};
+    for (int at = 0; at < PAIR8; at += LANES) {
+        if (!has_lanes(g->active, at)) continue;
+        lane3 w = get3(&g->fresh.x, at), n = get3(g->n, at);
+        lane gap = get(&g->gap, at), square = get(&g->square, at), radii = get(&g->lower_radii, at);
+        lane claim = get(&g->claim, at), least = lane_set(1e-150), most = lane_set(1e150);
+        lane norm = lane3_dot(w, w);
+        lane lower = gap * (lane_set(1) / lane_sqrt(square)) - radii - claim;
+        lane upper = lane_sqrt(norm) - get(&g->upper_radii, at) + claim;
+        lane_mask good = lane_and(lane_greater(square, least), lane_less(square, most));
+        lane_mask near = lane_and(is_answered_at(g, at, lower, upper), lane_not(lane_greater(radii, lane_set(0))));
+        near = lane_and(near, good);
+        lane_mask goes = lane_and(lane_and(lane_greater(norm, least), lane_less(norm, most)), good);
+        goes = lane_and(goes, lane_not(near));
+        put(&g->start_gap, at, gap);
+        put3(&g->old[0].x, at, w);
+        put(&g->old[0].id, at, get(&g->fresh.id, at));
+        put(&g->is_valid[0], at, lane_set(1));
+        put3(g->n, at, lane3_select(goes, w, n));
+        put(&g->height, at, lane_select(goes, norm, lane_set(0)));
+        put(&g->square, at, lane_select(goes, norm, square));
+        all.near |= lane_bits(near) << at;
+        all.open |= lane_bits(lane_not(lane_or(near, goes))) << at;
+    }
+    all.near &= g->active;
+    all.open &= g->active;
+    g->active &= ~(all.near | all.open);
+    return all;
+}
+
+// ---- the end
+
+// One to three corners; those that are none repeat the first.
+typedef struct corner_set {
+    lane3 p[3];
+    lane_mask has_two, has_three;
+} corner_set;
+
+LANES_INLINE corner_set get_corners(const lane_column c[3 * 3], lane count, int at) {
+    corner_set s = {{get3(c, at), get3(c + 3, at), get3(c + 6, at)},
+                    lane_greater(count, lane_set(1.5)),
+                    lane_greater(count, lane_set(2.5))};
+    s.p[1] = lane3_select(s.has_two, s.p[1], s.p[0]);
+    s.p[2] = lane3_select(s.has_three, s.p[2], s.p[0]);
+    return s;
+}
+
+// The weights of the corners' nearest point, as in simplex_compute_weights; those below zero by rounding are cut off,
+// so that they are of a point of the corners' hull whatever they were.
+LANES_INLINE void compute_group_weights(const corner_set *c, lane weight[3]) {
+    lane zero = lane_set(0), one = lane_set(1);
+    lane3 e = lane3_sub(c->p[1], c->p[0]), n = lane3_cross(e, lane3_sub(c->p[2], c->p[0]));
+    lane t = lane_max(zero, lane_min(one, zero - lane3_dot(c->p[0], e) / lane3_dot(e, e)));
+    lane u = lane_max(zero, lane3_dot(n, lane3_cross(c->p[1], c->p[2])));
+    lane v = lane_max(zero, lane3_dot(n, lane3_cross(c->p[2], c->p[0])));
+    lane w = lane_max(zero, lane3_dot(n, lane3_cross(c->p[0], c->p[1])));
+    lane scale = one / ((u + v) + w);
+    weight[0] = lane_select(c->has_three, u * scale, lane_select(c->has_two, one - t, one));
+    weight[1] = lane_select(c->has_three, v * scale, lane_select(c->has_two, t, zero));
+    weight[2] = lane_select(c->has_three, w * scale, zero);
+}
+
+LANES_INLINE lane3 combine(const lane3 p[3], const lane weight[3]) {
+    return lane3_add_scaled(lane3_add_scaled(lane3_scale(p[0], weight[0]), p[1], weight[1]), p[2], weight[2]);
+}
+
+LANES_TARGET static void run_group_finish(const pair8 *o, unsigned lanes, group_gjk *s) {
+    const gjk8 *g = &s->search;
+    for (int at = 0; at < PAIR8; at += LANES) {
+        if (!has_lanes(lanes, at)) continue;
+        lane weight[3], count = get(&s->count, at), claim = get(&g->claim, at), radii = get(&g->lower_radii, at);
+        corner_set differences = get_corners(s->corner, count, at), vertices = get_corners(s->corner_a, count, at);
+        compute_group_weights(&differences, weight);
+        lane3 between = combine(differences.p, weight), n = get3(g->n, at);
+        lane3 point_a = lane9_mul3(get9(o->world_a, at), combine(vertices.p, weight));
+        lane scale = lane_set(1) / lane_sqrt(get(&g->square, at)), zero = lane_set(0);
+        for (int i = 0; i < 3; i++) put(&s->weight[i], at, weight[i]);
+        put3(s->point_a, at, point_a);
+        put3(s->point_b, at, lane3_add(point_a, between));
+        // No zero of a direction is negative.
+        put3(s->normal, at, (lane3){n.x * scale + zero, n.y * scale + zero, n.z * scale + zero});
+        put(&s->lower, at, get(&g->gap, at) * scale - radii - claim);
+        put(&s->upper, at, lane3_norm(between) - radii + claim);
+    }
+}
