@@ -381,7 +381,9 @@ static void test_left_to_fcl() {
     CHECK_EQ(count(&a, &a, t, CollisionRequestd(1, false, 5, true)), 1);
     CHECK_EQ(count(&a, &a, t, CollisionRequestd(0)), 1);
     for (const auto *wrong_pose : {&grown, &mirrored, &sheared})
-        CHECK_EQ(count(&a, &a, *wrong_pose, CollisionRequestd()), 1);
+        for (const CollisionGeometryd *other :
+             {static_cast<const CollisionGeometryd *>(&a), static_cast<const CollisionGeometryd *>(&plane)})
+            CHECK_EQ(count(&a, other, *wrong_pose, CollisionRequestd()), 1);
     CHECK_EQ(count(&a, &wrong, t, CollisionRequestd()), 1);
     CHECK_EQ(count(&plane, &plane, t, CollisionRequestd()), 1);
     CHECK_EQ(count(&a, &plane, t, CollisionRequestd()), 0);

@@ -10,7 +10,10 @@
 #include "ovoid/fcl/print.hpp"
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
+#include <type_traits>
+#include <vector>
 
 namespace ovoid {
 namespace fcl {
@@ -52,12 +55,10 @@ template <class S> class supporter {
   public:
     explicit supporter(const vector &direction) : n_(direction) {}
 
-    /// Takes a point in, of triangle i.
-    void add(const ::fcl::Vector3<S> &point, int i = -1) { add_point(point.template cast<double>(), i); }
-    void add_point(const vector &point, int i = -1) {
+    void add(const ::fcl::Vector3<S> &point) { add_point(to_vector<S>(point)); }
+    void add_point(const vector &point) {
         const double height = n_.dot(point);
-        if (!(height > best_.height)) return;
-        best_ = {point, height, i};
+        if (height > best_.height) best_ = {point, height, -1};
     }
     /// The circle of a radius around the z axis at a height.
     void add_circle(double radius, double z) {
@@ -73,12 +74,8 @@ template <class S> class supporter {
     extreme best_{vector::Zero(), -std::numeric_limits<double>::infinity(), -1};
 };
 
-template <class S> void add_mesh(supporter<S> &to, const mesh_view<S> &mesh) {
-    for (int i = 0; i < mesh.triangle_count; i++)
-        for (int k = 0; k < 3; k++) to.add(mesh.vertices[mesh.triangles[i][static_cast<std::size_t>(k)]], i);
-}
-
-/// The farthest point of a geometry along a unit direction of its frame; its height is -infinity if there is none.
+/// The farthest point of a geometry, no mesh, along a unit direction of its frame; its height is -infinity if there is
+/// none.
 template <class S> extreme find_extreme(const typed<S> &geometry, const vector &n) {
     supporter<S> to(n);
     const auto *g = geometry.of;
@@ -118,10 +115,7 @@ template <class S> extreme find_extreme(const typed<S> &geometry, const vector &
     case ::fcl::GEOM_CONVEX:
         for (const auto &v : static_cast<const ::fcl::Convex<S> *>(g)->getVertices()) to.add(v);
         break;
-    default: {
-        mesh_view<S> mesh;
-        if (view_mesh(g, mesh)) add_mesh(to, mesh);
-    }
+    default: break;
     }
     return to.get();
 }
@@ -189,7 +183,68 @@ extreme find_height(const typed<S> &g, const ::fcl::Transform3<S> &pose, const p
     return e;
 }
 
+/// A mesh and a plane: the height of a corner needs no transform of it.
+template <class S> class mesh_heights {
+  public:
+    mesh_heights(const mesh_view<S> &mesh, const ::fcl::Transform3<S> &pose, const plane &p)
+        : mesh_(mesh), at_(pose), n_(at_.turn_back(p.n)), offset_(p.n.dot(at_.position()) - p.d) {}
+
+    double at(int vertex) const { return n_.dot(to_vector<S>(mesh_.vertices[vertex])) + offset_; }
+    /// FCL's operator for this is no inline function.
+    int corner(int i, int k) const {
+        static_assert(std::is_standard_layout<::fcl::Triangle>::value &&
+                          sizeof(::fcl::Triangle) == sizeof(std::size_t[3]),
+                      "a triangle is its three indices");
+        const auto *corners = reinterpret_cast<const std::size_t *>(mesh_.triangles + i);
+        return static_cast<int>(corners[k]);
+    }
+    /// A corner of triangle i, in the world.
+    extreme make(int vertex, double height, int i) const {
+        return {at_.turn(to_vector<S>(mesh_.vertices[vertex])) + at_.position(), height, i};
+    }
+    int count() const { return mesh_.vertex_count; }
+    int triangle_count() const { return mesh_.triangle_count; }
+
+    /// The first triangle with this corner; -1: none, the vertex is not of the surface.
+    int find_triangle(int vertex) const {
+        for (int i = 0; i < mesh_.triangle_count; i++)
+            if (corner(i, 0) == vertex || corner(i, 1) == vertex || corner(i, 2) == vertex) return i;
+        return -1;
+    }
+    /// The lowest (sign 1) or the highest (-1) corner of all triangles.
+    extreme find_end(double sign) const {
+        const double far = std::numeric_limits<double>::infinity();
+        int vertex = 0, triangle;
+        double best = far;
+        for (int i = 0; i < mesh_.vertex_count; i++) {
+            const double height = sign * at(i);
+            if (height < best) best = height, vertex = i;
+        }
+        triangle = find_triangle(vertex);
+        if (triangle >= 0) return make(vertex, sign * best, triangle);
+        best = far;
+        for (int i = 0; i < mesh_.triangle_count; i++)
+            for (int k = 0; k < 3; k++) {
+                const double height = sign * at(corner(i, k));
+                if (height < best) best = height, vertex = corner(i, k), triangle = i;
+            }
+        return make(vertex, sign * best, triangle);
+    }
+
+  private:
+    const mesh_view<S> &mesh_;
+    placing<S> at_;
+    vector n_;
+    double offset_;
+};
+
 template <class S> plane_answer ask_plane(const typed<S> &g, const ::fcl::Transform3<S> &pose, const plane &p) {
+    mesh_view<S> mesh;
+    if (g.type < ::fcl::GEOM_BOX && view_mesh(g.of, mesh)) {
+        const mesh_heights<S> heights(mesh, pose, p);
+        const extreme low = heights.find_end(1);
+        return answer_plane(p, low, p.is_halfspace ? low : heights.find_end(-1));
+    }
     const extreme low = find_height(g, pose, p, -1);
     return answer_plane(p, low, p.is_halfspace ? low : find_height(g, pose, p, 1));
 }
@@ -199,17 +254,20 @@ template <class S, class Take>
 void list_plane(const geometry<S> *g, const ::fcl::Transform3<S> &pose, const plane &p, Take take) {
     mesh_view<S> mesh;
     if (!view_mesh(g, mesh)) return;
-    for (int i = 0; i < mesh.triangle_count; i++) {
-        extreme low{vector::Zero(), std::numeric_limits<double>::infinity(), i}, high{vector::Zero(), -low.height, i};
-        for (int k = 0; k < 3; k++) {
-            const vector at =
-                (pose * mesh.vertices[mesh.triangles[i][static_cast<std::size_t>(k)]]).template cast<double>();
-            const double height = p.n.dot(at) - p.d;
-            if (height < low.height) low.point = at, low.height = height;
-            if (height > high.height) high.point = at, high.height = height;
+    const mesh_heights<S> heights(mesh, pose, p);
+    std::vector<double> all(static_cast<std::size_t>(heights.count()));
+    for (int i = 0; i < heights.count(); i++) all[static_cast<std::size_t>(i)] = heights.at(i);
+    for (int i = 0; i < heights.triangle_count(); i++) {
+        int low = heights.corner(i, 0), high = low;
+        for (int k = 1; k < 3; k++) {
+            const int vertex = heights.corner(i, k);
+            const auto height_of = [&all](int of) { return all[static_cast<std::size_t>(of)]; };
+            if (height_of(vertex) < height_of(low)) low = vertex;
+            if (height_of(vertex) > height_of(high)) high = vertex;
         }
-        const plane_answer answer = answer_plane(p, low, high);
-        if (answer.distance <= 0 && !take(answer)) return;
+        const double lowest = all[static_cast<std::size_t>(low)], highest = all[static_cast<std::size_t>(high)];
+        if (!(lowest <= 0) || (!p.is_halfspace && !(highest >= 0))) continue;
+        if (!take(answer_plane(p, heights.make(low, lowest, i), heights.make(high, highest, i)))) return;
     }
 }
 
