@@ -3,6 +3,12 @@
 // answer the same call in turn, and the medians over rounds are compared.
 #include <ovoid/fcl.hpp>
 
+#ifdef OVOID_HAVE_JUDGE
+extern "C" {
+#include <judge.h>
+}
+#endif
+
 #include <time.h>
 
 #include <algorithm>
@@ -142,8 +148,52 @@ void place(const named &x, const fcl::Transform3d &at, ovoid_prepared_shape &to)
     ovoid::fcl::detail::place<double>(x.body->shape(), t, to);
 }
 
+/// What a proof is asked for.
+enum question { of_sign, of_distance, of_depth, question_count };
+
+/// Puts a sample of the proofs before the exact judge, which works in rationals and shares no code with the library: of
+/// each pair of types and question the first few.
+class court {
+  public:
+    static court &get() {
+        static court all;
+        return all;
+    }
+    void set_sample(long proofs) { sample_ = proofs; }
+    void begin_pair() { std::fill(taken_, taken_ + question_count, 0); }
+    void print() const {
+#ifdef OVOID_HAVE_JUDGE
+        std::printf("of the proofs behind this the exact judge was given, and confirmed: yes or no %ld, %ld; distances "
+                    "%ld, %ld; depths and normals %ld, %ld\n",
+                    given_[of_sign], right_[of_sign], given_[of_distance], right_[of_distance], given_[of_depth],
+                    right_[of_depth]);
+#endif
+    }
+    bool is_right() const { return std::equal(given_, given_ + question_count, right_); }
+#ifdef OVOID_HAVE_JUDGE
+    void take(question of, const ovoid_pair &pair, const ovoid_answer &answer, const ovoid_answer_basis &basis) {
+        if (taken_[of]++ >= sample_) return;
+        ovoid_error error;
+        judge_set_options(judge_, basis.options);
+        given_[of]++;
+        if (judge_verify_answer(judge_, &pair, &answer, basis.cover, &error) == OVOID_OK)
+            right_[of]++;
+        else
+            std::printf("NOT CONFIRMED: %s\n", error.message);
+    }
+
+  private:
+    judge *judge_ = judge_create(); // lives until the program ends
+#else
+    void take(question, const ovoid_pair &, const ovoid_answer &, const ovoid_answer_basis &) {}
+
+  private:
+#endif
+    long sample_ = 10, taken_[question_count] = {}, given_[question_count] = {}, right_[question_count] = {};
+};
+
 /// The proven bracket of the signed distance; meshes are their surfaces, whose overlaps have no depth here.
-ovoid_answer prove(const named &x, const named &y, const fcl::Transform3d &s, const fcl::Transform3d &t) {
+ovoid_answer prove(const named &x, const named &y, const fcl::Transform3d &s, const fcl::Transform3d &t, question of) {
     ovoid::fcl::detail::body_couple couple;
     couple.a = x.body.get(), couple.b = y.body.get();
     place(x, s, couple.at_a), place(y, t, couple.at_b);
@@ -162,6 +212,7 @@ ovoid_answer prove(const named &x, const named &y, const fcl::Transform3d &s, co
     const ovoid_answer_basis basis = {&tight, &cover};
     ovoid_error error;
     if (ovoid_answer_verify(&pair, &answer, &basis, &error) != OVOID_OK) std::printf("NOT PROVEN: %s\n", error.message);
+    court::get().take(of, pair, answer, basis);
     return answer;
 }
 
@@ -174,8 +225,8 @@ void judge_contact(const named &x, const named &y, const fcl::Transform3d &s, co
                    const fcl::Contactd &contact, faults &of) {
     fcl::Transform3d moved = t;
     moved.translation() += contact.normal * contact.penetration_depth;
-    of.short_depth += prove(x, y, s, moved).upper < -resolution;
-    of.long_depth += contact.penetration_depth > -prove(x, y, s, t).lower + resolution;
+    of.short_depth += prove(x, y, s, moved, of_depth).upper < -resolution;
+    of.long_depth += contact.penetration_depth > -prove(x, y, s, t, of_depth).lower + resolution;
 }
 
 /// Takes the place of stderr: FCL says there that it has no answer for a pair.
@@ -223,7 +274,7 @@ void compare_contacts(const named &x, const named &y, const fcl::Transform3d &s,
     if (!is_known) return;
     if (theirs.isCollision() != ours.isCollision()) {
         d.answers++;
-        const ovoid_status truth = prove(x, y, s, t).status;
+        const ovoid_status truth = prove(x, y, s, t, of_sign).status;
         const bool is_hit = truth == OVOID_OVERLAPPING;
         if (is_hit || truth == OVOID_SEPARATED)
             d.fcl.sign += theirs.isCollision() != is_hit, d.ours.sign += ours.isCollision() != is_hit;
@@ -248,7 +299,7 @@ void compare_distances(const named &x, const named &y, const fcl::Transform3d &s
     d.most = std::max(d.most, std::fabs(theirs - ours));
     if (!is_other(theirs, ours)) return;
     d.distances++;
-    const ovoid_answer truth = prove(x, y, s, t);
+    const ovoid_answer truth = prove(x, y, s, t, of_distance);
     const auto is_outside = [&](double found) {
         return found < truth.lower - resolution || found > truth.upper + resolution;
     };
@@ -266,6 +317,7 @@ bool is_fatal(const named &x, const named &y) {
 }
 
 void compare(const named &x, const named &y, const poses &at, difference &d) {
+    court::get().begin_pair();
     for (std::size_t i = 0; i < at.a.size(); i++) {
         compare_contacts(x, y, at.a[i], at.b[i], d);
         // FCL's distance of a box and a halfspace calls a null pointer.
@@ -423,11 +475,15 @@ int main(int argc, char **argv) {
             rounds = std::max(0, std::atoi(argv[++i]));
         } else if (std::strcmp(argv[i], "--objects") == 0 && i + 1 < argc) {
             objects = std::max(0, std::atoi(argv[++i]));
+        } else if (std::strcmp(argv[i], "--judge") == 0 && i + 1 < argc) {
+            court::get().set_sample(std::atol(argv[++i]));
         } else {
             std::printf(
-                "bench_fcl_calls [--calls N] [--rounds N] [--objects N]: FCL's calls by FCL and by ovoid; N "
+                "bench_fcl_calls [--calls N] [--rounds N] [--objects N] [--judge N]: FCL's calls by FCL and by ovoid; "
+                "N "
                 "calls of each pair of types (0: none), N rounds of 100 calls are timed (0: none), and managers "
-                "of 100, 1000, ... up to N objects\n");
+                "of 100, 1000, ... up to N objects; the exact judge is given N proofs of each pair of types and "
+                "question, 10\n");
             return std::strcmp(argv[i], "--help") != 0;
         }
     }
@@ -448,6 +504,7 @@ int main(int argc, char **argv) {
             total.add(d);
         }
     print_row("all", "", total);
+    court::get().print();
     if (rounds > 0 && calls > 0)
         std::printf(
             "\nns a call, FCL, ovoid, FCL / ovoid | collide | collide with 4 contacts | distance with points\n");
@@ -461,5 +518,5 @@ int main(int argc, char **argv) {
     for (int count = 100; count <= objects && rounds > 0; count *= 10)
         for (const double step : {0.0, 0.02}) is_same = measure_managers(count, rounds, step) && is_same;
     const faults &ours = total.ours;
-    return ours.sign + ours.distance + ours.short_depth + ours.long_depth > 0 || !is_same;
+    return ours.sign + ours.distance + ours.short_depth + ours.long_depth > 0 || !is_same || !court::get().is_right();
 }
