@@ -212,8 +212,10 @@ static void run_stages(search *s, double sphere_gap, const ovoid_proof *earlier,
     else
         stage_outer(s, &n);
     if (search_is_done(s)) return;
+    // One vertex of a polyhedron is found again if it still is the nearest one, one point of a rim is not.
+    int is_kept = start->count > 1 || (start->count && s->frame->is_true);
     simplex fresh;
-    stage_support(s, n, start->count > 1 ? &fresh : start);
+    stage_support(s, n, is_kept ? &fresh : start);
 }
 
 // GJK, then EPA where the cores touch or overlap and GJK cannot narrow the bracket. A depth query tries EPA first,

@@ -2,10 +2,10 @@
 // one field at a time (alter.h), and their exclusions: each field of some, one left out, doubled, another's, two
 // swapped. Truth: exact arithmetic (the judge), by the parts of every exclusion; and for the limit what its words
 // promise. What these show to be false must be refused; what is still true may pass. Answers as they were must pass.
-#include "alter_answer.h"
 #include "compounds.h"
 #include "judge.h"
 #include "options.h"
+#include "proofs/alter_answer.h"
 #include "proofs/covers.h"
 
 #include <time.h>

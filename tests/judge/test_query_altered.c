@@ -2,8 +2,8 @@
 // every kind, are altered one field at a time (alter.h), their covers too. Truth: exact arithmetic (the judge), which
 // looks at the altered answer as it stands; and for the limit what its words promise. What these show to be false must
 // be refused; what is still true may pass. Answers as they were must pass.
-#include "alter_answer.h"
 #include "options.h"
+#include "proofs/alter_answer.h"
 #include "proofs/covers.h"
 #include "trials/families.h"
 #include "trials/shapes.h"
