@@ -31,19 +31,19 @@ echo ball.obj >shapes.txt
 echo 'a,b,ax,ay,az,aqw,aqx,aqy,aqz,bx,by,bz,bqw,bqx,bqy,bqz' >pairs.csv
 echo '0,0,0,0,0,1,0,0,0,0,0,0,0.3,0.4,0.5,0.7' >>pairs.csv
 for form in --csv --json; do
-    "$OVOID_TOOL" batch --shapes shapes.txt --pairs pairs.csv --query distance $form >batch 2>said
-    check "batch $form" grep -q 'overlapping.*none' batch
+    "$OVOID_TOOL" batch --shapes shapes.txt --pairs pairs.csv --query distance $form >batch.out 2>said
+    check "batch $form" grep -q 'overlapping.*none' batch.out
 done
-"$OVOID_TOOL" verify batch --shapes shapes.txt --pairs pairs.csv >said 2>&1
+"$OVOID_TOOL" verify batch.out --shapes shapes.txt --pairs pairs.csv >said 2>&1
 check 'batch: the cover holds' grep -q 'hold: 1, do not: 0' said
 
 pose='"xyz":[0,0,0],"quat_wxyz":[0.3,0.4,0.5,0.7]'
 printf '{"objects":[{"name":"a","mesh":"ball.obj","hull":true},{"name":"b","mesh":"ball.obj","hull":true,"pose":{%s}}]}' "$pose" >scene.json
 for form in --csv --json; do
-    "$OVOID_TOOL" check scene.json $form >check 2>said
-    check "check $form" grep -q 'overlapping.*none' check
+    "$OVOID_TOOL" check scene.json $form >check.out 2>said
+    check "check $form" grep -q 'overlapping.*none' check.out
 done
-"$OVOID_TOOL" verify check scene.json >said 2>&1
+"$OVOID_TOOL" verify check.out scene.json >said 2>&1
 check 'check: the cover holds' grep -q 'hold: 1, do not: 0' said
 echo "$passed passed, $failed failed, 0 skipped"
 [ $failed -eq 0 ]
