@@ -19,7 +19,7 @@ packages_of() {
         bench) packages_of build && echo libccd-dev libfcl-dev libbullet-dev libode-dev libqhull-dev ;;
         fuzz) packages_of build && echo clang libclang-rt-14-dev assimp-testmodels ;;
         ports) packages_of check && echo gcc-i686-linux-gnu libc6-dev-i386-cross gcc-mingw-w64-x86-64-win32 wine64 ;;
-        wasm) packages_of build && echo clang lld binaryen wasi-libc libclang-rt-14-dev-wasm32 && { command -v node >/dev/null || echo nodejs; } ;;
+        wasm) packages_of build && echo clang lld binaryen zopfli wasi-libc libclang-rt-14-dev-wasm32 && { command -v node >/dev/null || echo nodejs; } ;;
         page) packages_of wasm && echo chromium firefox-esr && { command -v npm >/dev/null || echo npm; } ;;
         python) packages_of build && echo python3 python3-dev python3-numpy python3-setuptools python3-wheel python3-pip python3-venv python3-hypothesis mypy python3-matplotlib python3-nbconvert python3-ipykernel ;;
         cluster) packages_of python && echo parallel slurmctld slurmd slurm-client munge python3-distributed python3-mpi4py openmpi-bin ;;

@@ -10,7 +10,7 @@ cd "$(dirname "$0")/.."
 jobs=${JOBS:-2} most=350000
 out=build/wasm
 
-for tool in clang wasm-ld wasm-opt node; do
+for tool in clang wasm-ld wasm-opt zopfli node; do
     command -v $tool >/dev/null || { echo "wasm: $tool is not here: scripts/setup.sh wasm" >&2 && exit 1; }
 done
 build() {
@@ -29,7 +29,10 @@ wasm-opt -Oz --enable-simd --enable-bulk-memory --enable-sign-ext --enable-mutab
     $out/cmake/web/ovoid.wasm -o $out/package/ovoid.wasm
 version=$(sed -n 's/^ *"version": "\(.*\)",$/\1/p' web/package/package.json)
 [ "$version" = "$(build/release/ovoid --version | sed 's/^ovoid //;q')" ] || { echo "wasm: package.json says $version, the tool another version" >&2 && exit 1; }
-tar -C $out --sort=name --mtime=@0 --owner=0 --group=0 --numeric-owner --use-compress-program='gzip -9n' -cf "$out/ovoid-$version.tgz" package
+# zopfli writes gzip's format in a twentieth less than gzip -9.
+tar -C $out --sort=name --mtime=@0 --owner=0 --group=0 --numeric-owner -cf $out/package.tar package
+zopfli --i5 -c $out/package.tar >"$out/ovoid-$version.tgz"
+rm -f $out/package.tar
 size=$(stat -c %s "$out/ovoid-$version.tgz")
 printf '%s: %s bytes, ovoid.wasm in it %s\n' "$out/ovoid-$version.tgz" "$size" "$(stat -c %s $out/package/ovoid.wasm)"
 [ "$size" -le $most ] || { echo "wasm: more than $most bytes" >&2 && exit 1; }
