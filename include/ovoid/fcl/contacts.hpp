@@ -136,14 +136,17 @@ struct measured {
     ovoid_verdict bracket;
     ovoid_witness at;
 };
+/// Where round bodies touch, a depth that is off by e has a normal that is off by the root of e: depths of contacts are
+/// nearly to rounding. Those of polyhedra are so anyway.
+constexpr ovoid_options contact_options = {0, 1e-12, 0, 0};
 inline measured ask_depth(const ovoid_prepared_pair &pair) {
     measured found;
     const ovoid_evidence evidence = {nullptr, &found.at, nullptr};
-    found.bracket = ovoid_prepared_depth(pair, nullptr, &evidence);
+    found.bracket = ovoid_prepared_depth(pair, &contact_options, &evidence);
     return found;
 }
 inline measured ask_depth(const ovoid_pair &pair) {
-    const ovoid_answer x = ovoid_depth(&pair, nullptr, nullptr, nullptr);
+    const ovoid_answer x = ovoid_depth(&pair, &contact_options, nullptr, nullptr);
     return {{x.status, x.stage, x.limit, x.iterations, x.lower, x.upper}, {x.point_a, x.point_b, x.normal}};
 }
 
