@@ -38,15 +38,15 @@ typedef union growth_room {
 } growth_room;
 
 typedef struct growth {
-    search *s;
-    prober p;
-    expansion e;
     growth_room room;
-    uint16_t nearest; ///< face
+    search *s;
+    double gap; ///< along the nearest face's normal, NAN until measured
+    ovoid_cover *cover;
+    expansion e;
+    prober p;
     int is_grown;     ///< as near as is wanted
     int is_moved;     ///< the surface is in the cover's memory
-    double gap;       ///< along its normal, NAN until measured
-    ovoid_cover *cover;
+    uint16_t nearest; ///< face
 } growth;
 
 static int has_point(const expansion *e, const frame_support *support) {

@@ -14,8 +14,8 @@ typedef struct group_search {
     int wants_corners; ///< `finish` reads the end's simplex
 } group_search;
 
-/// Searches the lanes `some` of a group that the spheres have placed. The bodies are small, and the inner ellipsoids
+/// Searches the lanes `some` of a group e that the spheres have placed. The bodies are small, and the inner ellipsoids
 /// are not tried.
-void group_search_run(const group_search *task, const lane_group *group, unsigned some);
+void group_search_run(const group_search *task, const lane_group *e, unsigned some);
 
 #endif
