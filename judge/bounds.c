@@ -56,13 +56,21 @@ static ovoid_code verify_distance(const claim *c, nvec difference, num denominat
     return OVOID_OK;
 }
 
-static ovoid_code verify_points(const claim *c) {
-    const posed *s = c->s;
+// A sum by such weights is a point of the body.
+static ovoid_code verify_weights(const claim *c) {
     const ovoid_proof *proof = c->proof;
     for (uint32_t i = 0; i < proof->count; i++)
         if (!(proof->weight_a[i] >= 0 && proof->weight_b[i] >= 0 && isfinite(proof->weight_a[i]) &&
               isfinite(proof->weight_b[i])))
             return judge_reject(c->error, OVOID_ERROR_PROOF, "weight %u is not a finite number of at least zero", i);
+    return OVOID_OK;
+}
+
+static ovoid_code verify_points(const claim *c) {
+    const posed *s = c->s;
+    const ovoid_proof *proof = c->proof;
+    ovoid_code code = verify_weights(c);
+    if (code != OVOID_OK) return code;
     weighted a = body_weighted_point(s->p, &s->a, proof->a, proof->weight_a, proof->count);
     weighted b = body_weighted_point(s->p, &s->b, proof->b, proof->weight_b, proof->count);
     if (num_sign(a.weight) == 0 || num_sign(b.weight) == 0)
@@ -77,35 +85,8 @@ static ovoid_code verify_inner_points(const claim *c) {
     return verify_distance(c, posed_difference(s, inner_point_a(c), inner_point_b(c)), s->k);
 }
 
-// A ball's centre: a point of the proof's weights in a body that is not round, if there are any.
-static int is_by_weights(const claim *c, const body *b) { return c->proof->count > 0 && b->round == OVOID_ROUND_NONE; }
-
-// Is the ball of radius room / factor about point / factor in the hull of a body, or the point within -room / factor of
-// it? The point and the vertices are brought to one denominator.
-static int holds_ball(pool *p, const body *b, weighted center, num room) {
-    nvec *corners = judge_allocate(b->polytope.vertex_count, sizeof *corners);
-    num factor = num_mul(p, center.weight, b->n), square;
-    for (uint32_t i = 0; i < b->polytope.vertex_count; i++) {
-        nvec_slot kept = nvec_slot_make(p);
-        size_t mark = pool_get_mark(p);
-        corners[i] = nvec_slot_set(kept, nvec_sub(p, nvec_scale(p, body_vertex(p, b, i), center.weight), center.point));
-        pool_release(p, mark);
-    }
-    shell s = {corners, b->polytope.triangles, b->polytope.vertex_count, b->polytope.triangle_count};
-    num length = num_mul(p, room, factor);
-    square = num_mul(p, length, length);
-    int is_farther = 1;
-    for (uint32_t t = 0; t < s.triangle_count && is_farther; t++) {
-        const uint32_t *v = s.triangles + 3 * (size_t)t;
-        is_farther = triangle_is_farther(p, corners[v[0]], corners[v[1]], corners[v[2]], square);
-    }
-    int is_inside = b->polytope.rank == 3 && shell_is_closed(&s) && shell_is_winding(p, &s);
-    free(corners);
-    return num_sign(room) > 0 ? is_farther && is_inside : !is_farther || is_inside;
-}
-
-// d <= |b - a| - room_a - room_b, with the rooms of round bodies; of another body's ball it is asked whether it is
-// large enough.
+// d <= |b - a| - room_a - room_b, with the rooms of round bodies. The centre in another body is a point of the proof's
+// weights, without room.
 static ovoid_code verify_balls(const claim *c) {
     const posed *s = c->s;
     pool *p = s->p;
@@ -115,16 +96,22 @@ static ovoid_code verify_balls(const claim *c) {
         return judge_reject(c->error, OVOID_ERROR_NOT_FINITE, "the centre of a ball is not finite");
     if (s->a.round == OVOID_ROUND_NONE && s->b.round == OVOID_ROUND_NONE)
         return judge_reject(c->error, OVOID_ERROR_PROOF, "balls of bodies that are not round");
+    if (proof->count == 0 && (s->a.round == OVOID_ROUND_NONE || s->b.round == OVOID_ROUND_NONE))
+        return judge_reject(c->error, OVOID_ERROR_PROOF, "a ball in a body that is not round");
+    ovoid_code code = verify_weights(c);
+    if (code != OVOID_OK) return code;
     weighted center[2] = {{inner_point_a(c), number_from_integer(p, 1)}, {inner_point_b(c), number_from_integer(p, 1)}};
     // An allowance inside is that of the polyhedron, not of the true body.
     num core = c->core;
     for (int k = 0; k < 2; k++) {
         const uint32_t *v = k ? proof->b : proof->a;
         const double *w = k ? proof->weight_b : proof->weight_a;
-        if (is_by_weights(c, body_of[k])) center[k] = body_weighted_point(p, body_of[k], v, w, proof->count);
-        if (num_sign(center[k].weight) == 0)
-            return judge_reject(c->error, OVOID_ERROR_PROOF, "the weights are all zero");
-        if (body_of[k]->round == OVOID_ROUND_NONE) continue;
+        if (body_of[k]->round == OVOID_ROUND_NONE) {
+            center[k] = body_weighted_point(p, body_of[k], v, w, proof->count);
+            if (num_sign(center[k].weight) == 0)
+                return judge_reject(c->error, OVOID_ERROR_PROOF, "the weights are all zero");
+            continue;
+        }
         num room = num_quotient_below(p, body_find_room(p, body_of[k], center[k].point), body_of[k]->n, 240);
         core = num_add(p, num_add(p, core, room), body_of[k]->inside);
     }
@@ -134,13 +121,7 @@ static ovoid_code verify_balls(const claim *c) {
     num distance = num_root_above(p, nvec_norm_squared(p, difference), 240);
     num missing = num_neg(p, num_quotient_below(p, num_neg(p, distance), denominator, 240));
     missing = num_sub(p, missing, core);
-    for (int k = 0; k < 2; k++)
-        if (body_of[k]->round == OVOID_ROUND_NONE && !is_by_weights(c, body_of[k]) &&
-            holds_ball(p, body_of[k], center[k], missing))
-            return OVOID_OK;
-    if (num_sign(missing) <= 0 && (s->a.round != OVOID_ROUND_NONE || is_by_weights(c, &s->a)) &&
-        (s->b.round != OVOID_ROUND_NONE || is_by_weights(c, &s->b)))
-        return OVOID_OK;
+    if (num_sign(missing) <= 0) return OVOID_OK;
     return judge_reject(c->error, OVOID_ERROR_PROOF, "upper is below what the balls show, by %.3g",
                         num_to_double(missing));
 }

@@ -81,8 +81,8 @@ static named find_named(const claim *c, int of_b) {
     const ovoid_proof *proof = c->proof;
     if (proof->kind == OVOID_PROOF_INNER) return (named){inner_point_a(c), s->a.n, 1};
     if (proof->kind == OVOID_PROOF_INNER_POINTS) return (named){of_b ? inner_point_b(c) : inner_point_a(c), b->n, 1};
-    if (proof->kind == OVOID_PROOF_BALLS && (proof->count == 0 || b->round != OVOID_ROUND_NONE))
-        return (named){of_b ? inner_point_b(c) : inner_point_a(c), b->n, b->round != OVOID_ROUND_NONE};
+    if (proof->kind == OVOID_PROOF_BALLS && b->round != OVOID_ROUND_NONE)
+        return (named){of_b ? inner_point_b(c) : inner_point_a(c), b->n, 1};
     const double *weights = of_b ? proof->weight_b : proof->weight_a;
     if (!are_weights(weights, proof->count)) return (named){nvec_zero(s->p), b->n, 0};
     weighted w = body_weighted_point(s->p, b, of_b ? proof->b : proof->a, weights, proof->count);

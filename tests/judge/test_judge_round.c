@@ -77,6 +77,44 @@ static void check_lie(judge *context, const ovoid_pair *p, const ovoid_answer *x
     refused++;
 }
 
+// A ball's centre in a box must be a point of the box: with a weight below zero it is beyond it, nearer to the
+// cylinder.
+static void check_weights(void) {
+    judge *context = judge_create();
+    ovoid_shape *a = ovoid_shape_create_cylinder(0.5, 0.5, NULL, NULL),
+                *b = ovoid_shape_create_box((ovoid_vec3){0.2, 0.2, 0.2}, NULL, NULL);
+    ovoid_pair p = {a, b, {{0, 0, 0}, {1, 0, 0, 0}}, {{2, 0, 0}, {1, 0, 0, 0}}};
+    ovoid_polytope box = ovoid_shape_get_polytope(b);
+    ovoid_answer lie = ovoid_distance(&p, NULL, NULL);
+    uint32_t near = 0, far = 0;
+    while (box.vertices[3 * near] > 0) near++;
+    while (box.vertices[3 * far] < 0 || box.vertices[3 * far + 1] != box.vertices[3 * near + 1] ||
+           box.vertices[3 * far + 2] != box.vertices[3 * near + 2])
+        far++;
+    lie.proof.kind = OVOID_PROOF_BALLS;
+    lie.proof.count = 2;
+    lie.proof.inner_a = (ovoid_vec3){0, 0, 0};
+    const double weights[3][2] = {{2.5, -1.5}, {NAN, 1}, {INFINITY, 1}};
+    for (int i = 0; i < 3; i++) {
+        ovoid_error error = {.message = ""};
+        for (int k = 0; k < 2; k++) {
+            lie.proof.a[k] = 0;
+            lie.proof.b[k] = k ? far : near;
+            lie.proof.weight_a[k] = 1;
+            lie.proof.weight_b[k] = weights[i][k];
+        }
+        // The lower bound stays below what is claimed.
+        lie.lower = 0.5;
+        lie.upper = 1;
+        CHECK_EQ(judge_verify_answer(context, &p, &lie, NULL, &error), OVOID_ERROR_PROOF);
+        CHECK(strstr(error.message, "is not a finite number of at least zero") != NULL);
+        CHECK(ovoid_answer_verify(&p, &lie, NULL, NULL) != OVOID_OK);
+    }
+    ovoid_shape_destroy(a);
+    ovoid_shape_destroy(b);
+    judge_destroy(context);
+}
+
 // The support in the world, in closed form or by all vertices.
 static double find_support(const ovoid_shape *shape, const ovoid_pose *pose, ovoid_vec3 n) {
     ovoid_pose turn = {{0, 0, 0}, pose->rotation};
@@ -188,6 +226,7 @@ int main(int count, char **arguments) {
         judge_destroy(context);
     }
     check_seed = 0;
+    check_weights();
     printf("%ld answers accepted, %ld lies refused, %ld directions compared\n", accepted, refused, compared);
     CHECK(refused > (long)rounds && compared > 33 * (long)rounds);
     return check_end();
