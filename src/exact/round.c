@@ -53,7 +53,7 @@ static void take_bounds(search *s, int is_round_a, vec3 x, vec3 n) {
     vec3 in_body = is_round_a ? n : mat3_mul_transposed_vec3(f->rotation, n);
     const ovoid_shape *round = is_round_a ? f->a : f->b;
     vec3 center = balls_cut_off(round, gap > 0 ? vec3_add_scaled(x, in_body, -gap) : x);
-    ball_centers c = is_round_a ? (ball_centers){center, f->b->first, 0, 1} : (ball_centers){f->a->first, center, 1, 0};
+    ball_centers c = is_round_a ? (ball_centers){center, f->b->first} : (ball_centers){f->a->first, center};
     double upper = balls_measure(f, &c, f->claim + BALLS_CLAIM * f->size) - balls_compute_radii(f);
     search_take_gap(s, along, gap);
     if (!(upper < s->upper)) return;

@@ -30,9 +30,9 @@ vec3 balls_cut_off(const ovoid_shape *s, vec3 x) {
     return vec3_sub(cut_off_at_round(&s->round, vec3_add(x, s->origin)), s->origin);
 }
 
-// The radius of the largest ball about x, in the body frame; of a round body alone.
+// The radius of the largest ball about x, in the body frame; of a body that is not round 0, as x is a point of it.
 static double find_room(const ovoid_shape *s, vec3 x) {
-    if (!shape_is_round(s)) return -INFINITY;
+    if (!shape_is_round(s)) return 0;
     double room = find_room_in_round(&s->round, vec3_add(x, s->origin));
     return room >= 0 ? room : -vec3_norm(vec3_sub(balls_cut_off(s, x), x));
 }
@@ -42,8 +42,7 @@ static int is_near(const pair_frame *f, vec3 x) { return vec3_is_finite(x) && ve
 
 double balls_measure(const pair_frame *f, const ball_centers *c, double error) {
     if (!is_near(f, c->a) || !is_near(f, c->b)) return INFINITY;
-    double room_a = c->is_point_a ? 0 : find_room(f->a, c->a), room_b = c->is_point_b ? 0 : find_room(f->b, c->b);
-    return vec3_norm(vec3_sub(frame_b(f, c->b), c->a)) - room_a - room_b + error;
+    return vec3_norm(vec3_sub(frame_b(f, c->b), c->a)) - find_room(f->a, c->a) - find_room(f->b, c->b) + error;
 }
 
 static double find_radius(const ovoid_shape *s) { return shape_is_round(s) ? s->radius : s->upper_radius; }
@@ -61,24 +60,22 @@ static vec3 find_mean(const ovoid_shape *s, const uint32_t *v, const double *w, 
 }
 
 ball_centers balls_find_centers(const pair_frame *f, const ovoid_proof *p) {
-    ball_centers c = {p->inner_a, p->inner_b, 0, 0};
-    c.is_point_a = p->count > 0 && !shape_is_round(f->a);
-    c.is_point_b = p->count > 0 && !shape_is_round(f->b);
-    if (c.is_point_a) c.a = find_mean(f->a, p->a, p->weight_a, p->count);
-    if (c.is_point_b) c.b = find_mean(f->b, p->b, p->weight_b, p->count);
+    ball_centers c = {p->inner_a, p->inner_b};
+    if (!shape_is_round(f->a)) c.a = find_mean(f->a, p->a, p->weight_a, p->count);
+    if (!shape_is_round(f->b)) c.b = find_mean(f->b, p->b, p->weight_b, p->count);
     return c;
 }
 
 double balls_compute_upper(const pair_frame *f, const ovoid_proof *p, double error) {
-    if (!frame_has_round(f)) return INFINITY;
+    int are_round = shape_is_round(f->a) & shape_is_round(f->b);
+    if (!frame_has_round(f) || (!are_round && p->count == 0)) return INFINITY;
     ball_centers c = balls_find_centers(f, p);
     return balls_measure(f, &c, error) - balls_compute_radii(f);
 }
 
 witness_points balls_compute_points(const pair_frame *f, const ovoid_proof *p) {
     ball_centers c = balls_find_centers(f, p);
-    double reach_a = f->a->radius + (c.is_point_a ? 0 : find_room(f->a, c.a));
-    double reach_b = f->b->radius + (c.is_point_b ? 0 : find_room(f->b, c.b));
+    double reach_a = f->a->radius + find_room(f->a, c.a), reach_b = f->b->radius + find_room(f->b, c.b);
     vec3 b = frame_b(f, c.b), d = vec3_sub(b, c.a), n = vec3_unit(frame_direction_from_world(f, p->normal));
     // Where the centres are about as far apart as rounding radii reach, their difference is the better direction.
     if (vec3_norm(d) > 0.5 * max2(0, reach_a + reach_b)) n = vec3_unit(d);

@@ -9,11 +9,10 @@
 #define BALLS_CLAIM (128 * 0x1p-53)
 #define BALLS_CHECK (64 * 0x1p-53)
 
-/// The centres of two balls, each in its body frame. A centre that is a point of its body by construction has a ball of
+/// The centres of two balls, each in its body frame. That in a body that is not round is a point of it, with a ball of
 /// radius 0.
 typedef struct ball_centers {
     vec3 a, b;
-    int is_point_a, is_point_b;
 } ball_centers;
 
 /// The point of a true cylinder or cone that x becomes when it is cut off at the body, to rounding; x where it is

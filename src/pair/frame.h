@@ -85,13 +85,16 @@ void frame_place_rotations(const ovoid_prepared_shape *a, const ovoid_prepared_s
 
 /// The largest width of the bracket that the shapes' allowances cause.
 static inline double frame_get_allowance(const pair_frame *f) { return f->lower_radii - f->upper_radii; }
+/// 1 for a body that the frame takes as the true one, without an allowance.
+static inline int frame_is_bare(const pair_frame *f, const ovoid_shape *s) { return f->is_true && shape_is_round(s); }
 static inline int frame_has_axis(const pair_frame *f) {
-    return (f->a->has_allowance | f->b->has_allowance) >= ALLOWANCE_AXIS;
+    return (shape_has_axis(f->a) && !frame_is_bare(f, f->a)) || (shape_has_axis(f->b) && !frame_is_bare(f, f->b));
 }
 /// The gain of a lower bound along the unit direction n if an allowance is along an axis; `lower_radii` was subtracted
 /// from the bound. Add it and round down. in_a: n in the axes of A; in_b: in those of B. error: of both (block.h).
 static inline double frame_compute_gain(const pair_frame *f, vec3 in_a, vec3 in_b, double error) {
-    return shape_compute_gain(f->a, in_a, error) + shape_compute_gain(f->b, in_b, error);
+    double a = frame_is_bare(f, f->a) ? 0 : shape_compute_gain(f->a, in_a, error);
+    return a + (frame_is_bare(f, f->b) ? 0 : shape_compute_gain(f->b, in_b, error));
 }
 /// The bound with that gain.
 static inline double frame_take_gain(double lower, double gain) {

@@ -23,15 +23,6 @@ void frame_make_true(pair_frame *f) {
     f->claim += ROUND_CLAIM * f->size;
 }
 
-int round_has_axis(const pair_frame *f) {
-    return (!shape_is_round(f->a) && shape_has_axis(f->a)) || (!shape_is_round(f->b) && shape_has_axis(f->b));
-}
-
-double round_compute_gain(const pair_frame *f, vec3 in_a, vec3 in_b, double error) {
-    double a = shape_is_round(f->a) ? 0 : shape_compute_gain(f->a, in_a, error);
-    return a + (shape_is_round(f->b) ? 0 : shape_compute_gain(f->b, in_b, error));
-}
-
 // One body's support along n, in its body frame, and its vertex.
 typedef struct true_end {
     double value;

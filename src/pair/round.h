@@ -20,10 +20,6 @@ static inline int frame_has_round(const pair_frame *f) { return shape_is_round(f
 /// Sets the frame's lengths to those of true bodies, whose supports are then found and whose allowances are gone.
 void frame_make_true(pair_frame *frame);
 
-/// As frame_has_axis and frame_compute_gain, of bodies that are not round.
-int round_has_axis(const pair_frame *frame);
-double round_compute_gain(const pair_frame *frame, vec3 in_a, vec3 in_b, double error);
-
 /// The support of a round body along n, of any length, and the vertex nearest to its point (shape/rim.h); in the body
 /// frame.
 typedef struct round_end {

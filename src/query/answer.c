@@ -78,10 +78,7 @@ static void complete(search *s) {
 // an allowance is along an axis it loses less there (block.h): that is given back once the search has ended.
 
 static double compute_gain(const search *s, vec3 n) {
-    const pair_frame *f = s->frame;
-    vec3 in_b = mat3_mul_transposed_vec3(f->rotation, n);
-    if (f->is_true) return round_compute_gain(f, n, in_b, AXIS_CLAIM);
-    return frame_compute_gain(f, n, in_b, AXIS_CLAIM);
+    return frame_compute_gain(s->frame, n, mat3_mul_transposed_vec3(s->frame->rotation, n), AXIS_CLAIM);
 }
 
 // The normal of the lower bound, in the frame.
@@ -381,7 +378,7 @@ COMPILER_NOINLINE static void run_true_search(const open_query *q, ovoid_answer 
     goal.tolerance -= goal.allowance;
     goal.allowance = frame_get_allowance(&f);
     goal.tolerance += goal.allowance;
-    goal.has_axis = round_has_axis(&f);
+    goal.has_axis = frame_has_axis(&f);
     of_true.placed.frame = &f;
     of_true.placed.goal = &goal;
     run_search(&of_true, out);
