@@ -23,7 +23,7 @@ typedef struct body_request {
 /// Of a pair with a solid. The goal's depth is not searched for. 1: the bodies are farther apart than was asked, which
 /// is in *far, and *out is not written; 0: *out is the answer.
 int solid_find(const ovoid_body_pair *pair, const body_request *request, ovoid_body_answer *out, far_bodies *far);
-/// Of a pair without a solid; the same.
+/// Of a pair without a solid, written as solid_find writes it.
 int parts_find(const ovoid_body_pair *pair, const body_request *request, ovoid_body_answer *out, far_bodies *far);
 
 /// The pipeline of ovoid_body_collide and its sisters, for callers inside a public function, which has set the default

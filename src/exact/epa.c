@@ -6,8 +6,7 @@
 // - Nothing is taken on trust: the lower bound is the gap along a face's normal, by the supports; the upper bound is
 //   the radius that the whole surface keeps from the origin, checked at the end as a proof (cover.c).
 // - A depth's first points are joined in lanes (epa_lanes.c); this goes on from there where it must.
-// Working memory is on the stack, about 80 KB; beyond 512 points the surface goes on in the
-// cover's, if there is any.
+// Working memory is on the stack, about 80 KB; beyond 512 points the surface goes on in the cover's, if there is any.
 // Cost: for each new point one support and a scan of the faces that may be the nearest; in the cover's memory no scan.
 #include "exact/epa.h"
 

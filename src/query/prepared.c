@@ -16,12 +16,23 @@
 
 #include <string.h>
 
-static void set_ready(const ovoid_posed_shape *body, ovoid_prepared_shape *to) {
-    const ovoid_shape *shape = body->shape;
-    mat3 r = quat_to_mat3(body->pose.rotation);
-    memcpy(to->rotation, &r, sizeof to->rotation);
-    to->center = mat3_mul_vec3(r, shape->center);
-    to->first = mat3_mul_vec3(r, shape->first);
+static const mat3 identity = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+
+// Sets what follows from the rotation, but for the turned vertices. m: NULL of a body that is not rotated; ready:
+// is_ready of a shape that can be placed.
+COMPILER_INLINED void set_rotation(const mat3 *m, uint32_t ready, ovoid_prepared_shape *to) {
+    const ovoid_shape *shape = to->body.shape;
+    memcpy(to->rotation, m ? m : &identity, sizeof to->rotation);
+    to->turned_count = 0;
+    // The place of a far origin is found for a pair.
+    to->is_ready = shape && !shape->has_origin ? ready : 0;
+    if (!to->is_ready) return;
+    to->first = m ? mat3_mul_vec3(*m, shape->first) : shape->first;
+    to->center = m ? mat3_mul_vec3(*m, shape->center) : shape->center;
+}
+
+static void turn_vertices(ovoid_prepared_shape *to) {
+    const ovoid_shape *shape = to->body.shape;
     if (shape->padded_count > OVOID_PREPARED_VERTICES) return;
     uint32_t count = to->turned_count = shape->padded_count;
     simd_points points = shape_get_points(shape);
@@ -54,42 +65,22 @@ static ovoid_quat find_quat(const mat3 *m) {
 
 static void make(const ovoid_posed_shape *body, ovoid_prepared_shape *to) {
     to->body = *body;
-    to->turned_count = 0;
-    // The place of a far origin is found for a pair.
-    to->is_ready = body->shape && !body->shape->has_origin && pose_validate(&body->pose) == OVOID_OK;
-    if (to->is_ready) set_ready(body, to);
+    to->turned_count = to->is_ready = 0;
+    if (pose_validate(&body->pose) != OVOID_OK) return;
+    mat3 m = quat_to_mat3(body->pose.rotation);
+    set_rotation(&m, 1, to);
+    if (to->is_ready) turn_vertices(to);
 }
 
 void ovoid_prepared_shape_make(const ovoid_posed_shape *body, ovoid_prepared_shape *prepared) {
     ENVIRONMENT_RUN(make(body, prepared));
 }
 
-static void set_rotation(const mat3 *m, ovoid_prepared_shape *to) {
-    const ovoid_shape *shape = to->body.shape;
-    memcpy(to->rotation, m, sizeof to->rotation);
-    to->turned_count = 0;
-    to->is_ready = shape && !shape->has_origin ? 1 | FRAME_BY_MATRIX : 0;
-    if (!to->is_ready) return;
-    to->first = mat3_mul_vec3(*m, shape->first);
-    to->center = mat3_mul_vec3(*m, shape->center);
-}
-
-// A body that is not rotated.
-static void set_unrotated(ovoid_prepared_shape *to) {
-    const ovoid_shape *shape = to->body.shape;
-    static const mat3 identity = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    to->body.pose.rotation = (ovoid_quat){1, 0, 0, 0};
-    memcpy(to->rotation, &identity, sizeof to->rotation);
-    to->turned_count = 0;
-    to->is_ready = shape && !shape->has_origin;
-    if (!to->is_ready) return;
-    to->first = shape->first;
-    to->center = shape->center;
-}
-
 // By a matrix that is off by more than roundings, or a pose that is none: the queries refuse that.
-COMPILER_NOINLINE static ovoid_code make_from_nearest(const double *rotation, ovoid_prepared_shape *to) {
+COMPILER_NOINLINE static ovoid_code make_from_nearest(const mat3 *m, ovoid_prepared_shape *to) {
     ovoid_posed_shape body = {to->body.shape, {to->body.pose.position, {0, 0, 0, 0}}};
+    double rotation[9];
+    memcpy(rotation, m, sizeof rotation);
     ovoid_code code = pose_make_matrix(rotation, body.pose.position, &body.pose, NULL);
     make(&body, to);
     return code;
@@ -97,16 +88,17 @@ COMPILER_NOINLINE static ovoid_code make_from_nearest(const double *rotation, ov
 
 static ovoid_code make_matrix(const double *rotation, ovoid_prepared_shape *to) {
     mat3 m;
-    if (!rotation && position_is_valid(to->body.pose.position)) {
-        set_unrotated(to);
+    int is_placed = position_is_valid(to->body.pose.position);
+    if (!rotation) {
+        if (!is_placed) return make_from_nearest(&identity, to);
+        to->body.pose.rotation = (ovoid_quat){1, 0, 0, 0};
+        set_rotation(NULL, 1, to);
         return OVOID_OK;
     }
-    static const double identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-    if (!rotation) rotation = identity;
     memcpy(&m, rotation, sizeof m);
-    if (!is_near_rotation(&m) || !position_is_valid(to->body.pose.position)) return make_from_nearest(rotation, to);
+    if (!is_near_rotation(&m) || !is_placed) return make_from_nearest(&m, to);
     to->body.pose.rotation = find_quat(&m);
-    set_rotation(&m, to);
+    set_rotation(&m, 1 | FRAME_BY_MATRIX, to);
     return OVOID_OK;
 }
 
