@@ -426,12 +426,12 @@ test('a path: what the tool proves of it is at the top, over s, and in its steps
   const line = JSON.parse(run('robot', 'path', ...startArm, '--states', inStart('straight.csv'), '--json', '--html', 'path.html'));
   assert.equal(line.status, 'hit');
   const { page, errors } = await open('path.html', flat);
-  assert.match(await page.textContent('#whole'), /^The path: hit first at s = 0\.34872 ± 0\.000042: fore and post overlap by 3\.41e-5 m, proven/);
+  assert.match(await page.textContent('#whole'), /^The path: hit first at s = 0\.3487363 ± 5e-7: fore and post overlap by 3\.29e-7 m, proven/);
   assert.equal(await page.textContent('#now'), 's 0: proven free');
   await page.click('#jump');
   assert.match(await page.textContent('#now'), /: hit$/);
   // Of the pair that hits there is one bracket, the narrower one.
-  assert.match(await page.textContent('#verdict'), /^This state: hit: fore and post overlap by 3\.41e-5 m, proven/);
+  assert.match(await page.textContent('#verdict'), /^This state: hit: fore and post overlap by 3\.29e-7 m, proven/);
   for (const [s, said] of [[0.3, 'proven free'], [0.5, 'not looked at'], [1, 'not looked at']])
     assert.match(await page.evaluate((at) => [window.ovoidPage.track.set(at), document.getElementById('now').textContent][1], s), new RegExp(`${said}$`));
   // The steps of each pair together cover all that is free.
