@@ -277,10 +277,6 @@ static ovoid_limit find_refusal(const ovoid_body_pair *pair, const ovoid_options
     return OVOID_LIMIT_NONE;
 }
 
-static int is_refusal(ovoid_limit limit) {
-    return limit == OVOID_LIMIT_MEMORY || (limit >= OVOID_LIMIT_POSE_A && limit <= OVOID_LIMIT_SHAPE_B);
-}
-
 static ovoid_code verify_solids(cut *c, const ovoid_pair *leaves, ovoid_error *error) {
     static const ovoid_options of_leaves = {.absolute_tolerance = INFINITY};
     static const ovoid_answer_basis basis = {.options = &of_leaves};
@@ -295,7 +291,7 @@ static ovoid_code verify(const ovoid_body_pair *pair, const ovoid_body_answer *x
     static const ovoid_exclusions none = {.items = NULL};
     cut c = {.x = x, .all = basis->exclusions ? basis->exclusions : &none, .lower = x->deciding.lower};
     ovoid_limit refused = find_refusal(pair, basis->options, &c);
-    if (refused != OVOID_LIMIT_NONE || is_refusal(x->limit)) {
+    if (refused != OVOID_LIMIT_NONE || limit_is_refusal(x->limit)) {
         return refusal_verify_internal(get_verdict(x), refused, error);
     }
     if (x->part_a >= c.a.count || x->part_b >= c.b.count)

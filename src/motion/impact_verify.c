@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "motion/impact.h"
 #include "motion/impact_sweep.h"
+#include "pair/frame.h"
 
 // A direction is unit, and turns with a body that turns.
 static int step_is_sound(const motion_pair *pieces, const ovoid_step *step) {
@@ -62,8 +63,6 @@ ovoid_code impact_verify_times(moving_shapes shapes, double begin, double end, o
     return error_set(error, OVOID_ERROR_PROOF, -1, "the motions have no times from %.17g to %.17g", begin, end);
 }
 
-static int is_refusal(ovoid_limit limit) { return limit >= OVOID_LIMIT_POSE_A && limit <= OVOID_LIMIT_SHAPE_B; }
-
 ovoid_code impact_verify_query(moving_shapes shapes, const query_claim *claim, ovoid_error *error) {
     sweep s;
     const ovoid_motion_options own = {.begin = claim->begin, .end = claim->end}, *asked = claim->options;
@@ -71,17 +70,17 @@ ovoid_code impact_verify_query(moving_shapes shapes, const query_claim *claim, o
     if (limit == OVOID_LIMIT_NONE && !(claim->margin >= 0 && claim->margin < INFINITY)) limit = OVOID_LIMIT_OPTIONS;
     // Options that are not known may be those that were refused.
     if (!asked && limit == OVOID_LIMIT_NONE && claim->limit == OVOID_LIMIT_OPTIONS) limit = claim->limit;
-    int is_right = is_refusal(limit) ? claim->limit == limit : s.begin == claim->begin && s.end == claim->end;
-    if (is_refusal(claim->limit) && is_right && !claim->is_empty)
+    int is_right = limit_is_refusal(limit) ? claim->limit == limit : s.begin == claim->begin && s.end == claim->end;
+    if (limit_is_refusal(claim->limit) && is_right && !claim->is_empty)
         return error_set(error, OVOID_ERROR_PROOF, -1, "a query that is refused has an answer");
-    if (is_refusal(claim->limit) == is_refusal(limit) && is_right) return OVOID_OK;
-    if (!is_refusal(claim->limit) && (!shapes.a->shape || !shapes.b->shape))
+    if (limit_is_refusal(claim->limit) == limit_is_refusal(limit) && is_right) return OVOID_OK;
+    if (!limit_is_refusal(claim->limit) && (!shapes.a->shape || !shapes.b->shape))
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "a body without a shape");
     return error_set(error, OVOID_ERROR_PROOF, -1, "from %.17g to %.17g, limit %s: the query's limit is %s",
                      claim->begin, claim->end, ovoid_limit_get_name(claim->limit), ovoid_limit_get_name(limit));
 }
 
-int impact_is_refusal(const ovoid_impact *impact) { return is_refusal(impact->limit); }
+int impact_is_refusal(const ovoid_impact *impact) { return limit_is_refusal(impact->limit); }
 
 int impact_is_empty(const ovoid_impact *impact) {
     return impact->status == OVOID_IMPACT_UNDECIDED && impact->free_until == 0 && impact->hit_at == INFINITY &&
@@ -152,7 +151,7 @@ static ovoid_code verify_approach(moving_shapes shapes, const ovoid_approach *cl
     int is_empty = claimed->status == OVOID_UNDECIDED && claimed->lower == -INFINITY && claimed->upper == INFINITY;
     const query_claim query = {0, proof->options, claimed->begin, claimed->end, claimed->limit, is_empty};
     ovoid_code code = impact_verify_query(shapes, &query, error);
-    if (code != OVOID_OK || is_refusal(claimed->limit)) return code;
+    if (code != OVOID_OK || limit_is_refusal(claimed->limit)) return code;
     if (!approach_is_sound(shapes, claimed, proof->options))
         return error_set(error, OVOID_ERROR_PROOF, -1, "status %s does not follow from the bracket [%.17g, %.17g]",
                          ovoid_status_get_name(claimed->status), claimed->lower, claimed->upper);

@@ -100,6 +100,11 @@ static inline double frame_compute_gain(const pair_frame *f, vec3 in_a, vec3 in_
 static inline double frame_take_gain(double lower, double gain) {
     return gain > 0 ? nextafter(lower + gain, -INFINITY) : lower;
 }
+/// 1 if the limit says that a query was refused, so that its answer claims nothing.
+static inline int limit_is_refusal(ovoid_limit limit) {
+    return limit == OVOID_LIMIT_MEMORY || (limit >= OVOID_LIMIT_POSE_A && limit <= OVOID_LIMIT_SHAPE_B);
+}
+
 /// A vertex of B in the frame.
 static inline vec3 frame_b(const pair_frame *f, vec3 x) {
     return vec3_add(mat3_mul_vec3(f->rotation, x), f->translation);

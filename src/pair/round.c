@@ -62,8 +62,3 @@ double round_measure_gap(const pair_frame *f, vec3 n) {
     vec3 in_b = vec3_neg(mat3_mul_transposed_vec3(f->rotation, n));
     return (vec3_dot(n, f->translation) - measure_support(f->b, in_b)) - measure_support(f->a, n);
 }
-
-double round_compute_lower(const pair_frame *f, vec3 n, double gap) {
-    double lower = nextafter(gap - round_compute_radii(f, n, AXIS_CLAIM), -INFINITY);
-    return lower - (f->claim + ROUND_CLAIM * f->size);
-}

@@ -38,7 +38,4 @@ double round_compute_radii(const pair_frame *f, vec3 n, double error);
 /// frame_measure_gap with the supports of true bodies where these are known.
 double round_measure_gap(const pair_frame *f, vec3 n);
 
-/// The lower bound of d that a gap along the unit n shows, measured so, radii and allowances subtracted.
-double round_compute_lower(const pair_frame *f, vec3 n, double gap);
-
 #endif
