@@ -63,6 +63,7 @@ read_cpu() {
 
 failed=0
 for target; do
+    [ -x "$build/fuzz/fuzz_$target" ] || { echo "fuzz: $build/fuzz/fuzz_$target is not there: make fuzz builds all" >&2 && failed=1 && continue; }
     seeds=$build/seeds/$target grown=$build/grown/$target found=$build/found log=$build/fuzz_$target.log
     mkdir -p "$grown" "$found"
     collect_seeds "$target" "$seeds"
