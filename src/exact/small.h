@@ -45,14 +45,6 @@ static inline int small_fits(const query_goal *goal, const ovoid_shape *a, const
     return is_small & (!goal->wants_depth | (sphere_gap > 0));
 }
 
-/// 1 if the pair is one for small_run. For a distance the line of centres is as good a start as any. For a yes or no of
-/// more vertices the outer ellipsoids are asked: alone they cost what they save, in lanes a quarter of it.
-enum { SMALL_LINE_VERTICES = 40 };
-static inline int small_takes(const query_goal *goal, const ovoid_shape *a, const ovoid_shape *b, double sphere_gap) {
-    int is_line = (goal->far == INFINITY) | (a->vertex_count + b->vertex_count <= SMALL_LINE_VERTICES);
-    return is_line & small_fits(goal, a, b, sphere_gap);
-}
-
 /// Searches from the line of centres, by the inner ellipsoids first where the spheres overlap much, without the earlier
 /// proof. 1: answered; 0: unusual, and nothing is known.
 int small_run(const placed_query *query, small_end *end);

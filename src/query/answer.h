@@ -138,10 +138,11 @@ ovoid_code lower_verify_internal(const ovoid_pair *pair, double lower, const ovo
 /// as good a direction. With few vertices a support costs less than the ellipsoids: these are worth it only where the
 /// goal is the sign and the spheres overlap so far that the line may fail and another direction may separate the
 /// bodies. sphere_gap: the lower bound by the enclosing spheres (reject.h).
+enum { LINE_VERTICES = 40 }; // of both together
 static inline int query_goal_takes_line(const query_goal *goal, const ovoid_shape *a, const ovoid_shape *b,
                                         double sphere_gap) {
     double reach = a->reach + b->reach;
-    if (a->vertex_count + b->vertex_count > SMALL_LINE_VERTICES) return goal->far == INFINITY && sphere_gap > reach;
+    if (a->vertex_count + b->vertex_count > LINE_VERTICES) return goal->far == INFINITY && sphere_gap > reach;
     return goal->far == INFINITY || sphere_gap > -0.3 * reach || sphere_gap < -0.6 * reach;
 }
 

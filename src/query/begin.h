@@ -29,7 +29,7 @@ static inline small_outcome run_small(const placed_query *q, rejection *found, s
         outcome = small_run_earlier(q, found, end);
     else if (q->earlier && kept_fits(q->goal, a, b, q->sphere_gap) && kept_run(q, end))
         return SMALL_ANSWERED;
-    if (outcome == SMALL_UNKNOWN && small_takes(q->goal, a, b, q->sphere_gap))
+    if (outcome == SMALL_UNKNOWN && small_fits(q->goal, a, b, q->sphere_gap))
         outcome = small_run(q, end) ? SMALL_ANSWERED : SMALL_OPEN;
     return outcome;
 }
