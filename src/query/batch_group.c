@@ -1,5 +1,6 @@
-// The rounds of the search and its ends. No lane ends apart, as no distance is beyond the goal's far end. Couples with
-// the origin inside their corners, or that stall, go on as a couple alone does.
+// The rounds of the search, in lanes or of few couples one by one with the same bits, and its ends. No lane ends apart,
+// as no distance is beyond the goal's far end. Couples with the origin inside their corners, or that stall, go on as a
+// couple alone does.
 #include "query/batch_group.h"
 
 #include "base/compiler.h"
@@ -95,12 +96,11 @@ static void end_inside(const group_work *w, unsigned k) {
     finish(w, k, &query, small_finish(&f, &goal, &r, &end) ? &end : NULL);
 }
 
-// All rounds; how the lanes ended.
+// All rounds of the lanes at work; how they ended.
 static gjk8_ends run_rounds(group_work *w, const group_gjk_kernels *kernels) {
     gjk8 *g = &w->gjk.search;
-    const gjk8_kernels *steps = gjk8_get_kernels();
+    const gjk8_kernels *steps = gjk8_get_kernels(w->e->lanes->count);
     const pair8 *o = w->e->lanes;
-    kernels->begin(o, w->task->numbers, &w->gjk);
     kernels->support(o, &w->gjk);
     gjk8_ends all = kernels->start(&w->gjk);
     while (g->active) {
@@ -114,8 +114,43 @@ static gjk8_ends run_rounds(group_work *w, const group_gjk_kernels *kernels) {
     return all;
 }
 
+// Fewer lanes are searched one by one, each in less time than the steps of eight take.
+enum { FEW = 4 };
+
+// The same of each lane by itself.
+static gjk8_ends run_each(group_work *w) {
+    gjk8 *g = &w->gjk.search;
+    gjk8_ends all = {0, 0, 0, 0};
+    for (unsigned rest = g->active; rest; rest &= rest - 1) {
+        unsigned k = compiler_count_low_zeros(rest), lane = 1u << k;
+        query_goal goal = get_goal(w, k);
+        pair_frame f;
+        small_gjk_result r = {.end = SMALL_GJK_OPEN};
+        place_frame((group_lane){w->e, k}, &f);
+        small_gjk_query query = small_make_query(&f, &goal);
+        double square = vec3_norm_squared(f.between);
+        if (square > 1e-150 && square < 1e150) simd_run_small_gjk_unposed(&query, &r);
+        if (r.end == SMALL_GJK_OPEN) {
+            all.open |= lane;
+            continue;
+        }
+        gjk8_put_result(g, k, &r);
+        if (r.end == SMALL_GJK_INSIDE)
+            all.inside |= lane;
+        else
+            all.near |= lane;
+    }
+    return all;
+}
+
+static unsigned count_lanes(unsigned some) {
+    unsigned count = 0;
+    for (; some; some &= some - 1) count++;
+    return count;
+}
+
 void group_search_run(const group_search *task, const lane_group *e, unsigned some) {
-    const group_gjk_kernels *kernels = group_gjk_get_kernels();
+    const group_gjk_kernels *kernels = group_gjk_get_kernels(e->lanes->count);
     group_work w;
     w.task = task;
     w.e = e;
@@ -128,7 +163,8 @@ void group_search_run(const group_search *task, const lane_group *e, unsigned so
         w.gjk.points_a[k] = shape_get_points(get_a(e, k)->shape);
         w.gjk.points_b[k] = shape_get_points(get_b(e, k)->shape);
     }
-    gjk8_ends ends = run_rounds(&w, kernels);
+    kernels->begin(e->lanes, task->numbers, &w.gjk);
+    gjk8_ends ends = count_lanes(some) < FEW ? run_each(&w) : run_rounds(&w, kernels);
     put_corners(&w, ends.near);
     kernels->finish(e->lanes, ends.near, &w.gjk);
     for (unsigned rest = ends.near; rest; rest &= rest - 1) end_at_points(&w, compiler_count_low_zeros(rest));

@@ -190,7 +190,7 @@ static void end_small(void *self, size_t index, const placed_query *q, const sma
 
 // The search of a small couple that the ellipsoids did not decide, along their direction. first: the supports there, or
 // NULL.
-static void search_small(const batch_state *c, group_lane at, const gjk8_first *first) {
+static void search_small(const batch_state *c, group_lane at, const small_gjk_first *first) {
     pair_frame *frame = small_pool_get_frame(c->small);
     query_goal goal = get_goal(c, at);
     const placed_query query = {frame, &goal, NULL, 0, 0};
@@ -237,7 +237,7 @@ static void end_at_support(const batch_state *c, group_lane at, uint32_t a, uint
     if (!is_met && is_small_sign(c, at)) {
         // The gap less FRAME_CLAIM, from which the search takes FRAME_REJECT once more: a lower bound of any direction
         // that rounds to this one.
-        search_small(c, at, &(gjk8_first){a, b, lower + at.e->lanes->radii.lane[at.k]});
+        search_small(c, at, &(small_gjk_first){a, b, lower + at.e->lanes->radii.lane[at.k]});
     } else if (!is_met) {
         leave_open(c, at, a, b);
     } else if (goal.wants_bracket && at.e->lanes->radii.lane[at.k] > 0) {
@@ -361,6 +361,7 @@ static void end_group(const batch_state *c, lane_group *e, unsigned some, const 
 
 // Lanes from `count` on repeat lane 0.
 static void fill(lane_group *e, unsigned count) {
+    e->lanes->count = count;
     for (unsigned k = count; k < PAIR8; k++) {
         e->at.pose_a[k] = e->at.pose_a[0];
         e->at.pose_b[k] = e->at.pose_b[0];
@@ -397,8 +398,8 @@ static void choose_directions(const batch_state *c, pair8 *o) {
 static void settle(batch_state *c) {
     unsigned groups = (c->waiting_count + PAIR8 - 1) / PAIR8, last = c->waiting_count % PAIR8;
     pair8_group waiting[PAIR8_GROUPS];
-    if (last) fill(&c->waiting[groups - 1], last);
     for (unsigned i = 0; i < groups; i++) {
+        fill(&c->waiting[i], i + 1 == groups && last ? last : PAIR8);
         place_again(c, &c->waiting[i]);
         choose_directions(c, c->waiting[i].lanes);
         waiting[i].from = find_ellipsoids(&c->waiting[i]);
@@ -458,6 +459,7 @@ static const ovoid_posed_shape no_body = {&no_shape, {{0, 0, 0}, {1, 0, 0, 0}}};
 static unsigned find_places(const batch_state *c, size_t first, unsigned count, lane_group *e) {
     const ovoid_batch *batch = c->batch;
     unsigned odd = 0;
+    e->lanes->count = count;
     for (unsigned k = 0; k < PAIR8; k++) {
         size_t i = first + (k < count ? k : 0);
         const ovoid_posed_shape *a = &batch->bodies[batch->couples[i].a], *b = &batch->bodies[batch->couples[i].b];
@@ -611,7 +613,7 @@ void batch_run(const ovoid_batch *batch, query_goal goal, const ovoid_options *o
     goal.iterations = options->iterations;
     int wants_evidence = batch->answers || batch->proofs || batch->witnesses;
     const batch_state state = {.batch = batch,
-                               .kernels = pair8_get_kernels(),
+                               .kernels = pair8_get_kernels(batch->couple_count),
                                .goal = goal,
                                .numbers = {goal.far, options->absolute_tolerance, options->relative_tolerance,
                                            FRAME_REJECT, FRAME_CLAIM, OVOID_LENGTH_MIN, OVOID_LENGTH_MAX,

@@ -5,10 +5,10 @@
 #include "base/compiler.h"
 
 // Fewer couples do not pay for the lanes.
-enum { FEW = 3 };
+enum { FEW = 6 };
 
 void small_pool_make(small_pool *pool, const query_goal *goal, small_owner owner, size_t count) {
-    pool->kernels = gjk8_get_kernels();
+    pool->kernels = gjk8_get_kernels(count);
     pool->goal = goal;
     pool->owner = owner;
     pool->has_lanes = count >= FEW;
@@ -93,16 +93,21 @@ static void begin_in_lane(small_pool *p, size_t index, const placed_query *q, co
     p->kernels->begin(&p->groups[p->place / PAIR8], p->place % PAIR8, gjk);
 }
 
+static void run_search(small_pool *p, size_t index, const placed_query *q, const small_gjk_query *gjk) {
+    if (p->has_lanes)
+        begin_in_lane(p, index, q, gjk);
+    else
+        run_alone(p, index, q, gjk);
+}
+
 void small_pool_add(small_pool *p, size_t index, const placed_query *q) {
     small_gjk_query gjk;
     small_end end;
     int is_over = small_begin(q, &gjk, &end);
     if (is_over >= 0)
         p->owner.finish(p->owner.self, index, q, is_over ? &end : NULL);
-    else if (!p->has_lanes)
-        run_alone(p, index, q, &gjk);
     else
-        begin_in_lane(p, index, q, &gjk);
+        run_search(p, index, q, &gjk);
 }
 
 void small_pool_add_from(small_pool *p, size_t index, const placed_query *q, const small_start *start) {
@@ -110,8 +115,8 @@ void small_pool_add_from(small_pool *p, size_t index, const placed_query *q, con
     gjk.start[0] = start->direction.x;
     gjk.start[1] = start->direction.y;
     gjk.start[2] = start->direction.z;
-    begin_in_lane(p, index, q, &gjk);
-    if (start->first) gjk8_put_first(&p->groups[p->place / PAIR8], p->place % PAIR8, start->first);
+    gjk.first = start->first;
+    run_search(p, index, q, &gjk);
 }
 
 void small_pool_finish(small_pool *p) {

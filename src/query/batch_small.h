@@ -48,7 +48,7 @@ void small_pool_add(small_pool *pool, size_t index, const placed_query *query);
 /// The first direction of a search, unit, world, and its supports where they are known, else NULL.
 typedef struct small_start {
     vec3 direction;
-    const gjk8_first *first;
+    const small_gjk_first *first;
 } small_start;
 
 /// small_pool_add from a given direction, for a couple whose inner ellipsoids have no common point.

@@ -33,6 +33,11 @@ __attribute__((target("avx2"))) void small_gjk_run_avx2(const small_gjk_query *q
     run_class(query, result);
 }
 
+__attribute__((target("avx2"))) void small_gjk_run_unposed_avx2(const small_gjk_query *query,
+                                                                small_gjk_result *result) {
+    run_unposed_class(query, result);
+}
+
 __attribute__((target("avx2"))) void small_gjk_run_kept_avx2(const small_gjk_query *query, const small_gjk_kept *kept,
                                                              small_gjk_result *result) {
     run_kept_class(query, kept, result);

@@ -11,16 +11,6 @@ static void take_corner(const gjk8_corner *c, unsigned k, int i, small_gjk_resul
     r->valid |= 1u << i;
 }
 
-void gjk8_put_first(gjk8 *g, unsigned k, const gjk8_first *first) {
-    const small_gjk_body *a = &g->bodies[k].a, *b = &g->bodies[k].b;
-    g->fresh.x.lane[k] = b->x[first->b] - a->x[first->a];
-    g->fresh.y.lane[k] = b->y[first->b] - a->y[first->a];
-    g->fresh.z.lane[k] = b->z[first->b] - a->z[first->a];
-    g->fresh.id.lane[k] = first->a + SMALL_GJK_POINTS * first->b;
-    g->gap.lane[k] = first->gap;
-    g->measured |= 1u << k;
-}
-
 void gjk8_get_result(const gjk8 *g, unsigned k, small_gjk_end end, small_gjk_result *r) {
     int is_inside = end == SMALL_GJK_INSIDE;
     const lane_column *n = is_inside ? g->start : g->n;
@@ -37,4 +27,26 @@ void gjk8_get_result(const gjk8 *g, unsigned k, small_gjk_end end, small_gjk_res
     for (int i = 0; i < 3; i++)
         if (g->is_valid[i].lane[k] > 0) take_corner(&g->old[i], k, i, r);
     if (is_inside) take_corner(&g->fresh, k, 3, r);
+}
+
+static void put_corner(gjk8_corner *c, unsigned k, int i, const small_gjk_result *r) {
+    c->x.lane[k] = r->at.x[i];
+    c->y.lane[k] = r->at.y[i];
+    c->z.lane[k] = r->at.z[i];
+    c->id.lane[k] = r->a[i] + SMALL_GJK_POINTS * r->b[i];
+}
+
+void gjk8_put_result(gjk8 *g, unsigned k, const small_gjk_result *r) {
+    int is_inside = r->end == SMALL_GJK_INSIDE;
+    lane_column *n = is_inside ? g->start : g->n;
+    for (int i = 0; i < 3; i++) n[i].lane[k] = r->n[i];
+    (is_inside ? &g->start_square : &g->square)->lane[k] = r->square;
+    (is_inside ? &g->start_gap : &g->gap)->lane[k] = r->gap;
+    g->steps.lane[k] = r->iterations;
+    for (int i = 0; i < 3; i++) {
+        int is_valid = (int)(r->valid >> i & 1);
+        g->is_valid[i].lane[k] = is_valid;
+        if (is_valid) put_corner(&g->old[i], k, i, r);
+    }
+    if (is_inside) put_corner(&g->fresh, k, 3, r);
 }

@@ -44,20 +44,14 @@ typedef struct gjk8_kernels {
     gjk8_ends (*advance)(gjk8 *g);
 } gjk8_kernels;
 
-/// The supports of both bodies along the first direction, where they are known when a search begins.
-typedef struct gjk8_first {
-    uint32_t a, b;
-    double gap; ///< along the direction, times its length
-} gjk8_first;
-
-/// Hands the first support to the search that has begun in lane k.
-void gjk8_put_first(gjk8 *g, unsigned k, const gjk8_first *first);
-
 /// What the search in lane k ended with.
 void gjk8_get_result(const gjk8 *g, unsigned k, small_gjk_end end, small_gjk_result *result);
 
-/// The kernels of the widest instruction set of this machine.
-const gjk8_kernels *gjk8_get_kernels(void);
+/// Makes lane k one that ended with a result; not OPEN or KEPT.
+void gjk8_put_result(gjk8 *g, unsigned k, const small_gjk_result *result);
+
+/// The kernels for lane groups of so many pairs: of the widest instruction set of this machine that they fill.
+const gjk8_kernels *gjk8_get_kernels(size_t pairs);
 
 /// The kernels of one instruction set, for tests; NULL where this machine or build lacks them.
 const gjk8_kernels *gjk8_get_kernels_of(simd_isa isa);

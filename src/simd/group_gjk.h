@@ -37,7 +37,7 @@ typedef struct group_gjk_kernels {
     void (*finish)(const pair8 *o, unsigned lanes, group_gjk *s);
 } group_gjk_kernels;
 
-/// The kernels of the widest instruction set of this machine.
-const group_gjk_kernels *group_gjk_get_kernels(void);
+/// The kernels for lane groups of so many pairs: of the widest instruction set of this machine that they fill.
+const group_gjk_kernels *group_gjk_get_kernels(size_t pairs);
 
 #endif

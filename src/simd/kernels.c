@@ -37,22 +37,33 @@ static const patch_kernels *const patch_of[SIMD_ISA_COUNT] = KERNELS(&patch_scal
 static const solid8_kernels *const solid8_of[SIMD_ISA_COUNT] = KERNELS(&solid8_scalar, &solid8_avx2, &solid8_avx512);
 static small_gjk_function *const small_gjk_of[SIMD_ISA_COUNT] =
     KERNELS(small_gjk_run_scalar, small_gjk_run_avx2, small_gjk_run_avx2);
+static small_gjk_function *const small_gjk_unposed_of[SIMD_ISA_COUNT] =
+    KERNELS(small_gjk_run_unposed_scalar, small_gjk_run_unposed_avx2, small_gjk_run_unposed_avx2);
 static small_gjk_kept_function *const small_gjk_kept_of[SIMD_ISA_COUNT] =
     KERNELS(small_gjk_run_kept_scalar, small_gjk_run_kept_avx2, small_gjk_run_kept_avx2);
 static small_gjk_kept_function *const find_kept_of[SIMD_ISA_COUNT] =
     KERNELS(small_gjk_find_kept_scalar, small_gjk_find_kept_avx2, small_gjk_find_kept_avx2);
 
+// The set for a lane group of so many pairs, the narrowest that holds them: of wide vectors most lanes would be idle.
+static inline simd_isa find_isa_of(size_t pairs) {
+    simd_isa widest = find_widest();
+    return widest == SIMD_AVX512 && pairs <= 4 ? SIMD_AVX2 : widest;
+}
+
 // The kernels of the widest instruction set of this machine.
 void areas_compute(const simd_triangles *triangles, vec3 *areas) { areas_of[find_widest()](triangles, areas); }
 int box_axes_find(const box_axes_query *query, box_axes *out) { return box_axes_of[find_widest()](query, out); }
 epa8_end epa8_grow(epa8 *s, const epa8_query *query) { return epa8_of[find_widest()](s, query); }
-const gjk8_kernels *gjk8_get_kernels(void) { return gjk8_of[find_widest()]; }
-const group_gjk_kernels *group_gjk_get_kernels(void) { return group_gjk_of[find_widest()]; }
-const pair8_kernels *pair8_get_kernels(void) { return pair8_of[find_widest()]; }
+const gjk8_kernels *gjk8_get_kernels(size_t pairs) { return gjk8_of[find_isa_of(pairs)]; }
+const group_gjk_kernels *group_gjk_get_kernels(size_t pairs) { return group_gjk_of[find_isa_of(pairs)]; }
+const pair8_kernels *pair8_get_kernels(size_t pairs) { return pair8_of[find_isa_of(pairs)]; }
 const patch_kernels *patch_get_kernels(void) { return patch_of[find_widest()]; }
 const solid8_kernels *solid8_get_kernels(void) { return solid8_of[find_widest()]; }
 void simd_run_small_gjk(const small_gjk_query *query, small_gjk_result *result) {
     small_gjk_of[find_widest()](query, result);
+}
+void simd_run_small_gjk_unposed(const small_gjk_query *query, small_gjk_result *result) {
+    small_gjk_unposed_of[find_widest()](query, result);
 }
 void simd_run_small_gjk_kept(const small_gjk_query *query, const small_gjk_kept *kept, small_gjk_result *result) {
     small_gjk_kept_of[find_widest()](query, kept, result);
@@ -70,5 +81,6 @@ const pair8_kernels *pair8_get_kernels_of(simd_isa isa) { return has(isa) ? pair
 const patch_kernels *patch_get_kernels_of(simd_isa isa) { return has(isa) ? patch_of[isa] : NULL; }
 const solid8_kernels *solid8_get_kernels_of(simd_isa isa) { return has(isa) ? solid8_of[isa] : NULL; }
 small_gjk_function *simd_get_small_gjk(simd_isa isa) { return has(isa) ? small_gjk_of[isa] : NULL; }
+small_gjk_function *simd_get_small_gjk_unposed(simd_isa isa) { return has(isa) ? small_gjk_unposed_of[isa] : NULL; }
 small_gjk_kept_function *simd_get_small_gjk_kept(simd_isa isa) { return has(isa) ? small_gjk_kept_of[isa] : NULL; }
 small_gjk_kept_function *simd_get_find_kept(simd_isa isa) { return has(isa) ? find_kept_of[isa] : NULL; }

@@ -11,6 +11,8 @@
 
 #include "simd/support.h"
 
+#include <stddef.h>
+
 enum { PAIR8 = 8, PAIR8_ALL = 0xff, PAIR8_GROUPS = 4 };
 
 /// One number of each pair of a lane group.
@@ -38,6 +40,7 @@ typedef struct pair8 {
     lane_column w[3];                     ///< their difference, written by `supports`
     // The bounds of the latest stage.
     lane_column lower, upper;
+    unsigned count; ///< set by the caller: the lanes in use are the first so many, 1 to 8
 } pair8;
 
 /// The places of the numbers of a lane group's bodies and shapes. Pose: position xyz, rotation wxyz. Shape: reach,
@@ -89,8 +92,8 @@ typedef struct pair8_kernels {
     void (*supports)(pair8 *o);
 } pair8_kernels;
 
-/// The kernels of the widest instruction set of this machine.
-const pair8_kernels *pair8_get_kernels(void);
+/// The kernels for lane groups of so many pairs: of the widest instruction set of this machine that they fill.
+const pair8_kernels *pair8_get_kernels(size_t pairs);
 
 /// The kernels of one instruction set, for tests; NULL where this machine or build lacks them.
 const pair8_kernels *pair8_get_kernels_of(simd_isa isa);

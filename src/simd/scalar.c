@@ -33,6 +33,10 @@ const solid8_kernels solid8_scalar = {run_boxes, run_triangles};
 
 void small_gjk_run_scalar(const small_gjk_query *query, small_gjk_result *result) { run_class(query, result); }
 
+void small_gjk_run_unposed_scalar(const small_gjk_query *query, small_gjk_result *result) {
+    run_unposed_class(query, result);
+}
+
 void small_gjk_run_kept_scalar(const small_gjk_query *query, const small_gjk_kept *kept, small_gjk_result *result) {
     run_kept_class(query, kept, result);
 }

@@ -32,14 +32,21 @@ typedef struct placed_points {
     const double *at;   ///< their frame's place in the world
 } placed_points;
 
+/// The supports of both bodies along the first direction, where they are known when a search begins.
+typedef struct small_gjk_first {
+    uint32_t a, b;
+    double gap; ///< along the direction, times its length
+} small_gjk_first;
+
 /// The pair, and when its search ends.
 typedef struct small_gjk_query {
     simd_points a, b;              ///< body frames, padded; at most SMALL_GJK_POINTS each where it is searched
     const double *rows_a, *rows_b; ///< rotations to the world, by rows
     /// The same points turned by them, padded_count of x, then of y, then of z, without a place; NULL: to be turned.
     const double *turned_a, *turned_b;
-    double offset[3]; ///< of B's body frame from A's, world
-    double start[3];  ///< the first direction, from A to B, of any length
+    double offset[3];             ///< of B's body frame from A's, world
+    double start[3];              ///< the first direction, from A to B, of any length
+    const small_gjk_first *first; ///< its supports, or NULL: to be found; not read by searches of unposed bodies
     double lower_radii, upper_radii, claim;
     double far, near, tolerance; ///< as in the goal of a query (pair/search.h)
     int wants_bracket;
@@ -71,6 +78,10 @@ typedef struct small_gjk_result {
 /// is a proof: the caller makes the bounds from them.
 void simd_run_small_gjk(const small_gjk_query *query, small_gjk_result *result);
 
+/// The same search, with other roundings: the bodies are not posed, each direction is turned into their frames and the
+/// points of its support are turned back, with the bits of group_gjk.h.
+void simd_run_small_gjk_unposed(const small_gjk_query *query, small_gjk_result *result);
+
 /// The end of a search a moment ago: the points of one to three differences, whose indices the bodies have. Places from
 /// `count` on repeat the first.
 typedef struct small_gjk_kept {
@@ -91,6 +102,7 @@ typedef void small_gjk_kept_function(const small_gjk_query *query, const small_g
 
 /// The function of one instruction set; NULL where this machine or build lacks it.
 small_gjk_function *simd_get_small_gjk(simd_isa isa);
+small_gjk_function *simd_get_small_gjk_unposed(simd_isa isa);
 small_gjk_kept_function *simd_get_small_gjk_kept(simd_isa isa);
 small_gjk_kept_function *simd_get_find_kept(simd_isa isa);
 

@@ -63,6 +63,11 @@ LANES_TARGET static void run_begin(gjk8 *g, unsigned k, const small_gjk_query *q
     g->near = q->near;
     g->wants_bracket = q->wants_bracket;
     g->active |= 1u << k;
+    if (!q->first) return;
+    met m;
+    take_first(&m, bodies, q->first);
+    put_support(g, k, &m);
+    g->measured |= 1u << k;
 }
 
 // ---- all lanes: the tests, and the step of the simplex

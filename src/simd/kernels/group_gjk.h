@@ -68,7 +68,7 @@ LANES_INLINE void meet_ends(const pair8 *o, group_gjk *s, int at) {
     lane3 a = lane9_mul3(get9(o->world_a, at), get3(s->vertex_a, at));
     lane3 b = lane9_mul3(get9(o->world_b, at), get3(s->vertex_b, at));
     lane3 offset = get3(o->offset, at);
-    put3(&g->fresh.x, at, lane3_add(offset, lane3_sub(b, a)));
+    put3(&g->fresh.x, at, lane3_sub(lane3_add(b, offset), a));
     put(&g->gap, at, (lane3_dot(get3(g->n, at), offset) + get(&s->low, at)) - get(&s->high, at));
 }
 

@@ -59,6 +59,11 @@ LANES_INLINE void read_columns(const double *const rows[PAIR8], int from, int co
 }
 #endif
 
+// The lanes up to the last one in use, whole vectors of them.
+LANES_INLINE int get_end(const pair8 *o) {
+    return LANES < PAIR8 ? (int)((o->count + LANES - 1) / LANES * LANES) : PAIR8;
+}
+
 // ---- poses and spheres
 
 // The lanes whose quaternion need not be scaled.
@@ -167,6 +172,7 @@ static void add_found(pair8_found *all, pair8_found some, int at) {
 }
 
 LANES_TARGET static pair8_found run_spheres(const pair8_places *from, const pair8_query *query, pair8 *o) {
+    int end = get_end(o);
     pair_columns c;
     read_columns(from->pose_a, 0, 4, c.a.position);
     read_columns(from->pose_b, 0, 4, c.b.position);
@@ -177,13 +183,13 @@ LANES_TARGET static pair8_found run_spheres(const pair8_places *from, const pair
     read_columns(from->shape_a, 4, 2, c.a.head + 4);
     read_columns(from->shape_b, 4, 2, c.b.head + 4);
     pair8_found origins = {0, 0, 0, 0, 0}, all = {0, 0, 0, 0, 0};
-    for (int at = 0; at < PAIR8; at += LANES) add_found(&origins, compute_origins(&c, query, o, at), at);
-    if (!query->keeps_all && origins.apart == PAIR8_ALL) return origins;
+    for (int at = 0; at < end; at += LANES) add_found(&origins, compute_origins(&c, query, o, at), at);
+    if (!query->keeps_all && origins.apart == (1u << end) - 1) return origins;
     read_columns(from->shape_a, 2, 2, c.a.head + 2);
     read_columns(from->shape_b, 2, 2, c.b.head + 2);
     read_columns(from->shape_a, 8, 4, c.a.first);
     read_columns(from->shape_b, 8, 4, c.b.first);
-    for (int at = 0; at < PAIR8; at += LANES) add_found(&all, compute_spheres(&c, query, o, at), at);
+    for (int at = 0; at < end; at += LANES) add_found(&all, compute_spheres(&c, query, o, at), at);
     return (pair8_found){origins.odd, 0, all.apart & ~origins.odd, origins.apart, all.narrow};
 }
 
@@ -370,21 +376,22 @@ LANES_INLINE pair8_found compute_outer(const ellipsoid_work *w, int at) {
 LANES_TARGET static void start_ellipsoids(const pair8_ellipsoids *from, ellipsoid_work *w) {
     lane_column outer_a[10], outer_b[10];
     inner_columns a, b;
+    int end = get_end(w->o);
     read_columns(from->outer_a, 0, 10, outer_a);
     read_columns(from->outer_b, 0, 10, outer_b);
-    for (int at = 0; at < PAIR8; at += LANES) relate(w, outer_a, outer_b, at);
+    for (int at = 0; at < end; at += LANES) relate(w, outer_a, outer_b, at);
     // The tenth number is the first one of the inner centre, which follows.
     read_columns(from->outer_a, 9, 4, a.center);
     read_columns(from->outer_b, 9, 4, b.center);
     read_columns(from->inner_a, 0, 8, a.w);
     read_columns(from->inner_b, 0, 8, b.w);
-    unsigned inner = 0, line = 0;
-    for (int at = 0; at < PAIR8; at += LANES) {
+    unsigned inner = 0, line = 0, all = (1u << end) - 1;
+    for (int at = 0; at < end; at += LANES) {
         inner |= compute_inner(w, &a, &b, at) << at;
         line |= lane_bits(get_mask(&w->o->line, at)) << at;
     }
-    for (int at = 0; at < PAIR8 && inner != PAIR8_ALL; at += LANES) start_direction(w, at);
-    w->is_searching = (inner | line) != PAIR8_ALL;
+    for (int at = 0; at < end && (all & ~inner); at += LANES) start_direction(w, at);
+    w->is_searching = (all & ~(inner | line)) != 0;
 }
 
 LANES_TARGET static void run_ellipsoids(pair8_group *groups, unsigned count, const pair8_query *query) {
@@ -396,10 +403,11 @@ LANES_TARGET static void run_ellipsoids(pair8_group *groups, unsigned count, con
     }
     for (int round = 0; round < 2; round++)
         for (unsigned i = 0; i < count; i++)
-            for (int at = 0; at < PAIR8 && w[i].is_searching; at += LANES) improve_direction(&w[i], round == 1, at);
+            for (int at = 0; at < get_end(w[i].o) && w[i].is_searching; at += LANES)
+                improve_direction(&w[i], round == 1, at);
     for (unsigned i = 0; i < count; i++) {
         groups[i].found = (pair8_found){0, 0, 0, 0, 0};
-        for (int at = 0; at < PAIR8; at += LANES) add_found(&groups[i].found, compute_outer(&w[i], at), at);
+        for (int at = 0; at < get_end(w[i].o); at += LANES) add_found(&groups[i].found, compute_outer(&w[i], at), at);
     }
 }
 
@@ -416,5 +424,5 @@ LANES_INLINE void compute_supports(pair8 *o, int at) {
 }
 
 LANES_TARGET static void run_supports(pair8 *o) {
-    for (int at = 0; at < PAIR8; at += LANES) compute_supports(o, at);
+    for (int at = 0; at < get_end(o); at += LANES) compute_supports(o, at);
 }

@@ -2,7 +2,8 @@
 //   SMALL_GJK_INLINE         the attributes of its functions
 //   pose_points(p, from, blocks), move_points(p, from, blocks), measure(m, bodies, blocks, n)
 //   met                      a support: gap, point indices a and b, and the difference as the step takes it
-//   met_get(m, w)            that difference as numbers
+//   met_get(m, w), met_set(m, w)   that difference as numbers, and from numbers
+//   find_extreme_point(p, n, blocks, is_least)   the point of a body that is extreme along n, in its own frame
 //   corners                  up to four such differences
 //   corners_fill(c, m), corners_put(c, i, m), corners_store(c, at), corners_step(c, valid, m)
 // with `blocks`, the number of eights of points, known to the compiler.
@@ -136,6 +137,45 @@ SMALL_GJK_INLINE int look(small_search *s, double scale) {
     return end != STEP_ON;
 }
 
+SMALL_GJK_INLINE double turn_row(const double row[3], const simd_points *p, uint32_t i) {
+    return (row[0] * p->x[i] + row[1] * p->y[i]) + row[2] * p->z[i];
+}
+
+// The difference of the support's points, in the world.
+SMALL_GJK_INLINE void meet_points(const small_gjk_query *q, met *m) {
+    double w[3];
+    for (int c = 0; c < 3; c++)
+        w[c] = (turn_row(q->rows_b + 3 * c, &q->b, m->b) + q->offset[c]) - turn_row(q->rows_a + 3 * c, &q->a, m->a);
+    met_set(m, w);
+}
+
+// A direction of the world in the frame of a body.
+SMALL_GJK_INLINE vec3 turn_back(const double rows[9], vec3 n) {
+    double in_body[3];
+    for (int c = 0; c < 3; c++) in_body[c] = (rows[c] * n.x + rows[3 + c] * n.y) + rows[6 + c] * n.z;
+    return vec3_at(in_body, 0);
+}
+
+// The gap along a direction of bodies that are not posed: the direction is turned into their frames. Of the support
+// only its points are known: meet_points.
+SMALL_GJK_INLINE void measure_unposed(met *m, const small_gjk_query *q, uint32_t blocks, vec3 n) {
+    support_result high = find_extreme_point(&q->a, turn_back(q->rows_a, n), blocks, 0);
+    support_result low = find_extreme_point(&q->b, turn_back(q->rows_b, n), blocks, 1);
+    m->a = high.index;
+    m->b = low.index;
+    m->gap = (vec3_dot(vec3_at(q->offset, 0), n) + low.value) - high.value;
+}
+
+// The support along n. bodies: posed, or NULL.
+SMALL_GJK_INLINE void find_support(small_search *s, const small_gjk_bodies *bodies, uint32_t blocks, vec3 n) {
+    if (bodies) {
+        measure(&s->m, bodies, blocks, n);
+    } else {
+        measure_unposed(&s->m, s->q, blocks, n);
+        meet_points(s->q, &s->m);
+    }
+}
+
 SMALL_GJK_INLINE void search(small_search *s, const small_gjk_bodies *bodies, uint32_t blocks) {
     const small_gjk_query *q = s->q;
     small_gjk_result *r = s->r;
@@ -144,7 +184,7 @@ SMALL_GJK_INLINE void search(small_search *s, const small_gjk_bodies *bodies, ui
     for (r->iterations = 0;; r->iterations++) {
         double scale = 1 / sqrt(k->square);
         if (!(k->height * scale > q->claim) || r->iterations >= q->iterations) return;
-        measure(&s->m, bodies, blocks, k->n);
+        find_support(s, bodies, blocks, k->n);
         if (look(s, scale)) return;
     }
 }
@@ -172,16 +212,27 @@ SMALL_GJK_INLINE uint32_t find_blocks(const small_gjk_query *q) {
     return count / 8;
 }
 
-// Poses the bodies, and measures along the first direction. 1: the search has ended.
-SMALL_GJK_INLINE int begin(small_search *s, small_gjk_bodies *bodies, uint32_t blocks) {
+// The first support, where the query has it.
+SMALL_GJK_INLINE void take_first(met *m, const small_gjk_bodies *bodies, const small_gjk_first *first) {
+    const small_gjk_body *a = &bodies->a, *b = &bodies->b;
+    uint32_t i = m->a = first->a, k = m->b = first->b;
+    double w[3] = {b->x[k] - a->x[i], b->y[k] - a->y[i], b->z[k] - a->z[i]};
+    m->gap = first->gap;
+    met_set(m, w);
+}
+
+// The support along the first direction. 1: the search has ended.
+SMALL_GJK_INLINE int begin(small_search *s, const small_gjk_bodies *bodies, uint32_t blocks) {
     const small_gjk_query *q = s->q;
     small_gjk_result *r = s->r;
     walk *k = &s->k;
     met *m = &s->m;
-    pose_bodies(q, bodies, blocks);
     vec3 n = vec3_at(q->start, 0);
     double square = vec3_dot(n, n), w[3];
-    measure(m, bodies, blocks, n);
+    if (bodies && q->first)
+        take_first(m, bodies, q->first);
+    else
+        find_support(s, bodies, blocks, n);
     write_direction(r, n, square, m->gap);
     r->iterations = 0;
     met_get(m, w);
@@ -198,16 +249,17 @@ SMALL_GJK_INLINE int begin(small_search *s, small_gjk_bodies *bodies, uint32_t b
     return !(k->square > 1e-150 && k->square < 1e150);
 }
 
-SMALL_GJK_INLINE void run(const small_gjk_query *q, uint32_t blocks, small_gjk_result *r) {
-    small_gjk_bodies bodies;
+// bodies: room for them, or NULL to leave them unposed.
+SMALL_GJK_INLINE void run(const small_gjk_query *q, small_gjk_bodies *bodies, uint32_t blocks, small_gjk_result *r) {
     small_search s;
     s.q = q;
     s.r = r;
-    if (begin(&s, &bodies, blocks)) return;
+    if (bodies) pose_bodies(q, bodies, blocks);
+    if (begin(&s, bodies, blocks)) return;
     corners_fill(&s.k.at, &s.m);
     for (int i = 0; i < 4; i++) s.k.a[i] = s.m.a, s.k.b[i] = s.m.b;
     s.k.valid = 1;
-    search(&s, &bodies, blocks);
+    search(&s, bodies, blocks);
     if (r->end == SMALL_GJK_APART)
         end_at_support(r, &s.m);
     else
@@ -215,11 +267,21 @@ SMALL_GJK_INLINE void run(const small_gjk_query *q, uint32_t blocks, small_gjk_r
 }
 
 SMALL_GJK_INLINE void run_class(const small_gjk_query *q, small_gjk_result *r) {
+    small_gjk_bodies bodies;
     switch (find_blocks(q)) {
-    case 1: run(q, 1, r); break;
-    case 2: run(q, 2, r); break;
-    case 3: run(q, 3, r); break;
-    default: run(q, 4, r); break;
+    case 1: run(q, &bodies, 1, r); break;
+    case 2: run(q, &bodies, 2, r); break;
+    case 3: run(q, &bodies, 3, r); break;
+    default: run(q, &bodies, 4, r); break;
+    }
+}
+
+SMALL_GJK_INLINE void run_unposed_class(const small_gjk_query *q, small_gjk_result *r) {
+    switch (find_blocks(q)) {
+    case 1: run(q, NULL, 1, r); break;
+    case 2: run(q, NULL, 2, r); break;
+    case 3: run(q, NULL, 3, r); break;
+    default: run(q, NULL, 4, r); break;
     }
 }
 

@@ -1,40 +1,9 @@
 // The search of small_gjk.h from what an earlier one left. Who includes it has included kernels/small_gjk.h and defined
-//   met_set(m, w)            the difference of a support, from numbers
 //   corners_meet(c, q, a, b) the differences of four points b and a, posed
-//   find_extreme_point(p, n, blocks, is_least)   the point of a body that is extreme along n, in its own frame
 #ifndef OVOID_SIMD_KERNELS_SMALL_GJK_KEPT_H
 #define OVOID_SIMD_KERNELS_SMALL_GJK_KEPT_H
 
 #include "simd/kernels/small_gjk.h"
-
-SMALL_GJK_INLINE double turn_row(const double row[3], const simd_points *p, uint32_t i) {
-    return (row[0] * p->x[i] + row[1] * p->y[i]) + row[2] * p->z[i];
-}
-
-// The difference of the support's points, in the world.
-SMALL_GJK_INLINE void meet_points(const small_gjk_query *q, met *m) {
-    double w[3];
-    for (int c = 0; c < 3; c++)
-        w[c] = (turn_row(q->rows_b + 3 * c, &q->b, m->b) + q->offset[c]) - turn_row(q->rows_a + 3 * c, &q->a, m->a);
-    met_set(m, w);
-}
-
-// A direction of the world in the frame of a body.
-SMALL_GJK_INLINE vec3 turn_back(const double rows[9], vec3 n) {
-    double in_body[3];
-    for (int c = 0; c < 3; c++) in_body[c] = (rows[c] * n.x + rows[3 + c] * n.y) + rows[6 + c] * n.z;
-    return vec3_at(in_body, 0);
-}
-
-// The gap along a direction before the bodies are posed: the direction is turned into their frames. Of the support only
-// its points are known: meet_points.
-SMALL_GJK_INLINE void measure_unposed(met *m, const small_gjk_query *q, uint32_t blocks, vec3 n) {
-    support_result high = find_extreme_point(&q->a, turn_back(q->rows_a, n), blocks, 0);
-    support_result low = find_extreme_point(&q->b, turn_back(q->rows_b, n), blocks, 1);
-    m->a = high.index;
-    m->b = low.index;
-    m->gap = (vec3_dot(vec3_at(q->offset, 0), n) + low.value) - high.value;
-}
 
 // The point of one to three corners that is nearest to the origin, where it lies between all of them.
 typedef struct kept_point {

@@ -43,6 +43,19 @@ static void run_again(uint64_t *s, small_gjk_query *q, const small_gjk_result *b
     CHECK(same_search(&x, &z));
 }
 
+// The same search of bodies that are not posed.
+static void check_unposed(const small_gjk_query *given, long ends[5]) {
+    small_gjk_query q = *given;
+    small_gjk_result x, y, z;
+    q.first = NULL;
+    simd_get_small_gjk_unposed(SIMD_SCALAR)(&q, &x);
+    simd_get_small_gjk_unposed(SIMD_AVX2)(&q, &y);
+    simd_run_small_gjk_unposed(&q, &z);
+    CHECK(same_search(&x, &y));
+    CHECK(same_search(&x, &z));
+    ends[x.end]++;
+}
+
 // Claims that are a visible part of the bodies, and radii that allowances make differ: a search that ends near with an
 // answer has one by the bounds that are then made of its corners, which round otherwise.
 static void check_confirmed(uint64_t *s, small_gjk_function *twin) {
@@ -77,7 +90,7 @@ int main(void) {
     }
     if (!make_bodies()) return 1;
     check_confirmed(&s, twin);
-    long ends[5] = {0}, again[5] = {0};
+    long ends[5] = {0}, again[5] = {0}, unposed[5] = {0};
     for (int i = 0; i < ROUNDS; i++) {
         double rows[2][9];
         small_gjk_query q;
@@ -89,10 +102,12 @@ int main(void) {
         CHECK(same_search(&x, &y));
         CHECK(same_search(&x, &z));
         ends[x.end]++;
+        check_unposed(&q, unposed);
         run_again(&s, &q, &x, again);
     }
     for (int i = 0; i < 5; i++) {
         if (i != SMALL_GJK_KEPT) CHECK_LE(ROUNDS / 100, ends[i]);
+        if (i != SMALL_GJK_KEPT) CHECK_LE(ROUNDS / 100, unposed[i]);
         CHECK_LE(ROUNDS / 100, again[i]);
     }
     destroy_bodies();
