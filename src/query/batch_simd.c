@@ -571,8 +571,8 @@ static void take_group(batch_state *c, size_t first, unsigned count, lane_group 
         fetch_ellipsoids((const void *)e->at.shape_a[k]);
         fetch_ellipsoids((const void *)e->at.shape_b[k]);
     }
-    if (open == PAIR8_ALL && e != own) {
-        c->waiting_count += PAIR8;
+    if (open == all && e != own) {
+        c->waiting_count += count;
         e->is_placed = 1;
     } else
         for (; open; open &= open - 1) wait_for_others(c, e, compiler_count_low_zeros(open));

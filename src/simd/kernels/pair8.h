@@ -22,7 +22,18 @@ LANES_INLINE void put9(lane_column *c, int at, lane9 m) {
     put3(c + 6, at, m.r2);
 }
 
-// The rows' numbers from `from` on, `count` (even) of them, as columns.
+// The lanes up to the last one in use, whole vectors of them.
+LANES_INLINE int get_end(const pair8 *o) {
+    return LANES < PAIR8 ? (int)((o->count + LANES - 1) / LANES * LANES) : PAIR8;
+}
+
+// Rows of lanes in use, the numbers `from` on of each.
+typedef struct lane_rows {
+    const double *const *at;
+    int from, end;
+} lane_rows;
+
+// `count` (even) numbers of the rows as columns.
 #if LANES == 8
 // Two numbers of the even rows beside each other, and of the odd ones: a shuffle each makes columns of them.
 LANES_INLINE __m512d read_two(const double *const rows[PAIR8], int first, int from) {
@@ -32,9 +43,9 @@ LANES_INLINE __m512d read_two(const double *const rows[PAIR8], int first, int fr
     v = _mm512_mask_broadcast_f32x4(v, 0xf000, _mm_castpd_ps(_mm_loadu_pd(rows[first + 6] + from)));
     return _mm512_castps_pd(v);
 }
-LANES_INLINE void read_columns(const double *const rows[PAIR8], int from, int count, lane_column *out) {
+LANES_INLINE void read_columns(lane_rows rows, int count, lane_column *out) {
     for (int k = 0; k < count; k += 2) {
-        __m512d even = read_two(rows, 0, from + k), odd = read_two(rows, 1, from + k);
+        __m512d even = read_two(rows.at, 0, rows.from + k), odd = read_two(rows.at, 1, rows.from + k);
         _mm512_store_pd(out[k].lane, _mm512_unpacklo_pd(even, odd));
         _mm512_store_pd(out[k + 1].lane, _mm512_unpackhi_pd(even, odd));
     }
@@ -44,25 +55,20 @@ LANES_INLINE __m256d read_two(const double *const rows[PAIR8], int first, int fr
     __m256d v = _mm256_castpd128_pd256(_mm_loadu_pd(rows[first] + from));
     return _mm256_insertf128_pd(v, _mm_loadu_pd(rows[first + 2] + from), 1);
 }
-LANES_INLINE void read_columns(const double *const rows[PAIR8], int from, int count, lane_column *out) {
+LANES_INLINE void read_columns(lane_rows rows, int count, lane_column *out) {
     for (int k = 0; k < count; k += 2)
-        for (int at = 0; at < PAIR8; at += LANES) {
-            __m256d even = read_two(rows, at, from + k), odd = read_two(rows, at + 1, from + k);
+        for (int at = 0; at < rows.end; at += LANES) {
+            __m256d even = read_two(rows.at, at, rows.from + k), odd = read_two(rows.at, at + 1, rows.from + k);
             _mm256_store_pd(out[k].lane + at, _mm256_unpacklo_pd(even, odd));
             _mm256_store_pd(out[k + 1].lane + at, _mm256_unpackhi_pd(even, odd));
         }
 }
 #else
-LANES_INLINE void read_columns(const double *const rows[PAIR8], int from, int count, lane_column *out) {
-    for (int i = 0; i < PAIR8; i++)
-        for (int k = 0; k < count; k++) out[k].lane[i] = rows[i][from + k];
+LANES_INLINE void read_columns(lane_rows rows, int count, lane_column *out) {
+    for (int i = 0; i < rows.end; i++)
+        for (int k = 0; k < count; k++) out[k].lane[i] = rows.at[i][rows.from + k];
 }
 #endif
-
-// The lanes up to the last one in use, whole vectors of them.
-LANES_INLINE int get_end(const pair8 *o) {
-    return LANES < PAIR8 ? (int)((o->count + LANES - 1) / LANES * LANES) : PAIR8;
-}
 
 // ---- poses and spheres
 
@@ -174,21 +180,21 @@ static void add_found(pair8_found *all, pair8_found some, int at) {
 LANES_TARGET static pair8_found run_spheres(const pair8_places *from, const pair8_query *query, pair8 *o) {
     int end = get_end(o);
     pair_columns c;
-    read_columns(from->pose_a, 0, 4, c.a.position);
-    read_columns(from->pose_b, 0, 4, c.b.position);
-    read_columns(from->pose_a, 3, 4, c.a.rotation);
-    read_columns(from->pose_b, 3, 4, c.b.rotation);
-    read_columns(from->shape_a, 0, 2, c.a.head);
-    read_columns(from->shape_b, 0, 2, c.b.head);
-    read_columns(from->shape_a, 4, 2, c.a.head + 4);
-    read_columns(from->shape_b, 4, 2, c.b.head + 4);
+    read_columns((lane_rows){from->pose_a, 0, end}, 4, c.a.position);
+    read_columns((lane_rows){from->pose_b, 0, end}, 4, c.b.position);
+    read_columns((lane_rows){from->pose_a, 3, end}, 4, c.a.rotation);
+    read_columns((lane_rows){from->pose_b, 3, end}, 4, c.b.rotation);
+    read_columns((lane_rows){from->shape_a, 0, end}, 2, c.a.head);
+    read_columns((lane_rows){from->shape_b, 0, end}, 2, c.b.head);
+    read_columns((lane_rows){from->shape_a, 4, end}, 2, c.a.head + 4);
+    read_columns((lane_rows){from->shape_b, 4, end}, 2, c.b.head + 4);
     pair8_found origins = {0, 0, 0, 0, 0}, all = {0, 0, 0, 0, 0};
     for (int at = 0; at < end; at += LANES) add_found(&origins, compute_origins(&c, query, o, at), at);
     if (!query->keeps_all && origins.apart == (1u << end) - 1) return origins;
-    read_columns(from->shape_a, 2, 2, c.a.head + 2);
-    read_columns(from->shape_b, 2, 2, c.b.head + 2);
-    read_columns(from->shape_a, 8, 4, c.a.first);
-    read_columns(from->shape_b, 8, 4, c.b.first);
+    read_columns((lane_rows){from->shape_a, 2, end}, 2, c.a.head + 2);
+    read_columns((lane_rows){from->shape_b, 2, end}, 2, c.b.head + 2);
+    read_columns((lane_rows){from->shape_a, 8, end}, 4, c.a.first);
+    read_columns((lane_rows){from->shape_b, 8, end}, 4, c.b.first);
     for (int at = 0; at < end; at += LANES) add_found(&all, compute_spheres(&c, query, o, at), at);
     return (pair8_found){origins.odd, 0, all.apart & ~origins.odd, origins.apart, all.narrow};
 }
@@ -377,14 +383,14 @@ LANES_TARGET static void start_ellipsoids(const pair8_ellipsoids *from, ellipsoi
     lane_column outer_a[10], outer_b[10];
     inner_columns a, b;
     int end = get_end(w->o);
-    read_columns(from->outer_a, 0, 10, outer_a);
-    read_columns(from->outer_b, 0, 10, outer_b);
+    read_columns((lane_rows){from->outer_a, 0, end}, 10, outer_a);
+    read_columns((lane_rows){from->outer_b, 0, end}, 10, outer_b);
     for (int at = 0; at < end; at += LANES) relate(w, outer_a, outer_b, at);
     // The tenth number is the first one of the inner centre, which follows.
-    read_columns(from->outer_a, 9, 4, a.center);
-    read_columns(from->outer_b, 9, 4, b.center);
-    read_columns(from->inner_a, 0, 8, a.w);
-    read_columns(from->inner_b, 0, 8, b.w);
+    read_columns((lane_rows){from->outer_a, 9, end}, 4, a.center);
+    read_columns((lane_rows){from->outer_b, 9, end}, 4, b.center);
+    read_columns((lane_rows){from->inner_a, 0, end}, 8, a.w);
+    read_columns((lane_rows){from->inner_b, 0, end}, 8, b.w);
     unsigned inner = 0, line = 0, all = (1u << end) - 1;
     for (int at = 0; at < end; at += LANES) {
         inner |= compute_inner(w, &a, &b, at) << at;
