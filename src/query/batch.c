@@ -14,7 +14,7 @@ static size_t find_bad_couple(const ovoid_batch *batch) {
     return i;
 }
 
-static ovoid_code find_answers(const ovoid_batch *batch, query_goal goal, ovoid_error *error) {
+static ovoid_code find_answers(const ovoid_batch *batch, const query_goal *goal, ovoid_error *error) {
     OVOID_ASSERT(batch && (batch->couples || !batch->couple_count));
     size_t bad = find_bad_couple(batch);
     if (bad < batch->couple_count)
@@ -22,7 +22,7 @@ static ovoid_code find_answers(const ovoid_batch *batch, query_goal goal, ovoid_
                          batch->body_count);
     ovoid_options options;
     // Refused options are refused couple by couple, and a depth has no cheap stages.
-    if (goal.wants_depth || !options_make(batch->options, &options) || !(goal.far >= 0))
+    if (goal->wants_depth || !options_make(batch->options, &options) || !(goal->far >= 0))
         for (size_t i = 0; i < batch->couple_count; i++) batch_query_single(batch, i, goal);
     else
         batch_run(batch, goal, &options);
@@ -30,7 +30,7 @@ static ovoid_code find_answers(const ovoid_batch *batch, query_goal goal, ovoid_
 }
 
 static ovoid_code run(const ovoid_batch *batch, query_goal goal, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, goal, find_answers(batch, goal, error));
+    ENVIRONMENT_RETURN(ovoid_code, goal, find_answers(batch, &goal, error));
 }
 
 ovoid_code ovoid_collide_batch(const ovoid_batch *batch, ovoid_error *error) {

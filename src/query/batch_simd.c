@@ -41,7 +41,6 @@ typedef struct batch_state {
     pair8_query numbers;
     int wants_evidence;  ///< answers, proofs or points, not only verdicts
     lane_group *waiting; ///< couples on their way to the ellipsoids: PAIR8_GROUPS groups
-    pair8 *lanes;        ///< of `waiting`
     unsigned waiting_count;
     lane_group *few; ///< small couples of a distance, from groups that have few of them
     unsigned few_count;
@@ -76,11 +75,11 @@ static ovoid_pair get_pair(const ovoid_batch *batch, size_t i) {
     return (ovoid_pair){a->shape, b->shape, a->pose, b->pose};
 }
 
-void batch_query_single(const ovoid_batch *batch, size_t i, query_goal goal) {
+void batch_query_single(const ovoid_batch *batch, size_t i, const query_goal *goal) {
     ovoid_pair pair = get_pair(batch, i);
     ovoid_answer own, *out = batch->answers ? &batch->answers[i] : &own;
     const ovoid_proof *earlier = batch->proofs && !is_blank(&batch->proofs[i]) ? &batch->proofs[i] : NULL;
-    answer_find_internal(&pair, &(query_request){batch->options, &goal, earlier, NULL}, out);
+    answer_find_internal(&pair, &(query_request){batch->options, goal, earlier, NULL}, out);
     batch_write(batch, i, out);
 }
 
@@ -257,11 +256,13 @@ static void end_at_support(const batch_state *c, group_lane at, uint32_t a, uint
 }
 
 // The exact search of a couple that was left open.
-static void search_open(const ovoid_batch *batch, query_goal goal, int wants_evidence, const open_couple *couple) {
+static void search_open(const ovoid_batch *batch, const query_goal *of_all, int wants_evidence,
+                        const open_couple *couple) {
     ovoid_pair pair = get_pair(batch, couple->index);
     pair_frame frame;
     search s;
     simplex start;
+    query_goal goal = *of_all;
     (void)frame_make(&pair, &frame);
     goal.tolerance = couple->tolerance;
     search_make(&s, &frame, &goal);
@@ -270,7 +271,7 @@ static void search_open(const ovoid_batch *batch, query_goal goal, int wants_evi
     end_search(batch, wants_evidence, couple->index, &s);
 }
 
-COMPILER_NOINLINE static void search_all_open(const ovoid_batch *batch, query_goal goal, int wants_evidence,
+COMPILER_NOINLINE static void search_all_open(const ovoid_batch *batch, const query_goal *goal, int wants_evidence,
                                               const open_list *open) {
     for (unsigned i = 0; i < open->count; i++)
         if (open->items[i].is_alone)
@@ -280,6 +281,17 @@ COMPILER_NOINLINE static void search_all_open(const ovoid_batch *batch, query_go
 }
 
 // ---- a lane group
+
+// The first `count` lanes are in use; the others repeat lane 0.
+static void fill(lane_group *e, unsigned count) {
+    e->lanes->count = count;
+    for (unsigned k = count; k < PAIR8; k++) {
+        e->at.pose_a[k] = e->at.pose_a[0];
+        e->at.pose_b[k] = e->at.pose_b[0];
+        e->at.shape_a[k] = e->at.shape_a[0];
+        e->at.shape_b[k] = e->at.shape_b[0];
+    }
+}
 
 // The vertices of the supports of a lane group.
 typedef struct lane_ends {
@@ -358,17 +370,6 @@ static void end_group(const batch_state *c, lane_group *e, unsigned some, const 
 }
 
 // ---- couples that wait
-
-// Lanes from `count` on repeat lane 0.
-static void fill(lane_group *e, unsigned count) {
-    e->lanes->count = count;
-    for (unsigned k = count; k < PAIR8; k++) {
-        e->at.pose_a[k] = e->at.pose_a[0];
-        e->at.pose_b[k] = e->at.pose_b[0];
-        e->at.shape_a[k] = e->at.shape_a[0];
-        e->at.shape_b[k] = e->at.shape_b[0];
-    }
-}
 
 // Fills the columns of a waiting group. Couples that came from several groups are placed again, in lanes: this costs
 // less than copying some forty columns lane by lane.
@@ -454,14 +455,12 @@ static unsigned is_unusual(const ovoid_shape *a, const ovoid_shape *b) {
 static const ovoid_shape no_shape;
 static const ovoid_posed_shape no_body = {&no_shape, {{0, 0, 0}, {1, 0, 0, 0}}};
 
-// Fills a lane group with `count` couples, at most 8, from `first` on; lanes without a couple repeat lane 0. The mask
-// of unusual couples.
+// Fills a lane group with `count` couples, at most 8, from `first` on. The mask of unusual couples.
 static unsigned find_places(const batch_state *c, size_t first, unsigned count, lane_group *e) {
     const ovoid_batch *batch = c->batch;
     unsigned odd = 0;
-    e->lanes->count = count;
-    for (unsigned k = 0; k < PAIR8; k++) {
-        size_t i = first + (k < count ? k : 0);
+    for (unsigned k = 0; k < count; k++) {
+        size_t i = first + k;
         const ovoid_posed_shape *a = &batch->bodies[batch->couples[i].a], *b = &batch->bodies[batch->couples[i].b];
         unsigned is_missing = !a->shape || !b->shape;
         if (is_missing) a = b = &no_body;
@@ -472,6 +471,7 @@ static unsigned find_places(const batch_state *c, size_t first, unsigned count, 
         e->at.shape_b[k] = (const void *)b->shape;
         odd |= (is_missing | is_unusual(a->shape, b->shape)) << k;
     }
+    fill(e, count);
     return odd;
 }
 
@@ -580,48 +580,47 @@ static void take_group(batch_state *c, size_t first, unsigned count, lane_group 
     if (c->waiting_count > PAIR8 * (PAIR8_GROUPS - 1)) settle(c);
 }
 
-// Runs from couple `first` on, until enough couples are left open or all are done; returns the next one. batch: the
-// state without its working memory.
-COMPILER_NOINLINE static size_t run_lanes(const batch_state *batch, size_t first, open_list *open) {
+// Runs from couple `first` on, until enough couples are left open or all are done; returns the next one. The working
+// memory of the state is here.
+COMPILER_NOINLINE static size_t run_lanes(batch_state *c, size_t first) {
     pair8 lanes[PAIR8_GROUPS + 2];
     lane_group groups[PAIR8_GROUPS + 2];
     for (unsigned i = 0; i < PAIR8_GROUPS + 2; i++) groups[i].lanes = &lanes[i];
     small_pool small;
-    batch_state c = *batch;
-    c.waiting = groups;
-    c.lanes = lanes;
-    c.waiting_count = 0;
-    c.few = &groups[PAIR8_GROUPS + 1];
-    c.few_count = 0;
-    c.small = &small;
-    c.open = open;
-    size_t count = c.batch->couple_count;
-    small_pool_make(&small, &c.goal, (small_owner){end_small, &c, c.wants_evidence}, count - first);
-    for (; first < count && open->count <= OPEN_FULL; first += PAIR8) {
+    c->waiting = groups;
+    c->waiting_count = 0;
+    c->few = &groups[PAIR8_GROUPS + 1];
+    c->few_count = 0;
+    c->small = &small;
+    size_t count = c->batch->couple_count;
+    small_pool_make(&small, &c->goal, (small_owner){end_small, c, c->wants_evidence}, count - first);
+    for (; first < count && c->open->count <= OPEN_FULL; first += PAIR8) {
         size_t left = count - first;
-        fetch_ahead(c.batch, first);
-        take_group(&c, first, left < PAIR8 ? (unsigned)left : PAIR8, &groups[PAIR8_GROUPS]);
+        fetch_ahead(c->batch, first);
+        take_group(c, first, left < PAIR8 ? (unsigned)left : PAIR8, &groups[PAIR8_GROUPS]);
     }
-    if (c.waiting_count) settle(&c);
-    search_few(&c);
+    if (c->waiting_count) settle(c);
+    search_few(c);
     small_pool_finish(&small);
+    c->waiting = c->few = NULL;
+    c->small = NULL;
     return first;
 }
 
-void batch_run(const ovoid_batch *batch, query_goal goal, const ovoid_options *options) {
+void batch_run(const ovoid_batch *batch, const query_goal *goal, const ovoid_options *options) {
     open_list open;
-    goal.iterations = options->iterations;
     int wants_evidence = batch->answers || batch->proofs || batch->witnesses;
-    const batch_state state = {.batch = batch,
-                               .kernels = pair8_get_kernels(batch->couple_count),
-                               .goal = goal,
-                               .numbers = {goal.far, options->absolute_tolerance, options->relative_tolerance,
-                                           FRAME_REJECT, FRAME_CLAIM, OVOID_LENGTH_MIN, OVOID_LENGTH_MAX,
-                                           goal.iterations, wants_evidence},
-                               .wants_evidence = wants_evidence};
+    batch_state c = {.batch = batch,
+                     .kernels = pair8_get_kernels(batch->couple_count),
+                     .goal = *goal,
+                     .numbers = {goal->far, options->absolute_tolerance, options->relative_tolerance, FRAME_REJECT,
+                                 FRAME_CLAIM, OVOID_LENGTH_MIN, OVOID_LENGTH_MAX, options->iterations, wants_evidence},
+                     .wants_evidence = wants_evidence,
+                     .open = &open};
+    c.goal.iterations = options->iterations;
     for (size_t next = 0; next < batch->couple_count;) {
         open.count = 0;
-        next = run_lanes(&state, next, &open);
-        search_all_open(batch, goal, wants_evidence, &open);
+        next = run_lanes(&c, next);
+        search_all_open(batch, &c.goal, wants_evidence, &open);
     }
 }

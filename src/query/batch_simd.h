@@ -19,9 +19,9 @@ _Static_assert(sizeof(ovoid_pose) == 7 * sizeof(double) && offsetof(ovoid_shape,
 void batch_write(const ovoid_batch *batch, size_t i, const ovoid_answer *answer);
 
 /// The query of couple i alone.
-void batch_query_single(const ovoid_batch *batch, size_t i, query_goal goal);
+void batch_query_single(const ovoid_batch *batch, size_t i, const query_goal *goal);
 
 /// All couples. The goal is no depth, and the options are valid.
-void batch_run(const ovoid_batch *batch, query_goal goal, const ovoid_options *options);
+void batch_run(const ovoid_batch *batch, const query_goal *goal, const ovoid_options *options);
 
 #endif
