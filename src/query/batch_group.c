@@ -56,32 +56,70 @@ static void finish(const group_work *w, unsigned k, const placed_query *query, c
     owner->finish(owner->self, w->e->index[k], query, end);
 }
 
-// Ends a lane at the nearest points.
-static void end_at_points(const group_work *w, unsigned k) {
+// What the verdict of a lane that ended at the nearest points says.
+static small_end get_bounds(const group_work *w, unsigned k) {
+    small_end end;
+    end.lower = w->gjk.lower.lane[k];
+    end.upper = w->gjk.upper.lane[k];
+    end.iterations = (uint32_t)w->gjk.search.steps.lane[k];
+    end.stage = end.iterations > 0 ? OVOID_STAGE_GJK : OVOID_STAGE_SUPPORT;
+    end.kind = OVOID_PROOF_POINTS;
+    return end;
+}
+
+// The nearest points of a lane, from the origin of A's body frame.
+COMPILER_INLINED small_points get_points(const group_work *w, unsigned k, vec3 normal) {
     const group_gjk *s = &w->gjk;
+    small_points points = {get3(s->point_a, k), get3(s->point_b, k)};
+    if (w->e->lanes->radii.lane[k] > 0) {
+        pair_frame f;
+        f.a = get_a(w->e, k)->shape;
+        f.b = get_b(w->e, k)->shape;
+        small_points_add_radii(&points, &f, normal);
+    }
+    return points;
+}
+
+// Ends a lane at the nearest points, for a verdict and the points alone: from the columns into their places, as numbers
+// that are copied just after they were made would be waited for.
+static void write_points(const group_work *w, unsigned k, const query_goal *goal) {
+    const group_search *task = w->task;
+    size_t index = w->e->index[k];
+    vec3 origin = get_a(w->e, k)->pose.position, normal = get3(w->gjk.normal, k);
+    small_end end = get_bounds(w, k);
+    if (task->verdicts) task->verdicts[index] = answer_make_small_verdict(&end, goal);
+    if (!task->witnesses) return;
+    small_points points = get_points(w, k, normal);
+    ovoid_witness *to = &task->witnesses[index];
+    *to = (ovoid_witness){vec3_add(origin, points.a), vec3_add(origin, points.b), normal};
+}
+
+// The same for a proof.
+static void end_with_corners(const group_work *w, unsigned k, const query_goal *goal) {
     const ovoid_posed_shape *a = get_a(w->e, k);
-    query_goal goal = get_goal(w, k);
     pair_frame f;
     f.a = a->shape;
     f.b = get_b(w->e, k)->shape;
-    const placed_query query = {.frame = &f, .goal = &goal};
-    small_points points = {get3(s->point_a, k), get3(s->point_b, k)};
-    small_end end;
-    end.lower = s->lower.lane[k];
-    end.upper = s->upper.lane[k];
-    end.iterations = (uint32_t)s->search.steps.lane[k];
-    end.stage = end.iterations > 0 ? OVOID_STAGE_GJK : OVOID_STAGE_SUPPORT;
-    end.kind = OVOID_PROOF_POINTS;
-    end.normal = get3(s->normal, k);
+    const placed_query query = {.frame = &f, .goal = goal};
+    small_end end = get_bounds(w, k);
+    end.normal = get3(w->gjk.normal, k);
     end.has_witness = 1;
-    small_points_add_radii(&points, &f, end.normal);
+    small_points points = get_points(w, k, end.normal);
     end.point_a = vec3_add(a->pose.position, points.a);
     end.point_b = vec3_add(a->pose.position, points.b);
-    if (w->task->wants_corners) {
-        end.points = get_corners(w, k);
-        end.inner = (vec3){0, 0, 0};
-    }
-    finish(w, k, &query, query_goal_is_met(&goal, end.lower, end.upper) ? &end : NULL);
+    end.points = get_corners(w, k);
+    end.inner = (vec3){0, 0, 0};
+    finish(w, k, &query, &end);
+}
+
+static void end_at_points(const group_work *w, unsigned k) {
+    query_goal goal = get_goal(w, k);
+    if (!query_goal_is_met(&goal, w->gjk.lower.lane[k], w->gjk.upper.lane[k]))
+        finish(w, k, NULL, NULL);
+    else if (w->task->wants_corners)
+        end_with_corners(w, k, &goal);
+    else
+        write_points(w, k, &goal);
 }
 
 // Ends a lane with the origin inside its corners.

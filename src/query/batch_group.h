@@ -11,7 +11,10 @@ typedef struct group_search {
     const query_goal *goal; ///< a distance without a cap; the tolerance is each couple's own
     const pair8_query *numbers;
     small_owner owner; ///< its `finish` reads the query's frame only of an end without witness points
-    int wants_corners; ///< `finish` reads the end's simplex
+    int wants_corners; ///< proofs or answers are wanted, which `finish` writes
+    /// The batch's, or NULL: written here where no proof is wanted and a couple ends at its nearest points.
+    ovoid_verdict *verdicts;
+    ovoid_witness *witnesses;
 } group_search;
 
 /// Searches the lanes `some` of a group e that the spheres have placed. The bodies are small, and the inner ellipsoids

@@ -491,7 +491,8 @@ COMPILER_NOINLINE static unsigned find_warm(const ovoid_batch *batch, const lane
 // Searches the lanes `some` of a group.
 static void search_group(batch_state *c, const lane_group *e, unsigned some) {
     const ovoid_batch *to = c->batch;
-    const group_search task = {&c->goal, &c->numbers, {end_small, c, c->wants_evidence}, to->proofs || to->answers};
+    const group_search task = {&c->goal,     &c->numbers,  {end_small, c, c->wants_evidence}, to->proofs || to->answers,
+                               to->verdicts, to->witnesses};
     group_search_run(&task, e, some);
 }
 
