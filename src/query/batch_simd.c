@@ -615,7 +615,8 @@ void batch_run(const ovoid_batch *batch, const query_goal *goal, const ovoid_opt
                      .kernels = pair8_get_kernels(batch->couple_count),
                      .goal = *goal,
                      .numbers = {goal->far, options->absolute_tolerance, options->relative_tolerance, FRAME_REJECT,
-                                 FRAME_CLAIM, OVOID_LENGTH_MIN, OVOID_LENGTH_MAX, options->iterations, wants_evidence},
+                                 FRAME_CLAIM, OVOID_LENGTH_MIN, OVOID_LENGTH_MAX, options->iterations,
+                                 goal->far < INFINITY ? 1 : 2, wants_evidence},
                      .wants_evidence = wants_evidence,
                      .open = &open};
     c.goal.iterations = options->iterations;

@@ -1,6 +1,6 @@
 // A lane group: eight pairs through the first stages of a query (poses, enclosing spheres, ellipsoids, supports). A
 // lane has the same bits whatever the instruction set and the other lanes. The operations are those of the single query
-// (pair/frame.c, reject.c, stages.c), but the ellipsoids' direction is improved once and not twice. Lanes that need
+// (pair/frame.c, reject.c, stages.c), but the ellipsoids' direction may be improved once and not twice. Lanes that need
 // more than the common case (a quaternion that has to be scaled, squares that over- or underflow, a matrix that is not
 // positive definite) are reported, not computed: the caller answers them by the single query.
 //
@@ -61,6 +61,7 @@ typedef struct pair8_query {
     double reject, claim;           ///< FRAME_REJECT, FRAME_CLAIM
     double hidden, length_most;     ///< OVOID_LENGTH_MIN, OVOID_LENGTH_MAX
     uint32_t iterations;            ///< most steps of a search
+    int rounds;                     ///< how often the ellipsoids' direction is improved, 1 or 2
     int keeps_all;                  ///< `spheres` fills its columns even where the origins part all lanes
 } pair8_query;
 

@@ -323,8 +323,8 @@ LANES_INLINE lane compute_spread(lane6 q, lane3 n) {
     return lane_max(lane3_dot(n, lane6_mul3(q, n)), lane_set(0)) + lane_set(256 * 0x1p-53) * lane6_trace(q);
 }
 
-// ellipsoids_find_direction with one improvement, in two steps: first the line of centres (or find_line in answer.c),
-// then one round of it (improve_direction). The mask loses the lanes that are scaled there, or leave its loop early.
+// ellipsoids_find_direction in steps: first the line of centres (or find_line in answer.c), then one or two rounds of
+// it (improve_direction). The mask loses the lanes that are scaled there, or leave its loop early.
 LANES_INLINE void start_direction(ellipsoid_work *w, int at) {
     pair8 *o = w->o;
     related f = get_related(o, at);
@@ -407,10 +407,10 @@ LANES_TARGET static void run_ellipsoids(pair8_group *groups, unsigned count, con
         w[i].query = query;
         start_ellipsoids(&groups[i].from, &w[i]);
     }
-    for (int round = 0; round < 2; round++)
+    for (int round = 0; round <= query->rounds; round++)
         for (unsigned i = 0; i < count; i++)
             for (int at = 0; at < get_end(w[i].o) && w[i].is_searching; at += LANES)
-                improve_direction(&w[i], round == 1, at);
+                improve_direction(&w[i], round == query->rounds, at);
     for (unsigned i = 0; i < count; i++) {
         groups[i].found = (pair8_found){0, 0, 0, 0, 0};
         for (int at = 0; at < get_end(w[i].o); at += LANES) add_found(&groups[i].found, compute_outer(&w[i], at), at);
