@@ -60,8 +60,11 @@ static void end_at_overlap(const placed_query *q, double upper, ovoid_stage stag
     end->iterations = 0;
 }
 
-// A common point of the inner ellipsoids: 1 if it proves an overlap.
-static int run_inner(const placed_query *q, small_end *end) {
+// The line of centres has a direction.
+static int has_line(const pair_frame *f) { return vec3_norm_squared(f->between) > 1e-150; }
+
+int small_run_inner(const placed_query *q, small_end *end) {
+    if (!has_line(q->frame)) return 0;
     double upper = inner_compute_upper_in_world(q->frame, &end->inner);
     if (!(upper < 0)) return 0;
     clear_points(&end->points);
@@ -89,14 +92,6 @@ small_gjk_query small_make_query(const pair_frame *f, const query_goal *goal) {
                              goal->tolerance,
                              goal->wants_bracket,
                              goal->iterations};
-}
-
-int small_begin(const placed_query *q, small_gjk_query *gjk, small_end *end) {
-    const pair_frame *f = q->frame;
-    if (!(vec3_norm_squared(f->between) > 1e-150)) return 0;
-    if (small_tries_inner(q->sphere_gap, f->a->reach + f->b->reach) && run_inner(q, end)) return 1;
-    *gjk = small_make_query(f, q->goal);
-    return -1;
 }
 
 int small_finish(const pair_frame *f, const query_goal *goal, const small_gjk_result *r, small_end *end) {
@@ -128,10 +123,11 @@ int small_finish(const pair_frame *f, const query_goal *goal, const small_gjk_re
 }
 
 int small_run(const placed_query *q, small_end *end) {
-    small_gjk_query gjk;
+    const pair_frame *f = q->frame;
     small_gjk_result r;
-    int is_over = small_begin(q, &gjk, end);
-    if (is_over >= 0) return is_over;
+    if (!has_line(f)) return 0;
+    if (small_tries_inner(q->sphere_gap, f->a->reach + f->b->reach) && small_run_inner(q, end)) return 1;
+    small_gjk_query gjk = small_make_query(f, q->goal);
     simd_run_small_gjk(&gjk, &r);
     return small_finish(q->frame, q->goal, &r, end);
 }
@@ -159,7 +155,7 @@ static int run_kept_hull(const placed_query *q, small_end *end) {
 static int run_kept_inner(const placed_query *q, small_end *end) {
     vec3 inner = q->earlier->inner_a;
     double upper = inner_compute_upper_at(q->frame, inner);
-    if (!(upper < 0)) return run_inner(q, end);
+    if (!(upper < 0)) return small_run_inner(q, end);
     end->inner = inner;
     clear_points(&end->points);
     end->kind = OVOID_PROOF_INNER;
@@ -170,7 +166,7 @@ static int run_kept_inner(const placed_query *q, small_end *end) {
 static small_outcome run_kept_overlap(const placed_query *q, small_end *end) {
     const ovoid_proof *p = q->earlier;
     int is_proven = 0;
-    if (!(vec3_norm_squared(q->frame->between) > 1e-150) || !proof_is_sound(q->frame, p)) return SMALL_UNKNOWN;
+    if (!has_line(q->frame) || !proof_is_sound(q->frame, p)) return SMALL_UNKNOWN;
     if (p->kind == OVOID_PROOF_INNER) is_proven = run_kept_inner(q, end);
     if (p->kind == OVOID_PROOF_HULL && p->count == 4) is_proven = run_kept_hull(q, end);
     return is_proven ? SMALL_ANSWERED : SMALL_UNKNOWN;

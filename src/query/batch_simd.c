@@ -44,7 +44,7 @@ typedef struct batch_state {
     unsigned waiting_count;
     lane_group *few; ///< small couples of a distance, from groups that have few of them
     unsigned few_count;
-    small_pool *small; ///< other couples of small bodies
+    small_pool *small; ///< small couples of a yes or no
     open_list *open;
 } batch_state;
 
@@ -195,7 +195,7 @@ static void search_small(const batch_state *c, group_lane at, const small_gjk_fi
     const placed_query query = {frame, &goal, NULL, 0, 0};
     place_frame(at, frame);
     const small_start start = {mat3_mul_vec3(frame->world, get3(at.e->lanes->n, at.k)), first};
-    small_pool_add_from(c->small, at.e->index[at.k], &query, &start);
+    small_pool_add(c->small, at.e->index[at.k], &query, &start);
 }
 
 // 1 for a small couple of a yes or no.
@@ -521,8 +521,21 @@ static void search_or_wait(batch_state *c, const lane_group *e, unsigned some, u
     }
 }
 
+// Answers a couple of small bodies by its closed form, or else by the inner ellipsoids, where these have a common
+// point: 1 if it is answered or left to be queried alone.
+static int end_early(batch_state *c, group_lane at, int is_closed) {
+    pair_frame frame;
+    query_goal goal = get_goal(c, at);
+    const placed_query query = {&frame, &goal, NULL, at.e->lanes->lower.lane[at.k], 0};
+    small_end end;
+    place_frame(at, &frame);
+    int is_answered = is_closed ? closed_run(&query, &end) : small_run_inner(&query, &end);
+    if (is_closed || is_answered) end_small(c, at.e->index[at.k], &query, is_answered ? &end : NULL);
+    return is_closed || is_answered;
+}
+
 // Answers those of the lanes `open` that have a closed form, and searches the small ones from the line of centres where
-// a distance is asked for, which needs no ellipsoids. The mask of both.
+// a distance is asked for, which needs no ellipsoids, unless the inner ones decide it. The mask of both.
 static unsigned add_small(batch_state *c, const lane_group *e, unsigned open) {
     unsigned small = 0, searched = 0, count = 0;
     int is_distance = c->goal.far == INFINITY;
@@ -533,20 +546,10 @@ static unsigned add_small(batch_state *c, const lane_group *e, unsigned open) {
         int is_closed = closed_fits(a, b);
         if (!is_closed && !(is_distance && small_fits(&c->goal, a, b, sphere_gap))) continue;
         small |= 1u << k;
-        if (!is_closed && !small_tries_inner(sphere_gap, e->lanes->reach.lane[k])) {
-            searched |= 1u << k;
-            count++;
-            continue;
-        }
-        pair_frame *frame = small_pool_get_frame(c->small);
-        query_goal goal = get_goal(c, (group_lane){e, k});
-        const placed_query query = {frame, &goal, NULL, sphere_gap, 0};
-        small_end end;
-        place_frame((group_lane){e, k}, frame);
-        if (is_closed)
-            end_small(c, e->index[k], &query, closed_run(&query, &end) ? &end : NULL);
-        else
-            small_pool_add(c->small, e->index[k], &query);
+        int is_early = is_closed || small_tries_inner(sphere_gap, e->lanes->reach.lane[k]);
+        if (is_early && end_early(c, (group_lane){e, k}, is_closed)) continue;
+        searched |= 1u << k;
+        count++;
     }
     search_or_wait(c, e, searched, count);
     return small;

@@ -93,30 +93,16 @@ static void begin_in_lane(small_pool *p, size_t index, const placed_query *q, co
     p->kernels->begin(&p->groups[p->place / PAIR8], p->place % PAIR8, gjk);
 }
 
-static void run_search(small_pool *p, size_t index, const placed_query *q, const small_gjk_query *gjk) {
-    if (p->has_lanes)
-        begin_in_lane(p, index, q, gjk);
-    else
-        run_alone(p, index, q, gjk);
-}
-
-void small_pool_add(small_pool *p, size_t index, const placed_query *q) {
-    small_gjk_query gjk;
-    small_end end;
-    int is_over = small_begin(q, &gjk, &end);
-    if (is_over >= 0)
-        p->owner.finish(p->owner.self, index, q, is_over ? &end : NULL);
-    else
-        run_search(p, index, q, &gjk);
-}
-
-void small_pool_add_from(small_pool *p, size_t index, const placed_query *q, const small_start *start) {
+void small_pool_add(small_pool *p, size_t index, const placed_query *q, const small_start *start) {
     small_gjk_query gjk = small_make_query(q->frame, q->goal);
     gjk.start[0] = start->direction.x;
     gjk.start[1] = start->direction.y;
     gjk.start[2] = start->direction.z;
     gjk.first = start->first;
-    run_search(p, index, q, &gjk);
+    if (p->has_lanes)
+        begin_in_lane(p, index, q, &gjk);
+    else
+        run_alone(p, index, q, &gjk);
 }
 
 void small_pool_finish(small_pool *p) {

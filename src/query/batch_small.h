@@ -41,18 +41,15 @@ void small_pool_make(small_pool *pool, const query_goal *goal, small_owner owner
 /// Where the frame of the next couple is to be made; other couples may end meanwhile.
 pair_frame *small_pool_get_frame(small_pool *pool);
 
-/// Begins the search of a couple for which small_fits is 1, from the line of centres. The query's frame is that of
-/// small_pool_get_frame.
-void small_pool_add(small_pool *pool, size_t index, const placed_query *query);
-
 /// The first direction of a search, unit, world, and its supports where they are known, else NULL.
 typedef struct small_start {
     vec3 direction;
     const small_gjk_first *first;
 } small_start;
 
-/// small_pool_add from a given direction, for a couple whose inner ellipsoids have no common point.
-void small_pool_add_from(small_pool *pool, size_t index, const placed_query *query, const small_start *start);
+/// Begins the search of a couple for which small_fits is 1 and whose inner ellipsoids have no common point. The query's
+/// frame is that of small_pool_get_frame.
+void small_pool_add(small_pool *pool, size_t index, const placed_query *query, const small_start *start);
 
 /// Goes on until all have ended.
 void small_pool_finish(small_pool *pool);
