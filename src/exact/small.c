@@ -83,7 +83,6 @@ small_gjk_query small_make_query(const pair_frame *f, const query_goal *goal) {
                              f->turned_b,
                              {f->offset.x, f->offset.y, f->offset.z},
                              {n.x, n.y, n.z},
-                             NULL,
                              f->lower_radii,
                              f->upper_radii,
                              reject_get_claim(f),

@@ -1,6 +1,5 @@
-// The rounds of the search, in lanes or of few couples one by one with the same bits, and its ends. No lane ends apart,
-// as no distance is beyond the goal's far end. Couples with the origin inside their corners, or that stall, go on as a
-// couple alone does.
+// The rounds of the search, in lanes or of few couples one by one with the same bits, and its ends. Couples that stall
+// go on as a couple alone does.
 #include "query/batch_group.h"
 
 #include "base/compiler.h"
@@ -56,11 +55,11 @@ static void finish(const group_work *w, unsigned k, const placed_query *query, c
     owner->finish(owner->self, w->e->index[k], query, end);
 }
 
-// What the verdict of a lane that ended at the nearest points says.
-static small_end get_bounds(const group_work *w, unsigned k) {
+// What the verdict of a lane says that ended apart or at the nearest points, with such bounds.
+static small_end make_end(const group_work *w, unsigned k, double lower, double upper) {
     small_end end;
-    end.lower = w->gjk.lower.lane[k];
-    end.upper = w->gjk.upper.lane[k];
+    end.lower = lower;
+    end.upper = upper;
     end.iterations = (uint32_t)w->gjk.search.steps.lane[k];
     end.stage = end.iterations > 0 ? OVOID_STAGE_GJK : OVOID_STAGE_SUPPORT;
     end.kind = OVOID_PROOF_POINTS;
@@ -86,7 +85,7 @@ static void write_points(const group_work *w, unsigned k, const query_goal *goal
     const group_search *task = w->task;
     size_t index = w->e->index[k];
     vec3 origin = get_a(w->e, k)->pose.position, normal = get3(w->gjk.normal, k);
-    small_end end = get_bounds(w, k);
+    small_end end = make_end(w, k, w->gjk.lower.lane[k], w->gjk.upper.lane[k]);
     if (task->verdicts) task->verdicts[index] = answer_make_small_verdict(&end, goal);
     if (!task->witnesses) return;
     small_points points = get_points(w, k, normal);
@@ -101,7 +100,7 @@ static void end_with_corners(const group_work *w, unsigned k, const query_goal *
     f.a = a->shape;
     f.b = get_b(w->e, k)->shape;
     const placed_query query = {.frame = &f, .goal = goal};
-    small_end end = get_bounds(w, k);
+    small_end end = make_end(w, k, w->gjk.lower.lane[k], w->gjk.upper.lane[k]);
     end.normal = get3(w->gjk.normal, k);
     end.has_witness = 1;
     small_points points = get_points(w, k, end.normal);
@@ -122,29 +121,57 @@ static void end_at_points(const group_work *w, unsigned k) {
         write_points(w, k, &goal);
 }
 
-// Ends a lane with the origin inside its corners.
-static void end_inside(const group_work *w, unsigned k) {
+// Ends a lane apart, or with the origin inside its corners.
+static void end_at_result(const group_work *w, unsigned k, const pair_frame *f, const small_gjk_result *r) {
     query_goal goal = get_goal(w, k);
-    pair_frame f;
-    const placed_query query = {.frame = &f, .goal = &goal};
-    small_gjk_result r;
+    const placed_query query = {.frame = f, .goal = &goal};
     small_end end;
-    place_frame((group_lane){w->e, k}, &f);
-    gjk8_get_result(&w->gjk.search, k, SMALL_GJK_INSIDE, &r);
-    finish(w, k, &query, small_finish(&f, &goal, &r, &end) ? &end : NULL);
+    finish(w, k, &query, small_finish(f, &goal, r, &end) ? &end : NULL);
+}
+
+static void end_lanes(const group_work *w, unsigned lanes, small_gjk_end how) {
+    for (; lanes; lanes &= lanes - 1) {
+        unsigned k = compiler_count_low_zeros(lanes);
+        pair_frame f;
+        small_gjk_result r;
+        if (w->task->owner.wants_evidence) {
+            place_frame((group_lane){w->e, k}, &f);
+        } else {
+            f.size = w->e->lanes->size.lane[k];
+            f.hidden = OVOID_LENGTH_MIN;
+            f.lower_radii = f.upper_radii = w->e->lanes->radii.lane[k];
+        }
+        gjk8_get_result(&w->gjk.search, k, how, &r);
+        end_at_result(w, k, &f, &r);
+    }
+}
+
+// Lanes that ended apart: the columns have the bounds of small_finish.
+static void end_apart(const group_work *w, unsigned lanes) {
+    const group_search *task = w->task;
+    const gjk8 *g = &w->gjk.search;
+    if (task->owner.wants_evidence) {
+        end_lanes(w, lanes, SMALL_GJK_APART);
+        return;
+    }
+    for (; lanes && task->verdicts; lanes &= lanes - 1) {
+        unsigned k = compiler_count_low_zeros(lanes);
+        query_goal goal = get_goal(w, k);
+        small_end end = make_end(w, k, g->lower.lane[k], g->upper.lane[k]);
+        task->verdicts[w->e->index[k]] = answer_make_small_verdict(&end, &goal);
+    }
 }
 
 // All rounds of the lanes at work; how they ended.
 static gjk8_ends run_rounds(group_work *w, const group_gjk_kernels *kernels) {
     gjk8 *g = &w->gjk.search;
-    const gjk8_kernels *steps = gjk8_get_kernels(w->e->lanes->count);
     const pair8 *o = w->e->lanes;
     kernels->support(o, &w->gjk);
     gjk8_ends all = kernels->start(&w->gjk);
     while (g->active) {
         kernels->support(o, &w->gjk);
-        g->measured = g->active;
-        gjk8_ends now = steps->advance(g);
+        gjk8_ends now = kernels->advance(g);
+        all.apart |= now.apart;
         all.near |= now.near;
         all.inside |= now.inside;
         all.open |= now.open;
@@ -152,31 +179,43 @@ static gjk8_ends run_rounds(group_work *w, const group_gjk_kernels *kernels) {
     return all;
 }
 
+// The search of one lane in the kernel of a single pair, with the bits of the lanes.
+static void run_alone(const group_work *w, unsigned k, pair_frame *f, small_gjk_result *r) {
+    query_goal goal = get_goal(w, k);
+    double square = w->gjk.search.square.lane[k];
+    r->end = SMALL_GJK_OPEN;
+    if (!(square > 1e-150 && square < 1e150)) return;
+    place_frame((group_lane){w->e, k}, f);
+    small_gjk_query query = small_make_query(f, &goal);
+    for (int i = 0; i < 3; i++) query.start[i] = w->gjk.search.start[i].lane[k];
+    simd_run_small_gjk_unposed(&query, r);
+}
+
+static int is_apart(const group_work *w, unsigned k, const small_gjk_result *r) {
+    const gjk8 *g = &w->gjk.search;
+    return r->gap * (1 / sqrt(r->square)) - g->lower_radii.lane[k] - g->claim.lane[k] > g->far;
+}
+
 // Fewer lanes are searched one by one, each in less time than the steps of eight take.
 enum { FEW = 4 };
 
-// The same of each lane by itself.
+// The same of each lane by itself. What ended apart or inside is answered; the others are as after run_rounds.
 static gjk8_ends run_each(group_work *w) {
     gjk8 *g = &w->gjk.search;
     gjk8_ends all = {0, 0, 0, 0};
     for (unsigned rest = g->active; rest; rest &= rest - 1) {
         unsigned k = compiler_count_low_zeros(rest), lane = 1u << k;
-        query_goal goal = get_goal(w, k);
         pair_frame f;
-        small_gjk_result r = {.end = SMALL_GJK_OPEN};
-        place_frame((group_lane){w->e, k}, &f);
-        small_gjk_query query = small_make_query(&f, &goal);
-        double square = vec3_norm_squared(f.between);
-        if (square > 1e-150 && square < 1e150) simd_run_small_gjk_unposed(&query, &r);
+        small_gjk_result r;
+        run_alone(w, k, &f, &r);
         if (r.end == SMALL_GJK_OPEN) {
             all.open |= lane;
-            continue;
-        }
-        gjk8_put_result(g, k, &r);
-        if (r.end == SMALL_GJK_INSIDE)
-            all.inside |= lane;
-        else
+        } else if (r.end == SMALL_GJK_INSIDE || is_apart(w, k, &r)) {
+            end_at_result(w, k, &f, &r);
+        } else {
+            gjk8_put_result(g, k, &r);
             all.near |= lane;
+        }
     }
     return all;
 }
@@ -192,6 +231,7 @@ void group_search_run(const group_search *task, const lane_group *e, unsigned so
     group_work w;
     w.task = task;
     w.e = e;
+    w.gjk.is_along_n = task->is_along_n;
     w.gjk.search.active = some;
     w.gjk.search.far = task->goal->far;
     w.gjk.search.near = task->goal->near;
@@ -203,9 +243,12 @@ void group_search_run(const group_search *task, const lane_group *e, unsigned so
     }
     kernels->begin(e->lanes, task->numbers, &w.gjk);
     gjk8_ends ends = count_lanes(some) < FEW ? run_each(&w) : run_rounds(&w, kernels);
-    put_corners(&w, ends.near);
-    kernels->finish(e->lanes, ends.near, &w.gjk);
+    end_apart(&w, ends.apart);
+    end_lanes(&w, ends.inside, SMALL_GJK_INSIDE);
+    if (ends.near) {
+        put_corners(&w, ends.near);
+        kernels->finish(e->lanes, ends.near, &w.gjk);
+    }
     for (unsigned rest = ends.near; rest; rest &= rest - 1) end_at_points(&w, compiler_count_low_zeros(rest));
-    for (unsigned rest = ends.inside; rest; rest &= rest - 1) end_inside(&w, compiler_count_low_zeros(rest));
     for (unsigned rest = ends.open; rest; rest &= rest - 1) finish(&w, compiler_count_low_zeros(rest), NULL, NULL);
 }

@@ -25,9 +25,9 @@ typedef struct open_couple {
     int is_alone;
 } open_couple;
 
-// A lane group leaves at most eight open, those that wait are at most PAIR8_GROUPS groups and one of few small ones,
-// and so many small ones are on their way.
-enum { OPEN_MOST = 88, OPEN_FULL = OPEN_MOST - (PAIR8_GROUPS + 2) * PAIR8 - SMALL_POOL_PLACES };
+// A lane group leaves at most eight open, and those that wait are at most PAIR8_GROUPS groups and one of few small
+// ones.
+enum { OPEN_MOST = 88, OPEN_FULL = OPEN_MOST - (PAIR8_GROUPS + 2) * PAIR8 };
 
 typedef struct open_list {
     open_couple items[OPEN_MOST];
@@ -42,9 +42,8 @@ typedef struct batch_state {
     int wants_evidence;  ///< answers, proofs or points, not only verdicts
     lane_group *waiting; ///< couples on their way to the ellipsoids: PAIR8_GROUPS groups
     unsigned waiting_count;
-    lane_group *few; ///< small couples of a distance, from groups that have few of them
+    lane_group *few; ///< small couples to be searched, from groups that have few of them
     unsigned few_count;
-    small_pool *small; ///< small couples of a yes or no
     open_list *open;
 } batch_state;
 
@@ -187,22 +186,6 @@ static void end_small(void *self, size_t index, const placed_query *q, const sma
     if (to->answers) to->answers[index] = answer_make_small(end, q->frame, q->goal);
 }
 
-// The search of a small couple that the ellipsoids did not decide, along their direction. first: the supports there, or
-// NULL.
-static void search_small(const batch_state *c, group_lane at, const small_gjk_first *first) {
-    pair_frame *frame = small_pool_get_frame(c->small);
-    query_goal goal = get_goal(c, at);
-    const placed_query query = {frame, &goal, NULL, 0, 0};
-    place_frame(at, frame);
-    const small_start start = {mat3_mul_vec3(frame->world, get3(at.e->lanes->n, at.k)), first};
-    small_pool_add(c->small, at.e->index[at.k], &query, &start);
-}
-
-// 1 for a small couple of a yes or no.
-static int is_small_sign(const batch_state *c, group_lane at) {
-    return c->goal.far < INFINITY && small_fits(&c->goal, get_a(at.e, at.k)->shape, get_b(at.e, at.k)->shape, 0);
-}
-
 // The supports left it open: the exact search goes on from their corner, later.
 static void leave_open(const batch_state *c, group_lane at, uint32_t a, uint32_t b) {
     const pair8 *o = at.e->lanes;
@@ -233,11 +216,7 @@ static void end_at_support(const batch_state *c, group_lane at, uint32_t a, uint
     double lower = at.e->lanes->lower.lane[at.k], upper = at.e->lanes->upper.lane[at.k];
     query_goal goal = get_goal(c, at);
     int is_met = query_goal_is_met(&goal, lower, upper);
-    if (!is_met && is_small_sign(c, at)) {
-        // The gap less FRAME_CLAIM, from which the search takes FRAME_REJECT once more: a lower bound of any direction
-        // that rounds to this one.
-        search_small(c, at, &(small_gjk_first){a, b, lower + at.e->lanes->radii.lane[at.k]});
-    } else if (!is_met) {
+    if (!is_met) {
         leave_open(c, at, a, b);
     } else if (goal.wants_bracket && at.e->lanes->radii.lane[at.k] > 0) {
         // If radii overlap, the single query takes a second look (stage_support).
@@ -335,40 +314,6 @@ static pair8_ellipsoids find_ellipsoids(const lane_group *e) {
     return rows;
 }
 
-// How deep the outer ellipsoids overlap, of the sum of the spheres' radii, where the supports along their direction
-// seldom separate the bodies. The search of small bodies then begins at once (docs/query.md).
-#define OUTER_DEPTH 0.2
-
-// Begins the search of the small couples among the lanes `open` for which a look at the supports does not pay. Their
-// mask.
-static unsigned search_deep(const batch_state *c, const lane_group *e, unsigned open) {
-    unsigned deep = 0;
-    for (unsigned rest = open; rest; rest &= rest - 1) {
-        unsigned k = compiler_count_low_zeros(rest);
-        const group_lane at = {e, k};
-        if (!(e->lanes->lower.lane[k] < -OUTER_DEPTH * e->lanes->reach.lane[k]) || !is_small_sign(c, at)) continue;
-        deep |= 1u << k;
-        search_small(c, at, NULL);
-    }
-    return deep;
-}
-
-// Ends the lanes `some` of a group after the ellipsoids.
-static void end_group(const batch_state *c, lane_group *e, unsigned some, const pair8_found *found) {
-    for (unsigned rest = some; rest; rest &= rest - 1) {
-        unsigned k = compiler_count_low_zeros(rest);
-        if (found->odd >> k & 1)
-            leave_alone(c, e->index[k]);
-        else if (found->inner >> k & 1)
-            end_at_inner(c, (group_lane){e, k}, found->narrow);
-        else if (found->apart >> k & 1)
-            end_at_outer(c, (group_lane){e, k}, found->narrow);
-    }
-    unsigned open = some & ~(found->odd | found->inner | found->apart);
-    open &= ~search_deep(c, e, open);
-    if (open) meet(c, e, open);
-}
-
 // ---- couples that wait
 
 // Fills the columns of a waiting group. Couples that came from several groups are placed again, in lanes: this costs
@@ -387,6 +332,85 @@ static void append(lane_group *to, unsigned at, const lane_group *e, unsigned k)
     to->at.shape_a[at] = e->at.shape_a[k];
     to->at.shape_b[at] = e->at.shape_b[k];
     to->is_placed = 0;
+}
+
+// ---- searches of small bodies
+
+// Searches the lanes `some` of a group.
+static void search_group(batch_state *c, const lane_group *e, unsigned some) {
+    const ovoid_batch *to = c->batch;
+    const group_search task = {.goal = &c->goal,
+                               .numbers = &c->numbers,
+                               .is_along_n = c->goal.far < INFINITY,
+                               .owner = {end_small, c, c->wants_evidence},
+                               .wants_corners = to->proofs || to->answers,
+                               .verdicts = to->verdicts,
+                               .witnesses = to->witnesses};
+    group_search_run(&task, e, some);
+}
+
+// Searches the few that wait.
+static void search_few(batch_state *c) {
+    if (!c->few_count) return;
+    unsigned some = (1u << c->few_count) - 1;
+    fill(c->few, c->few_count);
+    place_again(c, c->few);
+    c->few_count = 0;
+    search_group(c, c->few, some);
+}
+
+// Fewer lanes of a group do not pay for its search.
+enum { FEW = 4 };
+
+static unsigned count_lanes(unsigned some) {
+    unsigned count = 0;
+    for (; some; some &= some - 1) count++;
+    return count;
+}
+
+// Searches the lanes `some` at once or, where they are few and there are other groups, with those of these.
+static void search_or_wait(batch_state *c, const lane_group *e, unsigned some) {
+    if (count_lanes(some) >= FEW || c->batch->couple_count <= PAIR8) {
+        search_group(c, e, some);
+        return;
+    }
+    for (; some; some &= some - 1) {
+        unsigned k = compiler_count_low_zeros(some);
+        if (c->goal.far < INFINITY) put3(c->few->lanes->n, c->few_count, get3(e->lanes->n, k));
+        append(c->few, c->few_count++, e, k);
+        if (c->few_count == PAIR8) search_few(c);
+    }
+}
+
+// ---- the ellipsoids
+
+// The small couples of a yes or no among the lanes `open`: their search begins along the ellipsoids' direction.
+static unsigned find_small(const batch_state *c, const lane_group *e, unsigned open) {
+    unsigned small = 0;
+    if (c->goal.far == INFINITY) return 0;
+    for (unsigned rest = open; rest; rest &= rest - 1) {
+        unsigned k = compiler_count_low_zeros(rest);
+        small |= (unsigned)small_fits(&c->goal, get_a(e, k)->shape, get_b(e, k)->shape, 0) << k;
+    }
+    return small;
+}
+
+// Ends the lanes `some` of a group after the ellipsoids.
+static void end_group(batch_state *c, lane_group *e, unsigned some, const pair8_found *found) {
+    for (unsigned rest = some; rest; rest &= rest - 1) {
+        unsigned k = compiler_count_low_zeros(rest);
+        if (found->odd >> k & 1)
+            leave_alone(c, e->index[k]);
+        else if (found->inner >> k & 1)
+            end_at_inner(c, (group_lane){e, k}, found->narrow);
+        else if (found->apart >> k & 1)
+            end_at_outer(c, (group_lane){e, k}, found->narrow);
+    }
+    unsigned open = some & ~(found->odd | found->inner | found->apart);
+    unsigned small = find_small(c, e, open);
+    if (small) search_or_wait(c, e, small);
+    open &= ~small;
+    if (open) meet(c, e, open);
 }
 
 // Distances of bodies far apart start from the line of centres.
@@ -486,40 +510,7 @@ COMPILER_NOINLINE static unsigned find_warm(const ovoid_batch *batch, const lane
     return warm;
 }
 
-// ---- distances of small bodies
-
-// Searches the lanes `some` of a group.
-static void search_group(batch_state *c, const lane_group *e, unsigned some) {
-    const ovoid_batch *to = c->batch;
-    const group_search task = {&c->goal,     &c->numbers,  {end_small, c, c->wants_evidence}, to->proofs || to->answers,
-                               to->verdicts, to->witnesses};
-    group_search_run(&task, e, some);
-}
-
-// Searches the few that wait.
-static void search_few(batch_state *c) {
-    if (!c->few_count) return;
-    unsigned some = (1u << c->few_count) - 1;
-    fill(c->few, c->few_count);
-    place_again(c, c->few);
-    c->few_count = 0;
-    search_group(c, c->few, some);
-}
-
-// Fewer lanes of a group do not pay for its search.
-enum { FEW = 4 };
-
-// Searches the lanes `some`, `count` of them, at once or, where there are others, with those of other groups.
-static void search_or_wait(batch_state *c, const lane_group *e, unsigned some, unsigned count) {
-    if (count >= FEW || c->batch->couple_count < FEW) {
-        search_group(c, e, some);
-        return;
-    }
-    for (; some; some &= some - 1) {
-        append(c->few, c->few_count++, e, compiler_count_low_zeros(some));
-        if (c->few_count == PAIR8) search_few(c);
-    }
-}
+// ---- the spheres
 
 // Answers a couple of small bodies by its closed form, or else by the inner ellipsoids, where these have a common
 // point: 1 if it is answered or left to be queried alone.
@@ -537,7 +528,7 @@ static int end_early(batch_state *c, group_lane at, int is_closed) {
 // Answers those of the lanes `open` that have a closed form, and searches the small ones from the line of centres where
 // a distance is asked for, which needs no ellipsoids, unless the inner ones decide it. The mask of both.
 static unsigned add_small(batch_state *c, const lane_group *e, unsigned open) {
-    unsigned small = 0, searched = 0, count = 0;
+    unsigned small = 0, searched = 0;
     int is_distance = c->goal.far == INFINITY;
     for (unsigned rest = open; rest; rest &= rest - 1) {
         unsigned k = compiler_count_low_zeros(rest);
@@ -549,9 +540,8 @@ static unsigned add_small(batch_state *c, const lane_group *e, unsigned open) {
         int is_early = is_closed || small_tries_inner(sphere_gap, e->lanes->reach.lane[k]);
         if (is_early && end_early(c, (group_lane){e, k}, is_closed)) continue;
         searched |= 1u << k;
-        count++;
     }
-    search_or_wait(c, e, searched, count);
+    if (searched) search_or_wait(c, e, searched);
     return small;
 }
 
@@ -590,14 +580,11 @@ COMPILER_NOINLINE static size_t run_lanes(batch_state *c, size_t first) {
     pair8 lanes[PAIR8_GROUPS + 2];
     lane_group groups[PAIR8_GROUPS + 2];
     for (unsigned i = 0; i < PAIR8_GROUPS + 2; i++) groups[i].lanes = &lanes[i];
-    small_pool small;
     c->waiting = groups;
     c->waiting_count = 0;
     c->few = &groups[PAIR8_GROUPS + 1];
     c->few_count = 0;
-    c->small = &small;
     size_t count = c->batch->couple_count;
-    small_pool_make(&small, &c->goal, (small_owner){end_small, c, c->wants_evidence}, count - first);
     for (; first < count && c->open->count <= OPEN_FULL; first += PAIR8) {
         size_t left = count - first;
         fetch_ahead(c->batch, first);
@@ -605,9 +592,7 @@ COMPILER_NOINLINE static size_t run_lanes(batch_state *c, size_t first) {
     }
     if (c->waiting_count) settle(c);
     search_few(c);
-    small_pool_finish(&small);
     c->waiting = c->few = NULL;
-    c->small = NULL;
     return first;
 }
 

@@ -37,16 +37,13 @@ static void put_corner(gjk8_corner *c, unsigned k, int i, const small_gjk_result
 }
 
 void gjk8_put_result(gjk8 *g, unsigned k, const small_gjk_result *r) {
-    int is_inside = r->end == SMALL_GJK_INSIDE;
-    lane_column *n = is_inside ? g->start : g->n;
-    for (int i = 0; i < 3; i++) n[i].lane[k] = r->n[i];
-    (is_inside ? &g->start_square : &g->square)->lane[k] = r->square;
-    (is_inside ? &g->start_gap : &g->gap)->lane[k] = r->gap;
-    g->steps.lane[k] = r->iterations;
     for (int i = 0; i < 3; i++) {
         int is_valid = (int)(r->valid >> i & 1);
+        g->n[i].lane[k] = r->n[i];
         g->is_valid[i].lane[k] = is_valid;
         if (is_valid) put_corner(&g->old[i], k, i, r);
     }
-    if (is_inside) put_corner(&g->fresh, k, 3, r);
+    g->square.lane[k] = r->square;
+    g->gap.lane[k] = r->gap;
+    g->steps.lane[k] = r->iterations;
 }

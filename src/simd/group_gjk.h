@@ -1,16 +1,18 @@
-// GJK of the couples of a lane group (pair8.h), all from the line of centres, from the spheres to the nearest points
-// without leaving the lanes. Bodies are never posed: a direction is turned into both body frames, and the vertices of
-// the supports are turned back, for eight couples at once. The tests and the step are those of gjk8.h.
+// GJK of the couples of a lane group (pair8.h), from the spheres or the ellipsoids to the answer without leaving the
+// lanes. Bodies are never posed: a direction is turned into both body frames, and the vertices of the supports are
+// turned back, for eight couples at once. A support is the couple's own, and eight that do not wait for one another
+// fill the pipeline; the steps of the simplex are in lanes.
 //
-// Lanes that end wait for the slowest one: for distances this costs less than to pose the bodies and to fill the lanes
-// again (docs/query.md).
+// Lanes that end wait for the slowest one: this costs less than to pose the bodies and to fill the lanes again
+// (docs/query.md).
 #ifndef OVOID_SIMD_GROUP_GJK_H
 #define OVOID_SIMD_GROUP_GJK_H
 
 #include "simd/gjk8.h"
 
 typedef struct group_gjk {
-    gjk8 search;                                  ///< without bodies
+    gjk8 search;
+    int is_along_n; ///< set by the caller: 1 to begin along o->n of the ellipsoids, 0 for the line of centres
     simd_points points_a[PAIR8], points_b[PAIR8]; ///< set by the caller for the lanes at work: at most SMALL_GJK_POINTS
     lane_column along_a[3], along_b[3];           ///< the heading in the body frames
     lane_column high, low;                        ///< the latest supports: A's and B's values,
@@ -26,18 +28,22 @@ typedef struct group_gjk {
 
 /// Kernels of one instruction set. The group has gone through `spheres`.
 typedef struct group_gjk_kernels {
-    /// Begins all lanes; those at work are in s->search.active, and its near, far (infinite) and wants_bracket are set.
+    /// Begins all lanes; those at work are in s->search.active, and its near, far and wants_bracket are set.
     void (*begin)(const pair8 *o, const pair8_query *query, group_gjk *s);
     /// The supports of the lanes at work along the heading. Nothing of the others changes.
     void (*support)(const pair8 *o, group_gjk *s);
-    /// The first support becomes the simplex, and may be the nearest point already. Lanes that end are at work no
-    /// more. Later supports go to `advance` of gjk8.h, as measured.
+    /// The first support becomes the simplex, and may be the answer already. Lanes that end are at work no more.
     gjk8_ends (*start)(group_gjk *s);
+    /// A step to a later support of all lanes at work. gjk8_get_result finds what lanes ended with.
+    gjk8_ends (*advance)(gjk8 *g);
     /// The bounds, weights and nearest points of the lanes of a mask, which ended near.
     void (*finish)(const pair8 *o, unsigned lanes, group_gjk *s);
 } group_gjk_kernels;
 
 /// The kernels for lane groups of so many pairs: of the widest instruction set of this machine that they fill.
 const group_gjk_kernels *group_gjk_get_kernels(size_t pairs);
+
+/// The kernels of one instruction set, for tests; NULL where this machine or build lacks them.
+const group_gjk_kernels *group_gjk_get_kernels_of(simd_isa isa);
 
 #endif

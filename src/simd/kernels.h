@@ -13,7 +13,6 @@
 areas_function areas_compute_scalar, areas_compute_avx2;
 box_axes_function box_axes_find_scalar, box_axes_find_avx2, box_axes_find_avx512;
 epa8_function epa8_grow_scalar, epa8_grow_avx2, epa8_grow_avx512;
-extern const gjk8_kernels gjk8_scalar, gjk8_avx2, gjk8_avx512;
 extern const group_gjk_kernels group_gjk_scalar, group_gjk_avx2, group_gjk_avx512;
 extern const pair8_kernels pair8_scalar, pair8_avx2, pair8_avx512;
 extern const patch_kernels patch_scalar, patch_avx2;

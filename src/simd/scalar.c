@@ -9,7 +9,6 @@
 #include "simd/kernels/areas.h"
 #include "simd/kernels/box_axes.h"
 #include "simd/kernels/epa8.h"
-#include "simd/kernels/gjk8.h"
 #include "simd/kernels/pair8.h"
 
 #include "simd/kernels/group_gjk.h"
@@ -25,8 +24,8 @@ int box_axes_find_scalar(const box_axes_query *query, box_axes *out) { return ru
 
 epa8_end epa8_grow_scalar(epa8 *s, const epa8_query *query) { return run_grow(s, query); }
 
-const gjk8_kernels gjk8_scalar = {run_begin, run_advance};
-const group_gjk_kernels group_gjk_scalar = {run_group_begin, run_group_support, run_group_start, run_group_finish};
+const group_gjk_kernels group_gjk_scalar = {run_group_begin, run_group_support, run_group_start, run_group_advance,
+                                            run_group_finish};
 const pair8_kernels pair8_scalar = {run_spheres, run_ellipsoids, run_supports};
 const patch_kernels patch_scalar = {run_place, run_measure};
 const solid8_kernels solid8_scalar = {run_boxes, run_triangles};

@@ -32,21 +32,14 @@ typedef struct placed_points {
     const double *at;   ///< their frame's place in the world
 } placed_points;
 
-/// The supports of both bodies along the first direction, where they are known when a search begins.
-typedef struct small_gjk_first {
-    uint32_t a, b;
-    double gap; ///< along the direction, times its length
-} small_gjk_first;
-
 /// The pair, and when its search ends.
 typedef struct small_gjk_query {
     simd_points a, b;              ///< body frames, padded; at most SMALL_GJK_POINTS each where it is searched
     const double *rows_a, *rows_b; ///< rotations to the world, by rows
     /// The same points turned by them, padded_count of x, then of y, then of z, without a place; NULL: to be turned.
     const double *turned_a, *turned_b;
-    double offset[3];             ///< of B's body frame from A's, world
-    double start[3];              ///< the first direction, from A to B, of any length
-    const small_gjk_first *first; ///< its supports, or NULL: to be found; not read by searches of unposed bodies
+    double offset[3]; ///< of B's body frame from A's, world
+    double start[3];  ///< the first direction, from A to B, of any length
     double lower_radii, upper_radii, claim;
     double far, near, tolerance; ///< as in the goal of a query (pair/search.h)
     int wants_bracket;

@@ -26,7 +26,6 @@ static inline int make_bodies(void) {
     return 1;
 }
 
-// The first support of a query stays until the next one is filled.
 static inline void fill_search(uint64_t *s, small_gjk_query *q, double rows[2][9]) {
     int is_even = random_next(s) % 3 == 0;
     for (int i = 0; i < 2; i++) {
@@ -44,10 +43,6 @@ static inline void fill_search(uint64_t *s, small_gjk_query *q, double rows[2][9
         q->offset[i] = is_even ? 0.25 * (double)(random_next(s) % 9) - 1 : random_uniform(s, -2, 2);
         q->start[i] = q->offset[i];
     }
-    static small_gjk_first first;
-    first = (small_gjk_first){(uint32_t)(random_next(s) % q->a.padded_count),
-                              (uint32_t)(random_next(s) % q->b.padded_count), random_uniform(s, -1, 1)};
-    q->first = random_next(s) % 4 ? NULL : &first;
     if (q->start[0] == 0 && q->start[1] == 0 && q->start[2] == 0) q->start[random_next(s) % 3] = -1;
     q->lower_radii = q->upper_radii = random_next(s) % 4 ? 0 : random_uniform(s, 0, 1);
     q->claim = 1e-13;

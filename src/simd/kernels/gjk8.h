@@ -1,6 +1,6 @@
-// The kernels of gjk8.h, written once over lanes; scalar.c, avx2.c and avx512.c include this after the
-// parts of kernels/small_gjk.h. Every step has the operations of kernels/small_gjk.h and corner.c in their order: a
-// change there is a change here, and tests/core/simd/test_simd_gjk8.c sees the difference.
+// The step of group_gjk.h, written once over lanes; kernels/group_gjk.h includes this. It has the operations of
+// kernels/small_gjk.h and corner.c in their order: a change there is a change here, and
+// tests/core/simd/test_simd_gjk8.c sees the difference.
 #include "simd/gjk8.h"
 #include "simd/kernels/lane_columns.h"
 #include "simd/kernels/small_gjk.h"
@@ -12,65 +12,7 @@ LANES_INLINE void put_some(lane_column *c, int at, lane_mask some, lane v) {
 }
 LANES_INLINE lane_mask get_truth(const lane_column *c, int at) { return lane_greater(get(c, at), lane_set(0.5)); }
 
-// ---- a lane alone: its support, its beginning
-
-SMALL_GJK_INLINE void put_support(gjk8 *g, unsigned k, const met *m) {
-    double w[3];
-    met_get(m, w);
-    g->fresh.x.lane[k] = w[0];
-    g->fresh.y.lane[k] = w[1];
-    g->fresh.z.lane[k] = w[2];
-    g->fresh.id.lane[k] = m->a + SMALL_GJK_POINTS * m->b;
-    g->gap.lane[k] = m->gap;
-}
-
-LANES_TARGET static void measure_lane(gjk8 *g, unsigned k) {
-    const small_gjk_bodies *bodies = &g->bodies[k];
-    vec3 n = {g->n[0].lane[k], g->n[1].lane[k], g->n[2].lane[k]};
-    met m;
-    switch (g->blocks[k]) {
-    case 1: measure(&m, bodies, 1, n); break;
-    case 2: measure(&m, bodies, 2, n); break;
-    case 3: measure(&m, bodies, 3, n); break;
-    default: measure(&m, bodies, 4, n); break;
-    }
-    put_support(g, k, &m);
-}
-
-LANES_TARGET static void run_begin(gjk8 *g, unsigned k, const small_gjk_query *q) {
-    small_gjk_bodies *bodies = &g->bodies[k];
-    switch (g->blocks[k] = find_blocks(q)) {
-    case 1: pose_bodies(q, bodies, 1); break;
-    case 2: pose_bodies(q, bodies, 2); break;
-    case 3: pose_bodies(q, bodies, 3); break;
-    default: pose_bodies(q, bodies, 4); break;
-    }
-    double x = q->start[0], y = q->start[1], z = q->start[2];
-    g->start[0].lane[k] = g->n[0].lane[k] = x;
-    g->start[1].lane[k] = g->n[1].lane[k] = y;
-    g->start[2].lane[k] = g->n[2].lane[k] = z;
-    g->start_square.lane[k] = g->square.lane[k] = (x * x + y * y) + z * z;
-    g->height.lane[k] = 0;
-    for (int i = 0; i < 3; i++) g->is_valid[i].lane[k] = 0;
-    g->is_first.lane[k] = 1;
-    g->steps.lane[k] = 0;
-    g->most.lane[k] = q->iterations;
-    g->claim.lane[k] = q->claim;
-    g->lower_radii.lane[k] = q->lower_radii;
-    g->upper_radii.lane[k] = q->upper_radii;
-    g->tolerance.lane[k] = q->tolerance;
-    g->far = q->far;
-    g->near = q->near;
-    g->wants_bracket = q->wants_bracket;
-    g->active |= 1u << k;
-    if (!q->first) return;
-    met m;
-    take_first(&m, bodies, q->first);
-    put_support(g, k, &m);
-    g->measured |= 1u << k;
-}
-
-// ---- all lanes: the tests, and the step of the simplex
+// ---- the tests, and the step of the simplex
 
 LANES_INLINE lane_mask is_answered_at(const gjk8 *g, int at, lane lower, lane upper) {
     lane zero = lane_set(0);
@@ -157,31 +99,23 @@ typedef struct lane_tests {
     lane_mask apart, near, goes;
 } lane_tests;
 
-// The bounds, and whether they answer the query. Of a first support the upper bound is its own length, and what it
-// answers it answers alone.
-LANES_INLINE lane_tests test_lanes(gjk8 *g, int at, lane_mask first, lane length_of_w) {
-    lane claim = get(&g->claim, at), gap = get(&g->gap, at), lower_radii = get(&g->lower_radii, at);
+// The bounds, and whether they answer the query.
+LANES_INLINE lane_tests test_lanes(gjk8 *g, int at, lane length_of_w) {
+    lane claim = get(&g->claim, at), gap = get(&g->gap, at);
     lane scale = lane_set(1) / lane_sqrt(get(&g->square, at)), length = get(&g->height, at) * scale;
-    lane_mask in_time = lane_less(get(&g->steps, at), get(&g->most, at));
-    lane_mask goes = lane_or(first, lane_and(lane_greater(length, claim), in_time));
-    lane lower = gap * scale - lower_radii - claim;
-    lane upper = lane_select(first, length_of_w, length) - get(&g->upper_radii, at) + claim;
+    lane_mask goes = lane_and(lane_greater(length, claim), lane_less(get(&g->steps, at), get(&g->most, at)));
+    lane lower = gap * scale - get(&g->lower_radii, at) - claim, upper = length - get(&g->upper_radii, at) + claim;
     lane_mask apart = lane_and(goes, lane_greater(lower, lane_set(g->far)));
-    lane_mask is_round = lane_greater(lower_radii, lane_set(0));
-    lane_mask near = lane_and(goes, is_answered_at(g, at, lower, upper));
-    near = lane_and(near, lane_not(lane_or(apart, lane_and(first, is_round))));
-    put_some(&g->start_gap, at, first, gap);
+    lane_mask near = lane_and(lane_and(goes, is_answered_at(g, at, lower, upper)), lane_not(apart));
     put(&g->lower, at, lower);
     put(&g->upper, at, length_of_w - get(&g->upper_radii, at) + claim);
-    goes = lane_and(goes, lane_not(lane_or(apart, near)));
-    return (lane_tests){lane_or(apart, lane_and(near, first)), lane_and(near, lane_not(first)), goes};
+    return (lane_tests){apart, near, lane_and(goes, lane_not(lane_or(apart, near)))};
 }
 
 LANES_INLINE gjk8_ends advance_lanes(gjk8 *g, int at) {
     lane3 w = get3(&g->fresh.x, at);
     lane id = get(&g->fresh.id, at), square = get(&g->square, at), height = get(&g->height, at);
-    lane_mask first = get_truth(&g->is_first, at);
-    lane_tests t = test_lanes(g, at, first, lane3_norm(w));
+    lane_tests t = test_lanes(g, at, lane3_norm(w));
     lane_mask valid[3], known = lane_none();
     for (int i = 0; i < 3; i++) {
         valid[i] = get_truth(&g->is_valid[i], at);
@@ -191,7 +125,7 @@ LANES_INLINE gjk8_ends advance_lanes(gjk8 *g, int at) {
     lane_step s = step_lanes(g, at, valid, w);
     lane_mask goes = lane_and(t.goes, lane_not(known)), inside = lane_and(goes, s.inside);
     lane high = lane3_dot(s.n, w), norm = lane3_dot(s.n, s.n);
-    lane_mask gains = lane_or(first, lane_less(high * high * square, height * height * norm));
+    lane_mask gains = lane_less(high * high * square, height * height * norm);
     gains = lane_and(gains, lane_and(lane_greater(norm, lane_set(1e-150)), lane_less(norm, lane_set(1e150))));
     goes = lane_and(lane_and(goes, lane_not(inside)), lane_and(gains, lane_greater(norm, s.least)));
     s.goes = goes;
@@ -201,8 +135,7 @@ LANES_INLINE gjk8_ends advance_lanes(gjk8 *g, int at) {
     put_some(&g->n[2], at, goes, s.n.z);
     put_some(&g->height, at, goes, high);
     put_some(&g->square, at, goes, norm);
-    put(&g->steps, at, get(&g->steps, at) + lane_select(lane_and(goes, lane_not(first)), lane_set(1), lane_set(0)));
-    put(&g->is_first, at, lane_set(0));
+    put(&g->steps, at, get(&g->steps, at) + lane_select(goes, lane_set(1), lane_set(0)));
     unsigned a = lane_bits(t.apart), n = lane_bits(t.near), i = lane_bits(inside), on = lane_bits(goes);
     return (gjk8_ends){a << at, n << at, i << at, (~(a | n | i | on) & ((1u << LANES) - 1)) << at};
 }
@@ -210,19 +143,25 @@ LANES_INLINE gjk8_ends advance_lanes(gjk8 *g, int at) {
 // 1 where some of the lanes from `at` on are of the mask.
 static inline int has_lanes(unsigned mask, int at) { return (mask >> at & ((1u << LANES) - 1)) != 0; }
 
-LANES_TARGET static gjk8_ends run_advance(gjk8 *g) {
+// Those of all lanes that are at work. Lanes that ended before find the same end again, so they stay as they are.
+static inline gjk8_ends take_ends(gjk8 *g, gjk8_ends all) {
+    all.apart &= g->active;
+    all.near &= g->active;
+    all.inside &= g->active;
+    all.open &= g->active;
+    g->active &= ~(all.apart | all.near | all.inside | all.open);
+    return all;
+}
+
+LANES_TARGET static gjk8_ends run_group_advance(gjk8 *g) {
     gjk8_ends all = {0, 0, 0, 0};
-    for (unsigned rest = g->active & ~g->measured; rest; rest &= rest - 1)
-        measure_lane(g, (unsigned)__builtin_ctz(rest));
-    g->measured = 0;
     for (int at = 0; at < PAIR8; at += LANES) {
         if (!has_lanes(g->active, at)) continue;
         gjk8_ends some = advance_lanes(g, at);
-        all.apart |= some.apart & g->active;
-        all.near |= some.near & g->active;
-        all.inside |= some.inside & g->active;
-        all.open |= some.open & g->active;
+        all.apart |= some.apart;
+        all.near |= some.near;
+        all.inside |= some.inside;
+        all.open |= some.open;
     }
-    g->active &= ~(all.apart | all.near | all.inside | all.open);
-    return all;
+    return take_ends(g, all);
 }

@@ -1,6 +1,7 @@
 // The kernels of group_gjk.h, written once over lanes; scalar.c, avx2.c and avx512.c include this after kernels/pair8.h
-// and kernels/gjk8.h. The errors are those of exact/small.c (docs/error-analysis.md).
+// and kernels/small_gjk.h's parts. The errors are those of exact/small.c (docs/error-analysis.md).
 #include "simd/group_gjk.h"
+#include "simd/kernels/gjk8.h"
 
 LANES_TARGET static void run_group_begin(const pair8 *o, const pair8_query *query, group_gjk *s) {
     gjk8 *g = &s->search;
@@ -8,6 +9,7 @@ LANES_TARGET static void run_group_begin(const pair8 *o, const pair8_query *quer
         if (!has_lanes(g->active, at)) continue;
         lane zero = lane_set(0), radii = get(&o->radii, at);
         lane3 n = get3(o->between, at), none = {zero, zero, zero};
+        if (s->is_along_n) n = lane9_mul3(get9(o->world_a, at), get3(o->n, at));
         lane square = lane3_dot(n, n);
         put3(g->start, at, n);
         put3(g->n, at, n);
@@ -23,7 +25,6 @@ LANES_TARGET static void run_group_begin(const pair8 *o, const pair8_query *quer
         put(&s->high, at, zero);
         put(&s->low, at, zero);
         put(&g->fresh.id, at, zero);
-        put(&g->is_first, at, zero);
         put(&g->steps, at, zero);
         put(&g->most, at, lane_set(query->iterations));
         put(&g->claim, at, compute_claim(query, get(&o->size, at)));
@@ -98,10 +99,14 @@ LANES_TARGET static gjk8_ends run_group_start(group_gjk *s) {
         lane lower = gap * (lane_set(1) / lane_sqrt(square)) - radii - claim;
         lane upper = lane_sqrt(norm) - get(&g->upper_radii, at) + claim;
         lane_mask good = lane_and(lane_greater(square, least), lane_less(square, most));
+        lane_mask apart = lane_and(lane_greater(lower, lane_set(g->far)), good);
         lane_mask near = lane_and(is_answered_at(g, at, lower, upper), lane_not(lane_greater(radii, lane_set(0))));
-        near = lane_and(near, good);
-        lane_mask goes = lane_and(lane_and(lane_greater(norm, least), lane_less(norm, most)), good);
-        goes = lane_and(goes, lane_not(near));
+        near = lane_and(lane_and(near, good), lane_not(apart));
+        lane_mask goes = lane_and(lane_and(lane_greater(norm, least), lane_less(norm, most)), good),
+                  ends = lane_or(apart, near);
+        goes = lane_and(goes, lane_not(ends));
+        put(&g->lower, at, lower);
+        put(&g->upper, at, upper);
         put(&g->start_gap, at, gap);
         put3(&g->old[0].x, at, w);
         put(&g->old[0].id, at, get(&g->fresh.id, at));
@@ -109,13 +114,11 @@ LANES_TARGET static gjk8_ends run_group_start(group_gjk *s) {
         put3(g->n, at, lane3_select(goes, w, n));
         put(&g->height, at, lane_select(goes, norm, lane_set(0)));
         put(&g->square, at, lane_select(goes, norm, square));
+        all.apart |= lane_bits(apart) << at;
         all.near |= lane_bits(near) << at;
-        all.open |= lane_bits(lane_not(lane_or(near, goes))) << at;
+        all.open |= lane_bits(lane_not(lane_or(ends, goes))) << at;
     }
-    all.near &= g->active;
-    all.open &= g->active;
-    g->active &= ~(all.near | all.open);
-    return all;
+    return take_ends(g, all);
 }
 
 // ---- the end

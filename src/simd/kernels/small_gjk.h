@@ -212,15 +212,6 @@ SMALL_GJK_INLINE uint32_t find_blocks(const small_gjk_query *q) {
     return count / 8;
 }
 
-// The first support, where the query has it.
-SMALL_GJK_INLINE void take_first(met *m, const small_gjk_bodies *bodies, const small_gjk_first *first) {
-    const small_gjk_body *a = &bodies->a, *b = &bodies->b;
-    uint32_t i = m->a = first->a, k = m->b = first->b;
-    double w[3] = {b->x[k] - a->x[i], b->y[k] - a->y[i], b->z[k] - a->z[i]};
-    m->gap = first->gap;
-    met_set(m, w);
-}
-
 // The support along the first direction. 1: the search has ended.
 SMALL_GJK_INLINE int begin(small_search *s, const small_gjk_bodies *bodies, uint32_t blocks) {
     const small_gjk_query *q = s->q;
@@ -229,10 +220,7 @@ SMALL_GJK_INLINE int begin(small_search *s, const small_gjk_bodies *bodies, uint
     met *m = &s->m;
     vec3 n = vec3_at(q->start, 0);
     double square = vec3_dot(n, n), w[3];
-    if (bodies && q->first)
-        take_first(m, bodies, q->first);
-    else
-        find_support(s, bodies, blocks, n);
+    find_support(s, bodies, blocks, n);
     write_direction(r, n, square, m->gap);
     r->iterations = 0;
     met_get(m, w);

@@ -1,11 +1,11 @@
 // GJK of eight couples in lanes against the search of each couple alone, bit for bit, no tolerance, for every
-// instruction set; lanes are filled again while others are at work, couples of all sizes and goals side by side.
+// instruction set: couples of all sizes side by side, from the line of centres and from another direction.
 #include "small_searches.h"
 
-#include "simd/gjk8.h"
+#include "simd/group_gjk.h"
 
-enum { COUPLES = 6000 };
-static const gjk8_kernels *kernels;
+enum { ROUNDS = 3000 };
+static const group_gjk_kernels *kernels;
 static long ends[5];
 
 typedef struct couple {
@@ -14,56 +14,115 @@ typedef struct couple {
     small_gjk_result alone;
 } couple;
 
-static void compare(const gjk8 *g, unsigned lanes, small_gjk_end end, couple *const at[PAIR8]) {
-    for (unsigned rest = lanes; rest; rest &= rest - 1) {
-        unsigned k = (unsigned)__builtin_ctz(rest);
+static pair8 lanes;
+static group_gjk group;
+static couple couples[PAIR8];
+
+static void put(lane_column *to, const double *from, int count, unsigned k) {
+    for (int i = 0; i < count; i++) to[i].lane[k] = from[i];
+}
+
+// A couple's numbers in its lane. Along n, in A's frame, the direction is what is turned back to the world.
+static void put_lane(couple *c, unsigned k, int is_along_n) {
+    small_gjk_query *q = &c->query;
+    put(lanes.world_a, c->rows[0], 9, k);
+    put(lanes.world_b, c->rows[1], 9, k);
+    put(lanes.offset, q->offset, 3, k);
+    put(lanes.between, q->start, 3, k);
+    put(lanes.n, q->start, 3, k);
+    lanes.radii.lane[k] = q->lower_radii;
+    lanes.tolerance.lane[k] = q->tolerance;
+    lanes.size.lane[k] = 1;
+    group.points_a[k] = q->a;
+    group.points_b[k] = q->b;
+    if (!is_along_n) return;
+    const double *r = c->rows[0];
+    vec3 n = vec3_at(q->start, 0);
+    for (int i = 0; i < 3; i++) q->start[i] = (r[3 * i] * n.x + r[3 * i + 1] * n.y) + r[3 * i + 2] * n.z;
+}
+
+static void compare(unsigned some, small_gjk_end end) {
+    for (; some; some &= some - 1) {
+        unsigned k = (unsigned)__builtin_ctz(some);
+        const small_gjk_result *alone = &couples[k].alone;
         small_gjk_result x = {.end = end};
-        if (end != SMALL_GJK_OPEN) gjk8_get_result(g, k, end, &x);
-        CHECK(same_search(&x, &at[k]->alone));
+        if (end != SMALL_GJK_OPEN) gjk8_get_result(&group.search, k, end, &x);
+        // A first support that ends near is the only corner.
+        if (end == SMALL_GJK_NEAR && alone->end == SMALL_GJK_APART) x.end = SMALL_GJK_APART;
+        CHECK(same_search(&x, alone));
         ends[end]++;
     }
 }
 
-// All couples of one goal, as a batch has them.
-static void run_goal(uint64_t *s) {
-    static gjk8 g;
-    static small_gjk_bodies bodies[PAIR8];
-    g.bodies = bodies;
-    static couple couples[PAIR8];
-    couple *at[PAIR8];
+// A result that is put into a lane is what it ends near with.
+static void check_put(unsigned k, const small_gjk_result *r) {
+    gjk8 g;
+    small_gjk_result x;
+    if (r->end != SMALL_GJK_NEAR && r->end != SMALL_GJK_APART) return;
+    gjk8_put_result(&g, k, r);
+    gjk8_get_result(&g, k, SMALL_GJK_NEAR, &x);
+    x.end = r->end;
+    CHECK(same_search(&x, r));
+}
+
+// Eight couples of one goal, of which some are at work.
+static void run_group(uint64_t *s) {
     small_gjk_query goal;
     double rows[2][9];
     fill_search(s, &goal, rows);
-    g.active = 0;
-    for (int i = 0; i < COUPLES / 100;) {
-        for (unsigned k = 0; k < PAIR8 && i < COUPLES / 100; k++) {
-            if (g.active >> k & 1) continue;
-            couple *c = at[k] = &couples[k];
-            fill_search(s, &c->query, c->rows);
-            c->query.far = goal.far;
-            c->query.near = goal.near;
-            c->query.wants_bracket = goal.wants_bracket;
-            simd_run_small_gjk(&c->query, &c->alone);
-            i++;
-            kernels->begin(&g, k, &c->query);
-        }
-        if (!g.active) continue;
-        gjk8_ends e = kernels->advance(&g);
-        CHECK(((e.apart | e.near | e.inside | e.open) & g.active) == 0);
-        compare(&g, e.apart, SMALL_GJK_APART, at);
-        compare(&g, e.near, SMALL_GJK_NEAR, at);
-        compare(&g, e.inside, SMALL_GJK_INSIDE, at);
-        compare(&g, e.open, SMALL_GJK_OPEN, at);
+    const pair8_query numbers = {.hidden = goal.claim / 3, .iterations = goal.iterations};
+    gjk8 *g = &group.search;
+    group.is_along_n = random_next(s) % 2;
+    unsigned some = random_next(s) % 2 ? PAIR8_ALL : 1 + (unsigned)(random_next(s) % PAIR8_ALL);
+    for (unsigned k = 0; k < PAIR8; k++) {
+        couple *c = &couples[k];
+        small_gjk_query *q = &c->query;
+        fill_search(s, q, c->rows);
+        q->far = goal.far;
+        q->near = goal.near;
+        q->wants_bracket = goal.wants_bracket;
+        q->iterations = goal.iterations;
+        q->claim = 0 * 1.0 + 3 * numbers.hidden;
+        put_lane(c, k, group.is_along_n);
+        simd_run_small_gjk_unposed(q, &c->alone);
+        check_put(k, &c->alone);
     }
+    g->active = some;
+    g->far = goal.far;
+    g->near = goal.near;
+    g->wants_bracket = goal.wants_bracket;
+    kernels->begin(&lanes, &numbers, &group);
+    kernels->support(&lanes, &group);
+    gjk8_ends all = {0, 0, 0, 0}, now = kernels->start(&group);
+    for (;;) {
+        CHECK(((now.apart | now.near | now.inside | now.open) & g->active) == 0);
+        all.apart |= now.apart;
+        all.near |= now.near;
+        all.inside |= now.inside;
+        all.open |= now.open;
+        if (!g->active) break;
+        kernels->support(&lanes, &group);
+        now = kernels->advance(g);
+    }
+    // All have ended, each once; and they stayed as they ended.
+    CHECK((all.apart | all.near | all.inside | all.open) == some);
+    CHECK(!(all.apart & all.near) && !(all.inside & all.open) && !((all.apart | all.near) & (all.inside | all.open)));
+    compare(all.apart, SMALL_GJK_APART);
+    compare(all.near, SMALL_GJK_NEAR);
+    compare(all.inside, SMALL_GJK_INSIDE);
+    compare(all.open, SMALL_GJK_OPEN);
 }
 
 int main(void) {
     if (!make_bodies()) return 1;
     for (int isa = SIMD_SCALAR; isa < SIMD_ISA_COUNT; isa++) {
         uint64_t s = 23;
-        kernels = gjk8_get_kernels_of((simd_isa)isa);
+        kernels = group_gjk_get_kernels_of((simd_isa)isa);
         if (!kernels && isa >= SIMD_AVX2) check_skip("an instruction set that this machine or build lacks");
-        for (int i = 0; kernels && i < 400; i++) run_goal(&s);
+        for (int i = 0; kernels && i < ROUNDS; i++) {
+            check_seed = (uint64_t)i;
+            run_group(&s);
+        }
     }
     for (int i = 0; i < 4; i++) CHECK_LE(500, ends[i]);
     destroy_bodies();
