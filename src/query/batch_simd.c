@@ -360,7 +360,7 @@ static void search_few(batch_state *c) {
 }
 
 // Fewer lanes of a group do not pay for its search.
-enum { FEW = 4 };
+enum { FEW = 6 };
 
 static unsigned count_lanes(unsigned some) {
     unsigned count = 0;
