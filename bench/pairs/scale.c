@@ -94,19 +94,22 @@ typedef struct crowd {
     ovoid_posed_shape *bodies;
     ovoid_couple *couples;
     ovoid_verdict *verdicts;
+    ovoid_witness *witnesses;
+    uint32_t count;
 } crowd;
 
 static void crowd_destroy(crowd *c) {
     free(c->bodies);
     free(c->couples);
     free(c->verdicts);
+    free(c->witnesses);
 }
 
 /// Hulls in random poses, the centres of a pair within two sizes: some touch, most do not. 0 if memory runs out.
 static int crowd_create(crowd *c, const bodies *set, uint32_t count) {
     *c = (crowd){malloc(sizeof *c->bodies * 2 * count), malloc(sizeof *c->couples * count),
-                 malloc(sizeof *c->verdicts * count)};
-    if (!c->bodies || !c->couples || !c->verdicts) return 0;
+                 malloc(sizeof *c->verdicts * count), malloc(sizeof *c->witnesses * count), count};
+    if (!c->bodies || !c->couples || !c->verdicts || !c->witnesses) return 0;
     uint64_t state = 4;
     for (uint32_t i = 0; i < count; i++) {
         const body *a = &set->items[i % set->count], *b = &set->items[(i / set->count + i + 1) % set->count];
@@ -120,19 +123,22 @@ static int crowd_create(crowd *c, const bodies *set, uint32_t count) {
     return 1;
 }
 
-/// The couples of one thread: from first to end, exclusive.
+/// The couples of one thread: from first to end, exclusive. Of distances the witnesses are wanted too.
 typedef struct share {
     ovoid_batch batch;
+    question what;
     int failed;
     double seconds; ///< that its thread had the processor
 } share;
 
-static share share_make(const crowd *c, uint32_t total, uint32_t from, uint32_t to) {
+static share share_make(const crowd *c, question what, uint32_t from, uint32_t to) {
     return (share){{.bodies = c->bodies,
-                    .body_count = 2 * (size_t)total,
+                    .body_count = 2 * (size_t)c->count,
                     .couples = c->couples + from,
                     .couple_count = to - from,
-                    .verdicts = c->verdicts + from},
+                    .verdicts = c->verdicts + from,
+                    .witnesses = what == QUESTION_DISTANCE ? c->witnesses + from : NULL},
+                   what,
                    0,
                    0};
 }
@@ -140,7 +146,9 @@ static share share_make(const crowd *c, uint32_t total, uint32_t from, uint32_t 
 static void *run_share(void *data) {
     share *s = data;
     double start = get_own_seconds();
-    s->failed |= ovoid_collide_batch(&s->batch, NULL) != OVOID_OK;
+    ovoid_code code =
+        s->what == QUESTION_DISTANCE ? ovoid_distance_batch(&s->batch, NULL) : ovoid_collide_batch(&s->batch, NULL);
+    s->failed |= code != OVOID_OK;
     s->seconds = get_own_seconds() - start;
     return NULL;
 }
@@ -152,15 +160,16 @@ static void *run_singly(void *data) {
         const ovoid_posed_shape *a = &s->batch.bodies[s->batch.couples[i].a],
                                 *b = &s->batch.bodies[s->batch.couples[i].b];
         ovoid_pair pair = {a->shape, b->shape, a->pose, b->pose};
-        ovoid_answer x = ovoid_collide(&pair, NULL, NULL);
+        ovoid_answer x = ours_get_answer(&pair, s->what, 0, NULL);
         s->batch.verdicts[i] = (ovoid_verdict){x.status, x.stage, x.limit, x.iterations, x.lower, x.upper};
+        if (s->batch.witnesses) s->batch.witnesses[i] = (ovoid_witness){x.point_a, x.point_b, x.normal};
     }
     return NULL;
 }
 
 /// Seconds for all pairs on so many threads, by the time that the slowest had its processor; 0 if a thread cannot be
 /// started.
-static double time_threads(const crowd *c, uint32_t count, uint32_t threads) {
+static double time_threads(const crowd *c, question what, uint32_t count, uint32_t threads) {
     pthread_t ids[THREADS_MOST];
     share shares[THREADS_MOST];
     double slowest = 0;
@@ -168,7 +177,7 @@ static double time_threads(const crowd *c, uint32_t count, uint32_t threads) {
     for (; started < threads; started++) {
         uint32_t from = (uint32_t)((uint64_t)count * started / threads);
         uint32_t to = (uint32_t)((uint64_t)count * (started + 1) / threads);
-        shares[started] = share_make(c, count, from, to);
+        shares[started] = share_make(c, what, from, to);
         if (pthread_create(&ids[started], NULL, run_share, &shares[started])) break;
     }
     for (uint32_t i = 0; i < started; i++) {
@@ -186,29 +195,37 @@ static row make_pairs_row(row named, uint32_t count, double *seconds, uint32_t p
 }
 
 /// Times growing numbers of pairs.
-static void add_pairs(rows *all, const crowd *c, uint32_t most, const char *line, void *(*run)(void *)) {
+static void add_pairs(rows *all, const crowd *c, question what, int is_batch) {
+    static const char *const lines[2][2] = {{"collide, one by one", "collide, in a batch"},
+                                            {"distance, one by one", "distance, in a batch"}};
+    void *(*run)(void *) = is_batch ? run_share : run_singly;
     double seconds[PASSES];
-    for (uint64_t count = 1; count <= most; count *= 10) {
+    for (uint64_t count = 1; count <= c->count; count *= 10) {
         // Small numbers of pairs are repeated, so that the clock's own cost does not matter.
         uint32_t passes = count > 100000 ? 3 : 5, again = count < 1000 ? (uint32_t)(1000 / count) : 1;
-        share s = share_make(c, most, 0, (uint32_t)count);
+        share s = share_make(c, what, 0, (uint32_t)count);
         for (uint32_t pass = 0; pass < passes; pass++) {
             double start = get_own_seconds();
             for (uint32_t k = 0; k < again; k++) (void)run(&s);
             seconds[pass] = (get_own_seconds() - start) / again;
         }
-        row named = {.chart = "Many pairs on one thread", .x_name = "pairs", .line = line, .x = (double)count};
+        row named = {.chart = "Many pairs on one thread",
+                     .x_name = "pairs",
+                     .line = lines[what == QUESTION_DISTANCE][is_batch],
+                     .x = (double)count};
         rows_add(all, make_pairs_row(named, (uint32_t)count, seconds, passes));
     }
 }
 
 /// The same batch cut into a part for each thread, up to one for each core.
-static void add_threads(rows *all, const crowd *c, uint32_t count) {
+static void add_threads(rows *all, const crowd *c, question what) {
+    uint32_t count = c->count < 1000000 ? c->count : 1000000;
     double seconds[PASSES];
     long cores = sysconf(_SC_NPROCESSORS_ONLN);
     for (uint32_t threads = 1; threads <= cores && threads <= THREADS_MOST; threads *= 2) {
-        for (uint32_t pass = 0; pass < 5; pass++) seconds[pass] = time_threads(c, count, threads);
-        row named = {.chart = "A batch on several threads", .x_name = "threads", .line = "collide", .x = threads};
+        for (uint32_t pass = 0; pass < 5; pass++) seconds[pass] = time_threads(c, what, count, threads);
+        const char *line = what == QUESTION_DISTANCE ? "distance" : "collide";
+        row named = {.chart = "A batch on several threads", .x_name = "threads", .line = line, .x = threads};
         rows_add(all, make_pairs_row(named, count, seconds, 5));
     }
 }
@@ -218,9 +235,12 @@ static int visit_pairs(rows *all, uint32_t most) {
     crowd c = {0};
     int good = set.count && crowd_create(&c, &set, most);
     if (good) {
-        add_pairs(all, &c, most, "in a batch", run_share);
-        add_pairs(all, &c, most, "one by one", run_singly);
-        add_threads(all, &c, most < 1000000 ? most : 1000000);
+        static const question asked[] = {QUESTION_COLLIDE, QUESTION_DISTANCE};
+        for (int i = 0; i < 2; i++) {
+            add_pairs(all, &c, asked[i], 1);
+            add_pairs(all, &c, asked[i], 0);
+            add_threads(all, &c, asked[i]);
+        }
     }
     crowd_destroy(&c);
     bodies_destroy(&set);

@@ -22,10 +22,9 @@ LANES_INLINE void put9(lane_column *c, int at, lane9 m) {
     put3(c + 6, at, m.r2);
 }
 
-// The lanes up to the last one in use, whole vectors of them.
-LANES_INLINE int get_end(const pair8 *o) {
-    return LANES < PAIR8 ? (int)((o->count + LANES - 1) / LANES * LANES) : PAIR8;
-}
+// The lanes that are computed: one vector of them where these are all that are in use. Kernels are compiled for either
+// number, as loops of a known length take a seventh fewer instructions.
+LANES_INLINE int get_end(const pair8 *o) { return o->count > LANES ? PAIR8 : LANES; }
 
 // Rows of lanes in use, the numbers `from` on of each.
 typedef struct lane_rows {
@@ -177,8 +176,7 @@ static void add_found(pair8_found *all, pair8_found some, int at) {
     all->narrow |= some.narrow << at;
 }
 
-LANES_TARGET static pair8_found run_spheres(const pair8_places *from, const pair8_query *query, pair8 *o) {
-    int end = get_end(o);
+LANES_INLINE pair8_found find_spheres(const pair8_places *from, const pair8_query *query, pair8 *o, int end) {
     pair_columns c;
     read_columns((lane_rows){from->pose_a, 0, end}, 4, c.a.position);
     read_columns((lane_rows){from->pose_b, 0, end}, 4, c.b.position);
@@ -197,6 +195,10 @@ LANES_TARGET static pair8_found run_spheres(const pair8_places *from, const pair
     read_columns((lane_rows){from->shape_b, 8, end}, 4, c.b.first);
     for (int at = 0; at < end; at += LANES) add_found(&all, compute_spheres(&c, query, o, at), at);
     return (pair8_found){origins.odd, 0, all.apart & ~origins.odd, origins.apart, all.narrow};
+}
+
+LANES_TARGET static pair8_found run_spheres(const pair8_places *from, const pair8_query *query, pair8 *o) {
+    return get_end(o) == PAIR8 ? find_spheres(from, query, o, PAIR8) : find_spheres(from, query, o, LANES);
 }
 
 // ---- ellipsoids
@@ -308,9 +310,9 @@ LANES_INLINE unsigned compute_inner(ellipsoid_work *w, const inner_columns *a, c
     related f = get_related(o, at);
     common_point common = find_common(a, b, &f, at);
     lane_mask good = lane_at_least(lane_set(0), lane_set(0)), inner = common.is_proven;
+    put(&w->inner_upper, at, common.upper);
     if (lane_bits(inner)) {
         put(&o->lower, at, compute_sphere_gap(o, &f, at, &good));
-        put(&w->inner_upper, at, common.upper);
         put3(o->inner, at, common.x);
     }
     put_mask(&w->good, at, lane_or(good, lane_not(inner)));
@@ -379,10 +381,9 @@ LANES_INLINE pair8_found compute_outer(const ellipsoid_work *w, int at) {
                          lane_bits(lane_at_most(upper - lower, get(&o->tolerance, at)))};
 }
 
-LANES_TARGET static void start_ellipsoids(const pair8_ellipsoids *from, ellipsoid_work *w) {
+LANES_INLINE void start_ellipsoids(const pair8_ellipsoids *from, ellipsoid_work *w, int end) {
     lane_column outer_a[10], outer_b[10];
     inner_columns a, b;
-    int end = get_end(w->o);
     read_columns((lane_rows){from->outer_a, 0, end}, 10, outer_a);
     read_columns((lane_rows){from->outer_b, 0, end}, 10, outer_b);
     for (int at = 0; at < end; at += LANES) relate(w, outer_a, outer_b, at);
@@ -400,21 +401,28 @@ LANES_TARGET static void start_ellipsoids(const pair8_ellipsoids *from, ellipsoi
     w->is_searching = (all & ~(inner | line)) != 0;
 }
 
-LANES_TARGET static void run_ellipsoids(pair8_group *groups, unsigned count, const pair8_query *query) {
+LANES_INLINE void find_ellipsoids(pair8_group *groups, unsigned count, const pair8_query *query, int end) {
     ellipsoid_work w[PAIR8_GROUPS];
     for (unsigned i = 0; i < count; i++) {
         w[i].o = groups[i].lanes;
         w[i].query = query;
-        start_ellipsoids(&groups[i].from, &w[i]);
+        start_ellipsoids(&groups[i].from, &w[i], end);
     }
     for (int round = 0; round <= query->rounds; round++)
         for (unsigned i = 0; i < count; i++)
-            for (int at = 0; at < get_end(w[i].o) && w[i].is_searching; at += LANES)
+            for (int at = 0; at < end && w[i].is_searching; at += LANES)
                 improve_direction(&w[i], round == query->rounds, at);
     for (unsigned i = 0; i < count; i++) {
         groups[i].found = (pair8_found){0, 0, 0, 0, 0};
-        for (int at = 0; at < get_end(w[i].o); at += LANES) add_found(&groups[i].found, compute_outer(&w[i], at), at);
+        for (int at = 0; at < end; at += LANES) add_found(&groups[i].found, compute_outer(&w[i], at), at);
     }
+}
+
+LANES_TARGET static void run_ellipsoids(pair8_group *groups, unsigned count, const pair8_query *query) {
+    if (count > 1 || get_end(groups->lanes) == PAIR8)
+        find_ellipsoids(groups, count, query, PAIR8);
+    else
+        find_ellipsoids(groups, 1, query, LANES);
 }
 
 // ---- supports
