@@ -238,8 +238,11 @@ void group_search_run(const group_search *task, const lane_group *e, unsigned so
     w.gjk.search.wants_bracket = task->goal->wants_bracket;
     for (unsigned rest = some; rest; rest &= rest - 1) {
         unsigned k = compiler_count_low_zeros(rest);
-        w.gjk.points_a[k] = shape_get_points(get_a(e, k)->shape);
-        w.gjk.points_b[k] = shape_get_points(get_b(e, k)->shape);
+        const ovoid_shape *a = get_a(e, k)->shape, *b = get_b(e, k)->shape;
+        w.gjk.points_a[k] = shape_get_points(a);
+        w.gjk.points_b[k] = shape_get_points(b);
+        w.gjk.vertices_a[k] = shape_vertices(a);
+        w.gjk.vertices_b[k] = shape_vertices(b);
     }
     kernels->begin(e->lanes, task->numbers, &w.gjk);
     gjk8_ends ends = count_lanes(some) < FEW ? run_each(&w) : run_rounds(&w, kernels);

@@ -14,13 +14,15 @@ typedef struct group_gjk {
     gjk8 search;
     int is_along_n; ///< set by the caller: 1 to begin along o->n of the ellipsoids, 0 for the line of centres
     simd_points points_a[PAIR8], points_b[PAIR8]; ///< set by the caller for the lanes at work: at most SMALL_GJK_POINTS
-    lane_column along_a[3], along_b[3];           ///< the heading in the body frames
-    lane_column high, low;                        ///< the latest supports: A's and B's values,
-    lane_column vertex_a[3], vertex_b[3];         ///< and vertices, body frames
-    lane_column count;                            ///< set by the caller before `finish`: corners, 1 to 3,
-    lane_column corner[3 * 3];                    ///< their differences, world,
-    lane_column corner_a[3 * 3];                  ///< and A's vertices, body frame
-    lane_column weight[3];                        ///< written by `finish`: of the corners, zero of those that are none
+    /// The vertices of the same bodies, xyz; of lanes at work set by the caller.
+    const double *vertices_a[PAIR8], *vertices_b[PAIR8];
+    lane_column along_a[3], along_b[3];              ///< the heading in the body frames
+    lane_column high, low;                           ///< the latest supports: A's and B's values,
+    const double *vertex_a[PAIR8], *vertex_b[PAIR8]; ///< and vertices, body frames
+    lane_column count;                               ///< set by the caller before `finish`: corners, 1 to 3,
+    lane_column corner[3 * 3];                       ///< their differences, world,
+    lane_column corner_a[3 * 3];                     ///< and A's vertices, body frame
+    lane_column weight[3];              ///< written by `finish`: of the corners, zero of those that are none
     lane_column point_a[3], point_b[3]; ///< nearest points of the cores, world, from the origin of A's body frame
     lane_column normal[3];              ///< unit, world
     lane_column lower, upper;

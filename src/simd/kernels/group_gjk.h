@@ -5,6 +5,8 @@
 
 LANES_TARGET static void run_group_begin(const pair8 *o, const pair8_query *query, group_gjk *s) {
     gjk8 *g = &s->search;
+    static const double nowhere[3] = {0, 0, 0};
+    for (int k = 0; k < PAIR8; k++) s->vertex_a[k] = s->vertex_b[k] = nowhere;
     for (int at = 0; at < PAIR8; at += LANES) {
         if (!has_lanes(g->active, at)) continue;
         lane zero = lane_set(0), radii = get(&o->radii, at);
@@ -20,8 +22,6 @@ LANES_TARGET static void run_group_begin(const pair8 *o, const pair8_query *quer
             put(&g->old[i].id, at, zero);
             put(&g->is_valid[i], at, zero);
         }
-        put3(s->vertex_a, at, none);
-        put3(s->vertex_b, at, none);
         put(&s->high, at, zero);
         put(&s->low, at, zero);
         put(&g->fresh.id, at, zero);
@@ -44,12 +44,8 @@ SMALL_GJK_INLINE void find_ends(group_gjk *s, unsigned k, uint32_t blocks) {
     support_result high = find_extreme_point(a, in_a, blocks, 0), low = find_extreme_point(b, in_b, blocks, 1);
     s->high.lane[k] = high.value;
     s->low.lane[k] = low.value;
-    s->vertex_a[0].lane[k] = a->x[high.index];
-    s->vertex_a[1].lane[k] = a->y[high.index];
-    s->vertex_a[2].lane[k] = a->z[high.index];
-    s->vertex_b[0].lane[k] = b->x[low.index];
-    s->vertex_b[1].lane[k] = b->y[low.index];
-    s->vertex_b[2].lane[k] = b->z[low.index];
+    s->vertex_a[k] = s->vertices_a[k] + 3 * (size_t)high.index;
+    s->vertex_b[k] = s->vertices_b[k] + 3 * (size_t)low.index;
     s->search.fresh.id.lane[k] = high.index + SMALL_GJK_POINTS * low.index;
 }
 
@@ -66,8 +62,8 @@ LANES_TARGET static void find_lane_ends(group_gjk *s, unsigned k) {
 // The difference of the vertices and the gap. For lanes whose supports are as before they are as before.
 LANES_INLINE void meet_ends(const pair8 *o, group_gjk *s, int at) {
     gjk8 *g = &s->search;
-    lane3 a = lane9_mul3(get9(o->world_a, at), get3(s->vertex_a, at));
-    lane3 b = lane9_mul3(get9(o->world_b, at), get3(s->vertex_b, at));
+    lane3 a = lane9_mul3(get9(o->world_a, at), read_points(s->vertex_a, at));
+    lane3 b = lane9_mul3(get9(o->world_b, at), read_points(s->vertex_b, at));
     lane3 offset = get3(o->offset, at);
     put3(&g->fresh.x, at, lane3_sub(lane3_add(b, offset), a));
     put(&g->gap, at, (lane3_dot(get3(g->n, at), offset) + get(&s->low, at)) - get(&s->high, at));

@@ -69,6 +69,29 @@ LANES_INLINE void read_columns(lane_rows rows, int count, lane_column *out) {
 }
 #endif
 
+// Points, three numbers each, as lanes: registers are filled from memory, as numbers that were just stored one by one
+// would be waited for.
+LANES_INLINE lane3 read_points(const double *const points[PAIR8], int at) {
+#if LANES == 8
+    (void)at;
+    __m512d even = read_two(points, 0, 0), odd = read_two(points, 1, 0);
+    __m512d even_z = read_two(points, 0, 1), odd_z = read_two(points, 1, 1);
+    return (lane3){_mm512_unpacklo_pd(even, odd), _mm512_unpackhi_pd(even, odd), _mm512_unpackhi_pd(even_z, odd_z)};
+#elif LANES == 4
+    __m256d even = read_two(points, at, 0), odd = read_two(points, at + 1, 0);
+    __m256d even_z = read_two(points, at, 1), odd_z = read_two(points, at + 1, 1);
+    return (lane3){_mm256_unpacklo_pd(even, odd), _mm256_unpackhi_pd(even, odd), _mm256_unpackhi_pd(even_z, odd_z)};
+#else
+    double x[LANES], y[LANES], z[LANES];
+    for (int i = 0; i < LANES; i++) {
+        x[i] = points[at + i][0];
+        y[i] = points[at + i][1];
+        z[i] = points[at + i][2];
+    }
+    return (lane3){lane_load(x), lane_load(y), lane_load(z)};
+#endif
+}
+
 // ---- poses and spheres
 
 // The lanes whose quaternion need not be scaled.

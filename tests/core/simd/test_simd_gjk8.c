@@ -10,7 +10,7 @@ static long ends[5];
 
 typedef struct couple {
     small_gjk_query query;
-    double rows[2][9];
+    double rows[2][9], vertices[2][3 * SMALL_GJK_POINTS];
     small_gjk_result alone;
 } couple;
 
@@ -20,6 +20,14 @@ static couple couples[PAIR8];
 
 static void put(lane_column *to, const double *from, int count, unsigned k) {
     for (int i = 0; i < count; i++) to[i].lane[k] = from[i];
+}
+
+static void fill_vertices(double *to, const simd_points *from) {
+    for (uint32_t i = 0; i < from->padded_count; i++) {
+        to[3 * i] = from->x[i];
+        to[3 * i + 1] = from->y[i];
+        to[3 * i + 2] = from->z[i];
+    }
 }
 
 // A couple's numbers in its lane. Along n, in A's frame, the direction is what is turned back to the world.
@@ -35,6 +43,10 @@ static void put_lane(couple *c, unsigned k, int is_along_n) {
     lanes.size.lane[k] = 1;
     group.points_a[k] = q->a;
     group.points_b[k] = q->b;
+    fill_vertices(c->vertices[0], &q->a);
+    fill_vertices(c->vertices[1], &q->b);
+    group.vertices_a[k] = c->vertices[0];
+    group.vertices_b[k] = c->vertices[1];
     if (!is_along_n) return;
     const double *r = c->rows[0];
     vec3 n = vec3_at(q->start, 0);
