@@ -220,12 +220,6 @@ static gjk8_ends run_each(group_work *w) {
     return all;
 }
 
-static unsigned count_lanes(unsigned some) {
-    unsigned count = 0;
-    for (; some; some &= some - 1) count++;
-    return count;
-}
-
 void group_search_run(const group_search *task, const lane_group *e, unsigned some) {
     const group_gjk_kernels *kernels = group_gjk_get_kernels(e->lanes->count);
     group_work w;

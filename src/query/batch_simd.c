@@ -1,9 +1,9 @@
 // Most couples of a batch are decided by their enclosing spheres or ellipsoids, which cost the same for every couple:
 // so a lane group of eight couples is taken at once, without a branch. Couples that the spheres leave open are packed
-// into full lane groups before they go on to the ellipsoids, and those that the supports along the ellipsoids'
-// direction leave open go on to the exact search: small ones in lanes again, others one by one. A couple that is in any
-// way unusual (a far origin, a quaternion to be scaled, a refused pose) is queried alone, from the start; so is one
-// with an earlier proof that the spheres leave open.
+// into full lane groups before they go on to the ellipsoids. Small ones are then searched in their group; others go on
+// to the exact search, one by one, where the supports along the ellipsoids' direction leave them open. A couple that is
+// in any way unusual (a far origin, a quaternion to be scaled, a refused pose) is queried alone, from the start; so is
+// one with an earlier proof that the spheres leave open.
 //
 // No lane depends on the others, so nothing depends on which couples share a group, and a batch may be cut anywhere.
 // Working memory: six lane groups on the stack, 31 KB; they are gone while the couples that they left open are
@@ -361,12 +361,6 @@ static void search_few(batch_state *c) {
 
 // Fewer lanes of a group do not pay for its search.
 enum { FEW = 6 };
-
-static unsigned count_lanes(unsigned some) {
-    unsigned count = 0;
-    for (; some; some &= some - 1) count++;
-    return count;
-}
 
 // Searches the lanes `some` at once or, where they are few and there are other groups, with those of these.
 static void search_or_wait(batch_state *c, const lane_group *e, unsigned some) {

@@ -24,6 +24,13 @@ static inline void put3(lane_column *c, unsigned k, vec3 v) {
 }
 static inline mat3 get9(const lane_column *c, unsigned k) { return (mat3){get3(c, k), get3(c + 3, k), get3(c + 6, k)}; }
 
+/// How many lanes a mask has.
+static inline unsigned count_lanes(unsigned some) {
+    unsigned count = 0;
+    for (; some; some &= some - 1) count++;
+    return count;
+}
+
 /// The body whose pose begins at a row of numbers.
 static inline const ovoid_posed_shape *get_body(const double *pose) {
     return (const void *)((const char *)pose - offsetof(ovoid_posed_shape, pose));
