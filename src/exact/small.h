@@ -10,8 +10,9 @@
 #include "pair/reject.h"
 #include "simd/small_gjk.h"
 
-/// Most vertices of a body.
-enum { SMALL_POINTS = 32 };
+/// Most vertices of a body: of a couple in lanes; of a pair alone, for a yes or no, and for a distance. A yes or no of
+/// more is as often decided by the outer ellipsoids.
+enum { SMALL_POINTS = 32, SMALL_POINTS_SIGN = 48, SMALL_POINTS_DISTANCE = 64 };
 
 /// What the search found: bounds that answer the query, and what proves them.
 typedef struct small_end {
@@ -37,12 +38,20 @@ typedef struct placed_query {
     int is_bare;                ///< no proof is wanted: closed_run leaves end->points as they are
 } placed_query;
 
-/// 1 if both bodies have few vertices and no allowance, and no depth is asked for. sphere_gap: the lower bound of
-/// reject_by_spheres.
-static inline int small_fits(const query_goal *goal, const ovoid_shape *a, const ovoid_shape *b, double sphere_gap) {
-    int is_small =
-        (a->padded_count <= SMALL_POINTS) & (b->padded_count <= SMALL_POINTS) & !(a->has_allowance | b->has_allowance);
+/// 1 if both bodies have at most that many vertices and no allowance, and no depth is asked for. sphere_gap: the lower
+/// bound of reject_by_spheres.
+static inline int small_has(const query_goal *goal, const ovoid_shape *a, const ovoid_shape *b, double sphere_gap,
+                            uint32_t most) {
+    int is_small = (a->padded_count <= most) & (b->padded_count <= most) & !(a->has_allowance | b->has_allowance);
     return is_small & (!goal->wants_depth | (sphere_gap > 0));
+}
+
+/// 1 if the pair is one for small_run, alone and in lanes.
+static inline int small_takes(const query_goal *goal, const ovoid_shape *a, const ovoid_shape *b, double sphere_gap) {
+    return small_has(goal, a, b, sphere_gap, goal->far < INFINITY ? SMALL_POINTS_SIGN : SMALL_POINTS_DISTANCE);
+}
+static inline int small_fits(const query_goal *goal, const ovoid_shape *a, const ovoid_shape *b, double sphere_gap) {
+    return small_has(goal, a, b, sphere_gap, SMALL_POINTS);
 }
 
 /// Searches from the line of centres, by the inner ellipsoids first where the spheres overlap much, without the earlier

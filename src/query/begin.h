@@ -25,11 +25,11 @@ static inline small_outcome run_small(const placed_query *q, rejection *found, s
     const ovoid_shape *a = q->frame->a, *b = q->frame->b;
     small_outcome outcome = SMALL_UNKNOWN;
     if (closed_fits(a, b) && closed_run(q, end)) return SMALL_ANSWERED;
-    if (q->earlier && small_fits(q->goal, a, b, q->sphere_gap))
+    if (q->earlier && small_takes(q->goal, a, b, q->sphere_gap))
         outcome = small_run_earlier(q, found, end);
     else if (q->earlier && kept_fits(q->goal, a, b, q->sphere_gap) && kept_run(q, end))
         return SMALL_ANSWERED;
-    if (outcome == SMALL_UNKNOWN && small_fits(q->goal, a, b, q->sphere_gap))
+    if (outcome == SMALL_UNKNOWN && small_takes(q->goal, a, b, q->sphere_gap))
         outcome = small_run(q, end) ? SMALL_ANSWERED : SMALL_OPEN;
     return outcome;
 }

@@ -3,10 +3,11 @@
 
 #include "simd/kernels.h"
 
-#include "simd/kernels/small_gjk_avx2.h"
+#define LANES 4
+#include "simd/kernels/small_gjk_lanes.h"
+
 #include "simd/kernels/small_gjk_kept.h"
 
-#define LANES 4
 #include "simd/kernels/areas.h"
 #include "simd/kernels/box_axes.h"
 #include "simd/kernels/epa8.h"
@@ -28,22 +29,21 @@ const pair8_kernels pair8_avx2 = {run_spheres, run_ellipsoids, run_supports};
 const patch_kernels patch_avx2 = {run_place, run_measure};
 const solid8_kernels solid8_avx2 = {run_boxes, run_triangles};
 
-__attribute__((target("avx2"))) void small_gjk_run_avx2(const small_gjk_query *query, small_gjk_result *result) {
+LANES_TARGET void small_gjk_run_avx2(const small_gjk_query *query, small_gjk_result *result) {
     run_class(query, result);
 }
 
-__attribute__((target("avx2"))) void small_gjk_run_unposed_avx2(const small_gjk_query *query,
-                                                                small_gjk_result *result) {
+LANES_TARGET void small_gjk_run_unposed_avx2(const small_gjk_query *query, small_gjk_result *result) {
     run_unposed_class(query, result);
 }
 
-__attribute__((target("avx2"))) void small_gjk_run_kept_avx2(const small_gjk_query *query, const small_gjk_kept *kept,
-                                                             small_gjk_result *result) {
+LANES_TARGET void small_gjk_run_kept_avx2(const small_gjk_query *query, const small_gjk_kept *kept,
+                                          small_gjk_result *result) {
     run_kept_class(query, kept, result);
 }
 
-__attribute__((target("avx2"))) void small_gjk_find_kept_avx2(const small_gjk_query *query, const small_gjk_kept *kept,
-                                                              small_gjk_result *result) {
+LANES_TARGET void small_gjk_find_kept_avx2(const small_gjk_query *query, const small_gjk_kept *kept,
+                                           small_gjk_result *result) {
     find_kept(query, kept, result);
 }
 

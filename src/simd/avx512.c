@@ -3,9 +3,11 @@
 
 #include "simd/kernels.h"
 
-#include "simd/kernels/small_gjk_avx2.h"
-
 #define LANES 8
+#include "simd/kernels/small_gjk_lanes.h"
+
+#include "simd/kernels/small_gjk_kept.h"
+
 #include "simd/kernels/box_axes.h"
 #include "simd/kernels/epa8.h"
 #include "simd/kernels/pair8.h"
@@ -21,6 +23,15 @@ const group_gjk_kernels group_gjk_avx512 = {run_group_begin, run_group_support, 
                                             run_group_finish};
 const pair8_kernels pair8_avx512 = {run_spheres, run_ellipsoids, run_supports};
 const solid8_kernels solid8_avx512 = {run_boxes, run_triangles};
+
+LANES_TARGET void small_gjk_run_avx512(const small_gjk_query *query, small_gjk_result *result) {
+    run_class(query, result);
+}
+
+LANES_TARGET void small_gjk_run_kept_avx512(const small_gjk_query *query, const small_gjk_kept *kept,
+                                            small_gjk_result *result) {
+    run_kept_class(query, kept, result);
+}
 
 #else
 #include "simd/kernels.h"

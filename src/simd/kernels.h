@@ -17,9 +17,9 @@ extern const group_gjk_kernels group_gjk_scalar, group_gjk_avx2, group_gjk_avx51
 extern const pair8_kernels pair8_scalar, pair8_avx2, pair8_avx512;
 extern const patch_kernels patch_scalar, patch_avx2;
 extern const solid8_kernels solid8_scalar, solid8_avx2, solid8_avx512;
-small_gjk_function small_gjk_run_scalar, small_gjk_run_avx2;
+small_gjk_function small_gjk_run_scalar, small_gjk_run_avx2, small_gjk_run_avx512;
 small_gjk_function small_gjk_run_unposed_scalar, small_gjk_run_unposed_avx2;
-small_gjk_kept_function small_gjk_run_kept_scalar, small_gjk_run_kept_avx2;
+small_gjk_kept_function small_gjk_run_kept_scalar, small_gjk_run_kept_avx2, small_gjk_run_kept_avx512;
 small_gjk_kept_function small_gjk_find_kept_scalar, small_gjk_find_kept_avx2;
 
 #endif

@@ -12,7 +12,7 @@
 #include "simd/corner.h"
 #include "simd/pair.h"
 
-enum { SMALL_GJK_POINTS = 32 };
+enum { SMALL_GJK_POINTS = 64 };
 
 /// A body's points in the world.
 typedef struct small_gjk_body {

@@ -1,4 +1,4 @@
-// Searches of small bodies at random (simd/small_gjk.h): bodies of 1 to 32 vertices, boxes on a lattice where values
+// Searches of small bodies at random (simd/small_gjk.h): bodies of 1 to `most` vertices, boxes on a lattice where values
 // tie and zeros have signs, every kind of goal.
 #ifndef OVOID_TESTS_SMALL_SEARCHES_H
 #define OVOID_TESTS_SMALL_SEARCHES_H
@@ -12,12 +12,17 @@
 enum { BODIES = 40 };
 static ovoid_shape *shapes[BODIES];
 
-static inline int make_bodies(void) {
+static inline int make_bodies(unsigned most) {
     uint64_t state = 11, *s = &state;
     for (int i = 0; i < BODIES; i++) {
-        double xyz[3 * 32];
-        size_t count = 1 + random_next(s) % 32;
+        double xyz[3 * SMALL_GJK_POINTS];
+        size_t count = 1 + random_next(s) % most;
         for (size_t k = 0; k < 3 * count; k++) xyz[k] = random_uniform(s, -1, 1);
+        // Each second one is on a sphere, where every point is a vertex.
+        for (size_t k = 0; k < count && i % 2; k++) {
+            vec3 x = vec3_unit(vec3_at(xyz, k));
+            memcpy(xyz + 3 * k, &x, sizeof x);
+        }
         ovoid_vec3 half = {1, 0.5 * (double)(i % 3), 0.25};
         shapes[i] =
             i % 4 ? ovoid_shape_create_from_points(xyz, count, NULL, NULL) : ovoid_shape_create_box(half, NULL, NULL);

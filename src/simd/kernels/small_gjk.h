@@ -6,7 +6,8 @@
 //   find_extreme_point(p, n, blocks, is_least)   the point of a body that is extreme along n, in its own frame
 //   corners                  up to four such differences
 //   corners_fill(c, m), corners_put(c, i, m), corners_store(c, at), corners_step(c, valid, m)
-// with `blocks`, the number of eights of points, known to the compiler.
+//   SMALL_GJK_CLASSES(do)    do(blocks) for the numbers of eights of points that are compiled for, in order, to 8
+// with `blocks` known to the compiler.
 #ifndef OVOID_SIMD_KERNELS_SMALL_GJK_H
 #define OVOID_SIMD_KERNELS_SMALL_GJK_H
 
@@ -206,7 +207,7 @@ SMALL_GJK_INLINE void pose_bodies(const small_gjk_query *q, small_gjk_bodies *bo
     pose_body(&bodies->b, &(placed_points){q->b, q->rows_b, q->offset}, q->turned_b, blocks);
 }
 
-// Points of the larger body, in eights: 1 to 4.
+// Points of the larger body, in eights: 1 to 8.
 SMALL_GJK_INLINE uint32_t find_blocks(const small_gjk_query *q) {
     uint32_t count = q->a.padded_count > q->b.padded_count ? q->a.padded_count : q->b.padded_count;
     return count / 8;
@@ -254,23 +255,26 @@ SMALL_GJK_INLINE void run(const small_gjk_query *q, small_gjk_bodies *bodies, ui
         write_walk(r, &s.k);
 }
 
-SMALL_GJK_INLINE void run_class(const small_gjk_query *q, small_gjk_result *r) {
-    small_gjk_bodies bodies;
-    switch (find_blocks(q)) {
-    case 1: run(q, &bodies, 1, r); break;
-    case 2: run(q, &bodies, 2, r); break;
-    case 3: run(q, &bodies, 3, r); break;
-    default: run(q, &bodies, 4, r); break;
+// Runs RUN of the first class that has room for both bodies.
+#define SMALL_GJK_RUN(class)                                                                                           \
+    if (blocks <= (class)) {                                                                                           \
+        RUN(class);                                                                                                    \
+        return;                                                                                                        \
     }
+
+SMALL_GJK_INLINE void run_class(const small_gjk_query *q, small_gjk_result *r) {
+    uint32_t blocks = find_blocks(q);
+    small_gjk_bodies bodies;
+#define RUN(class) run(q, &bodies, class, r)
+    SMALL_GJK_CLASSES(SMALL_GJK_RUN)
+#undef RUN
 }
 
 SMALL_GJK_INLINE void run_unposed_class(const small_gjk_query *q, small_gjk_result *r) {
-    switch (find_blocks(q)) {
-    case 1: run(q, NULL, 1, r); break;
-    case 2: run(q, NULL, 2, r); break;
-    case 3: run(q, NULL, 3, r); break;
-    default: run(q, NULL, 4, r); break;
-    }
+    uint32_t blocks = find_blocks(q);
+#define RUN(class) run(q, NULL, class, r)
+    SMALL_GJK_CLASSES(SMALL_GJK_RUN)
+#undef RUN
 }
 
 #endif

@@ -163,12 +163,10 @@ SMALL_GJK_INLINE void find_kept(const small_gjk_query *q, const small_gjk_kept *
 }
 
 SMALL_GJK_INLINE void run_kept_class(const small_gjk_query *q, const small_gjk_kept *kept, small_gjk_result *r) {
-    switch (find_blocks(q)) {
-    case 1: run_kept(q, kept, 1, r); break;
-    case 2: run_kept(q, kept, 2, r); break;
-    case 3: run_kept(q, kept, 3, r); break;
-    default: run_kept(q, kept, 4, r); break;
-    }
+    uint32_t blocks = find_blocks(q);
+#define RUN(class) run_kept(q, kept, class, r)
+    SMALL_GJK_CLASSES(SMALL_GJK_RUN)
+#undef RUN
 }
 
 #endif

@@ -5,6 +5,7 @@
 #include "simd/small_gjk.h"
 
 #define SMALL_GJK_INLINE static inline
+#define SMALL_GJK_CLASSES(DO) DO(8)
 
 typedef struct met {
     double w[3], gap;

@@ -126,7 +126,7 @@ static void run_group(uint64_t *s) {
 }
 
 int main(void) {
-    if (!make_bodies()) return 1;
+    if (!make_bodies(32)) return 1;
     for (int isa = SIMD_SCALAR; isa < SIMD_ISA_COUNT; isa++) {
         uint64_t s = 23;
         kernels = group_gjk_get_kernels_of((simd_isa)isa);

@@ -26,6 +26,23 @@ static small_gjk_kept find_kept(uint64_t *s, const small_gjk_query *q, const sma
     return kept;
 }
 
+// The kernel of AVX-512 too, where the machine has it.
+static void compare_widest(const small_gjk_query *q, const small_gjk_result *x) {
+    small_gjk_function *widest = simd_get_small_gjk(SIMD_AVX512);
+    small_gjk_result y;
+    if (!widest) return;
+    widest(q, &y);
+    CHECK(same_search(x, &y));
+}
+
+static void compare_widest_kept(const small_gjk_query *q, const small_gjk_kept *kept, const small_gjk_result *x) {
+    small_gjk_kept_function *widest = simd_get_small_gjk_kept(SIMD_AVX512);
+    small_gjk_result y;
+    if (!widest) return;
+    widest(q, kept, &y);
+    CHECK(same_search(x, &y));
+}
+
 static void run_again(uint64_t *s, small_gjk_query *q, const small_gjk_result *before, long ends[5]) {
     small_gjk_result x, y, z;
     small_gjk_kept kept = find_kept(s, q, before);
@@ -35,6 +52,7 @@ static void run_again(uint64_t *s, small_gjk_query *q, const small_gjk_result *b
     simd_run_small_gjk_kept(q, &kept, &z);
     CHECK(same_search(&x, &y));
     CHECK(same_search(&x, &z));
+    compare_widest_kept(q, &kept, &x);
     ends[x.end]++;
     simd_get_find_kept(SIMD_SCALAR)(q, &kept, &x);
     simd_get_find_kept(SIMD_AVX2)(q, &kept, &y);
@@ -86,7 +104,7 @@ int main(void) {
         check_skip("this machine or build has no AVX2");
         return check_end();
     }
-    if (!make_bodies()) return 1;
+    if (!make_bodies(SMALL_GJK_POINTS)) return 1;
     check_confirmed(&s, twin);
     long ends[5] = {0}, again[5] = {0}, unposed[5] = {0};
     for (int i = 0; i < ROUNDS; i++) {
@@ -99,6 +117,7 @@ int main(void) {
         simd_run_small_gjk(&q, &z);
         CHECK(same_search(&x, &y));
         CHECK(same_search(&x, &z));
+        compare_widest(&q, &x);
         ends[x.end]++;
         check_unposed(&q, unposed);
         run_again(&s, &q, &x, again);
