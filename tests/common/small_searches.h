@@ -1,5 +1,5 @@
-// Searches of small bodies at random (simd/small_gjk.h): bodies of 1 to `most` vertices, boxes on a lattice where values
-// tie and zeros have signs, every kind of goal.
+// Searches of small bodies at random (simd/small_gjk.h): bodies of 1 to `most` vertices, boxes on a lattice where
+// values tie and zeros have signs, every kind of goal.
 #ifndef OVOID_TESTS_SMALL_SEARCHES_H
 #define OVOID_TESTS_SMALL_SEARCHES_H
 
