@@ -1,5 +1,5 @@
-// The winding number of a closed surface: the signed crossings of a ray from the point, by exact orientations. For most
-// triangles doubles show that they lie beside the ray.
+// The winding number of a closed surface: the signed crossings of a ray from the point, by exact orientations. The
+// first ray runs along z, and most triangles are beside it by their coordinates alone.
 #include "polytope/winding.h"
 
 #include "linear/exact.h"
@@ -17,48 +17,41 @@ static int count_crossing(vec3 c, vec3 q, const vec3 corner[3]) {
     return side == 0 ? 2 : side == -s0 ? side : 0;
 }
 
-// A slab around the ray, as thin as rounding allows: a triangle to one side of it does not meet the line. Of two slabs
-// at right angles one mostly shows that.
-typedef struct slab {
-    vec3 point, normal;
-    double half;
-} slab;
-
-// Lengths are in units of the body, whose coordinates are below 1 in size. Within the body a point of the line is off
-// the middle plane by the slope of the line, known to 8 roundings, times its distance from c; the corners' heights are
-// computed to within 8 roundings of theirs.
-static slab make_slab(vec3 c, vec3 along, vec3 normal) {
-    double most = 2 * (1 + vec3_max_abs(c));
-    return (slab){c, normal, most * (fabs(vec3_dot(normal, along)) + 64 * ROUNDING)};
+// 1 if the line through the point along z passes beside a triangle: all corners lie to one side of it along x, or along
+// y. The comparisons are exact.
+static int is_beside(vec3 point, const vec3 corner[3]) {
+    double x = point.x, y = point.y;
+    const vec3 *a = corner, *b = corner + 1, *c = corner + 2;
+    return (a->x > x && b->x > x && c->x > x) || (a->x < x && b->x < x && c->x < x) ||
+           (a->y > y && b->y > y && c->y > y) || (a->y < y && b->y < y && c->y < y);
 }
 
-static int is_beside(const slab *s, const vec3 corner[3]) {
-    double a = vec3_dot(s->normal, vec3_sub(corner[0], s->point));
-    double b = vec3_dot(s->normal, vec3_sub(corner[1], s->point));
-    double c = vec3_dot(s->normal, vec3_sub(corner[2], s->point));
-    return (a > s->half && b > s->half && c > s->half) || (-a > s->half && -b > s->half && -c > s->half);
+// A point on the ray of an attempt: up along z at first; then through points inside a triangle, at weights of no
+// symmetry.
+static vec3 find_aim(const ovoid_polytope *p, vec3 c, double unit, uint32_t attempt) {
+    if (attempt == 0) return (vec3){c.x, c.y, c.z + 1};
+    const uint32_t *aim = p->triangles + 3 * (size_t)(p->triangle_count * (uint64_t)(attempt - 1) / 8);
+    double wa = 0.371 + 0.02 * (attempt - 1), wb = 0.297 - 0.013 * (attempt - 1), wc = 1 - wa - wb;
+    vec3 q = vec3_scale(vec3_at(p->vertices, aim[0]), wa);
+    q = vec3_add_scaled(q, vec3_at(p->vertices, aim[1]), wb);
+    return vec3_scale(vec3_add_scaled(q, vec3_at(p->vertices, aim[2]), wc), unit);
 }
 
 int64_t polytope_compute_winding(const ovoid_polytope *polytope, vec3 point) {
     // In units of the body: the orientations underflow for bodies below 1e-90.
     double unit = ldexp(1, -find_unit_exponent(compute_extent(polytope->vertices, polytope->vertex_count)));
     vec3 c = vec3_scale(point, unit);
-    // Rays through points inside a triangle, at weights of no symmetry; another one if a ray meets an edge.
-    for (uint32_t attempt = 0; attempt < 8 && polytope->triangle_count > 0; attempt++) {
-        const uint32_t *aim = polytope->triangles + 3 * (size_t)(polytope->triangle_count * (uint64_t)attempt / 8);
-        double wa = 0.371 + 0.02 * attempt, wb = 0.297 - 0.013 * attempt, wc = 1 - wa - wb;
-        vec3 q = vec3_scale(vec3_at(polytope->vertices, aim[0]), wa);
-        q = vec3_add_scaled(q, vec3_at(polytope->vertices, aim[1]), wb);
-        q = vec3_scale(vec3_add_scaled(q, vec3_at(polytope->vertices, aim[2]), wc), unit);
-        vec3 along = vec3_unit(vec3_sub(q, c)), normal = vec3_orthogonal(along);
-        slab near = make_slab(c, along, normal), across = make_slab(c, along, vec3_cross(along, normal));
+    // Another ray if one meets an edge.
+    for (uint32_t attempt = 0; attempt < 9 && polytope->triangle_count > 0; attempt++) {
+        vec3 q = find_aim(polytope, c, unit, attempt);
         int64_t winding = 0;
         int met = 0;
         for (uint32_t t = 0; t < polytope->triangle_count && !met; t++) {
             vec3 corner[3];
-            for (int i = 0; i < 3; i++)
-                corner[i] = vec3_scale(vec3_at(polytope->vertices, polytope->triangles[3 * (size_t)t + i]), unit);
-            int crossing = is_beside(&near, corner) || is_beside(&across, corner) ? 0 : count_crossing(c, q, corner);
+            for (int i = 0; i < 3; i++) corner[i] = vec3_at(polytope->vertices, polytope->triangles[3 * (size_t)t + i]);
+            if (attempt == 0 && is_beside(point, corner)) continue;
+            for (int i = 0; i < 3; i++) corner[i] = vec3_scale(corner[i], unit);
+            int crossing = count_crossing(c, q, corner);
             met = crossing == 2;
             winding += met ? 0 : crossing;
         }
