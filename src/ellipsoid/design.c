@@ -133,7 +133,7 @@ static void solve_model(const core *c, double least, double *weight) {
         add_point(&q, c, i, 0);
         qp_settle(&q);
     }
-    qp_refine(&q);
+    if (least < 1e-10) qp_refine(&q);
     for (uint32_t i = 0; i < c->count; i++) weight[i] = 0;
     for (int k = 0; k < q.count; k++) weight[q.item[k]] = q.x[k];
 }

@@ -14,6 +14,8 @@
 // the one that the ellipsoid exceeds most. The result is not trusted: the caller proves what it returns.
 #include "ellipsoid/inscribe.h"
 
+#include "linear/both.h"
+
 // Halfspaces at a time; cells of directions; steps; rounds; halfspaces to begin with; unknowns of D, and of D and p.
 enum { WORKING = 64, CELLS = 24, STEPS = 40, ROUNDS = 40, FIRST = 6, FORM = 6, UNKNOWNS = 9 };
 
@@ -21,33 +23,60 @@ enum { WORKING = 64, CELLS = 24, STEPS = 40, ROUNDS = 40, FIRST = 6, FORM = 6, U
 #define PROXIMAL 1e-3
 #define ROOT_2 1.4142135623730951
 
+// Normals and offsets, side by side. An odd number is made even by a plane at infinity.
+typedef struct columns {
+    double x[WORKING], y[WORKING], z[WORKING], offset[WORKING];
+} columns;
+
 typedef struct solver {
     const ovoid_plane *items[WORKING];
     uint32_t count;
     inscribed *s;
     double reach;                        // about the largest |u| of the body
-    vec3 g[WORKING];                     // unit normals where the ellipsoid is the unit ball
-    double beta[WORKING];                // and offsets
+    columns given, g;                    // the items; and where the ellipsoid is the unit ball
     sym3 second;                         // sum of y g g'
     double l[FORM][FORM], inverse[FORM]; // Cholesky of the second derivative in D
     double gradient[FORM];               // L^-1 of that of log det E
-    double step[UNKNOWNS];               // D, its entries off the diagonal times the root of 2, and p
+    double step[QP_WIDTH];               // D, its entries off the diagonal times the root of 2, and p
 } solver;
+
+static void gather(solver *w) {
+    columns *c = &w->given;
+    for (uint32_t i = 0; i < w->count + w->count % 2; i++) {
+        const ovoid_plane *h = w->items[i < w->count ? i : 0];
+        c->x[i] = h->normal.x, c->y[i] = h->normal.y, c->z[i] = h->normal.z;
+        c->offset[i] = i < w->count ? h->offset : INFINITY;
+    }
+}
+
+static vec3 get_normal(const solver *w, uint32_t i) { return (vec3){w->g.x[i], w->g.y[i], w->g.z[i]}; }
+
+static both both_set(double x) { return both_make(x, x); }
+static both_vec3 load_normals(const columns *c, uint32_t i) {
+    return (both_vec3){both_load(c->x + i), both_load(c->y + i), both_load(c->z + i)};
+}
 
 // Evaluates the halfspaces, and scales the ellipsoid until it meets the first. 0 if its centre is outside.
 static int evaluate(solver *w) {
     inscribed *s = w->s;
+    lower3 l = s->map;
+    both_vec3 center = both_vec3_make(s->x, s->x);
     double least = INFINITY;
-    for (uint32_t i = 0; i < w->count; i++) {
-        vec3 g = lower3_mul_transposed_vec3(s->map, w->items[i]->normal);
-        double part = 1 / vec3_norm(g);
-        w->g[i] = vec3_scale(g, part);
-        w->beta[i] = (w->items[i]->offset - vec3_dot(w->items[i]->normal, s->x)) * part;
-        if (!(w->beta[i] >= least)) least = w->beta[i];
+    for (uint32_t i = 0; i < w->count; i += 2) {
+        both_vec3 n = load_normals(&w->given, i);
+        both_vec3 g = {(both_set(l.xx) * n.x + both_set(l.yx) * n.y) + both_set(l.zx) * n.z,
+                       both_set(l.yy) * n.y + both_set(l.zy) * n.z, both_set(l.zz) * n.z};
+        both square = both_vec3_dot(g, g), part = both_set(1) / both_make(sqrt(square[0]), sqrt(square[1]));
+        both beta = (both_load(w->given.offset + i) - both_vec3_dot(n, center)) * part;
+        both_store(w->g.x + i, g.x * part), both_store(w->g.y + i, g.y * part), both_store(w->g.z + i, g.z * part);
+        both_store(w->g.offset + i, beta);
+        if (!(beta[0] >= least)) least = beta[0];
+        if (!(beta[1] >= least)) least = beta[1];
     }
     if (!(least > 0 && isfinite(least))) return 0;
     s->map = lower3_scale(s->map, least);
-    for (uint32_t i = 0; i < w->count; i++) w->beta[i] *= 1 / least;
+    for (uint32_t i = 0; i < w->count; i += 2)
+        both_store(w->g.offset + i, both_load(w->g.offset + i) * both_set(1 / least));
     return 1;
 }
 
@@ -58,10 +87,10 @@ static double compute_gap(solver *w) {
     double sum = 0;
     w->second = (sym3){0, 0, 0, 0, 0, 0};
     for (int k = 0; k < s->count; k++) {
-        vec3 g = w->g[s->item[k]];
+        vec3 g = get_normal(w, s->item[k]);
         w->second = sym3_add(w->second, sym3_outer(g, s->weight[k]));
         first = vec3_add_scaled(first, g, s->weight[k]);
-        sum += s->weight[k] * w->beta[s->item[k]];
+        sum += s->weight[k] * w->g.offset[s->item[k]];
     }
     double third = (sum + vec3_norm(first) * w->reach) / 3, det = sym3_det(w->second);
     return s->count && det > 0 ? third * third * third / det - 1 : INFINITY;
@@ -99,12 +128,14 @@ static int factor_second(solver *w) {
                        max2((fabs(p.xy) + fabs(p.yy)) + fabs(p.yz), (fabs(p.xz) + fabs(p.yz)) + fabs(p.zz)));
     double part = 1 / max2(1, rows), (*l)[FORM] = w->l;
     for (int i = 0; i < FORM; i++)
-        for (int j = 0; j <= i; j++) l[i][j] = i == j ? (s->count ? 2 : 1.6) : 0;
+        for (int j = 0; j < FORM; j++) l[i][j] = i == j ? (s->count ? 2 : 1.6) : 0;
     for (int k = 0; k < s->count; k++) {
         double a[UNKNOWNS];
-        fill_gradient(w->g[s->item[k]], a);
+        fill_gradient(get_normal(w, s->item[k]), a);
+        // Two at a time: one entry beyond the diagonal is never read.
         for (int i = 0; i < FORM; i++)
-            for (int j = 0; j <= i; j++) l[i][j] -= s->weight[k] * part * a[i] * a[j];
+            for (int j = 0; j <= i; j += 2)
+                both_store(l[i] + j, both_load(l[i] + j) - both_set(s->weight[k] * part * a[i]) * both_load(a + j));
     }
     for (int j = 0; j < FORM; j++) {
         for (int k = 0; k < j; k++) l[j][j] -= l[j][k] * l[j][k];
@@ -124,8 +155,8 @@ static int factor_second(solver *w) {
 
 // Adds a halfspace to the dual program.
 static void add_halfspace(const solver *w, qp *q, uint32_t i, double weight) {
-    double *row = q->row[q->count], c = 1 - w->beta[i];
-    fill_gradient(w->g[i], row);
+    double *row = q->row[q->count], c = 1 - w->g.offset[i];
+    fill_gradient(get_normal(w, i), row);
     solve_lower(w, row);
     for (int k = 0; k < FORM; k++) c += row[k] * w->gradient[k];
     for (int k = FORM; k < UNKNOWNS; k++) row[k] *= 1 / sqrt(PROXIMAL);
@@ -142,12 +173,12 @@ static void choose_first(const solver *w, qp *q) {
     uint32_t near[FIRST], count = 0;
     for (uint32_t i = 0; i < w->count; i++) {
         uint32_t k = count;
-        if (k == FIRST && w->beta[i] >= w->beta[near[k - 1]]) continue;
+        if (k == FIRST && w->g.offset[i] >= w->g.offset[near[k - 1]]) continue;
         if (k == FIRST)
             k--;
         else
             count++;
-        for (; k > 0 && w->beta[near[k - 1]] > w->beta[i]; k--) near[k] = near[k - 1];
+        for (; k > 0 && w->g.offset[near[k - 1]] > w->g.offset[i]; k--) near[k] = near[k - 1];
         near[k] = i;
     }
     for (uint32_t k = 0; k < count; k++) add_halfspace(w, q, near[k], 3.0 / count);
@@ -155,28 +186,31 @@ static void choose_first(const solver *w, qp *q) {
 
 // The step that belongs to the multipliers: H^-1 (gradient of log det E - sum y a).
 static void compute_step(solver *w, const qp *q) {
-    double *d = w->step, a[UNKNOWNS];
-    for (int i = 0; i < UNKNOWNS; i++) d[i] = i == 0 || i == 3 || i == 5;
-    for (int k = 0; k < q->count; k++) {
-        fill_gradient(w->g[q->item[k]], a);
-        for (int i = 0; i < UNKNOWNS; i++) d[i] -= q->x[k] * a[i];
-    }
-    solve_lower(w, d);
+    double *d = w->step;
+    // The rows of the program are L^-1 a; the last entry is none.
+    both sum[QP_WIDTH / 2];
+    for (int i = 0; i < QP_WIDTH / 2; i++) sum[i] = 2 * i < FORM ? both_load(w->gradient + 2 * i) : both_make(0, 0);
+    for (int k = 0; k < q->count; k++)
+        for (int i = 0; i < QP_WIDTH / 2; i++) sum[i] -= both_load(q->row[k] + 2 * i) * both_make(q->x[k], q->x[k]);
+    for (int i = 0; i < QP_WIDTH / 2; i++) both_store(d + 2 * i, sum[i]);
     solve_upper(w, d);
-    for (int i = FORM; i < UNKNOWNS; i++) d[i] *= 1 / PROXIMAL;
+    for (int i = FORM; i < UNKNOWNS; i++) d[i] *= 1 / sqrt(PROXIMAL);
 }
 
 // The halfspace outside of the program whose linearised constraint the step violates most, if by more than `least`;
 // else their number.
 static uint32_t find_violated(const solver *w, const qp *q, double least) {
     const double *d = w->step;
-    double xy = ROOT_2 * d[1], xz = ROOT_2 * d[2], yz = ROOT_2 * d[4];
+    both xx = both_set(d[0]), xy = both_set(ROOT_2 * d[1]), xz = both_set(ROOT_2 * d[2]), yy = both_set(d[3]);
+    both yz = both_set(ROOT_2 * d[4]), zz = both_set(d[5]), one = both_set(1);
+    both px = both_set(d[6]), py = both_set(d[7]), pz = both_set(d[8]);
     uint32_t worst = w->count;
-    for (uint32_t i = 0; i < w->count; i++) {
-        vec3 g = w->g[i];
-        double x = g.x * ((d[0] * g.x + xy * g.y) + (xz * g.z + d[6])), y = g.y * ((d[3] * g.y + yz * g.z) + d[7]);
-        double out = (x + y) + (g.z * (d[5] * g.z + d[8]) - (w->beta[i] - 1));
-        if (out > least && !qp_has(q, i)) least = out, worst = i;
+    for (uint32_t i = 0; i < w->count; i += 2) {
+        both_vec3 g = load_normals(&w->g, i);
+        both x = g.x * ((xx * g.x + xy * g.y) + (xz * g.z + px)), y = g.y * ((yy * g.y + yz * g.z) + py);
+        both out = (x + y) + (g.z * (zz * g.z + pz) - (both_load(w->g.offset + i) - one));
+        for (uint32_t k = 0; k < 2; k++)
+            if (out[k] > least && !qp_has(q, i + k)) least = out[k], worst = i + k;
     }
     return worst;
 }
@@ -194,20 +228,30 @@ static void solve_model(solver *w, double least) {
         add_halfspace(w, &q, i, 0);
         qp_settle(&q);
     }
-    qp_refine(&q);
-    compute_step(w, &q);
+    // Without this the ridge moves the constraints by some 1e-8.
+    if (least < 1e-10) {
+        qp_refine(&q);
+        compute_step(w, &q);
+    }
     w->s->count = q.count;
     for (int k = 0; k < q.count; k++) w->s->item[k] = q.item[k], w->s->weight[k] = q.x[k];
 }
 
 // The square of the factor by which { p + (I + D) u } must be scaled to fit.
 static double compute_fit(const solver *w, sym3 e, vec3 p) {
+    both_vec3 at = both_vec3_make(p, p);
+    both xx = both_set(e.xx), xy = both_set(e.xy), xz = both_set(e.xz), yy = both_set(e.yy), yz = both_set(e.yz);
+    both zz = both_set(e.zz);
     double least = INFINITY;
-    for (uint32_t i = 0; i < w->count; i++) {
-        vec3 u = sym3_mul_vec3(e, w->g[i]);
-        double room = w->beta[i] - vec3_dot(w->g[i], p), square = vec3_norm_squared(u);
-        if (!(room > 0)) return 0;
-        if (room * room < least * square) least = room * room / square;
+    for (uint32_t i = 0; i < w->count; i += 2) {
+        both_vec3 g = load_normals(&w->g, i);
+        both_vec3 u = {(xx * g.x + xy * g.y) + xz * g.z, (xy * g.x + yy * g.y) + yz * g.z,
+                       (xz * g.x + yz * g.y) + zz * g.z};
+        both room = both_load(w->g.offset + i) - both_vec3_dot(g, at), square = both_vec3_dot(u, u), all = room * room;
+        for (int k = 0; k < 2; k++) {
+            if (!(room[k] > 0)) return 0;
+            if (all[k] < least * square[k]) least = all[k] / square[k];
+        }
     }
     return least;
 }
@@ -241,6 +285,7 @@ static int move(solver *w) {
 // Steps on the solver's halfspaces until the gap is small, or there is no progress. 0 if the centre is outside.
 static int settle(solver *w, double gap) {
     inscribed *s = w->s;
+    gather(w);
     for (int step = 0; step < STEPS; step++) {
         if (!evaluate(w)) return 0;
         s->gap = compute_gap(w);

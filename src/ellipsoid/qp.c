@@ -5,7 +5,7 @@
 // Nothing is trusted: the callers prove what they make of it.
 #include "ellipsoid/qp.h"
 
-#include <math.h>
+#include "linear/both.h"
 
 // A pivot below this share of its diagonal entry belongs to a row that the earlier ones span.
 #define QP_DEPENDENT 1e-13
@@ -13,16 +13,22 @@
 // of growth, and one of the unknowns reaches zero on the way, as it should.
 #define QP_RIDGE 1e-11
 
-void qp_clear(qp *q) { q->count = q->factored = 0; }
+// The inner product of at least `count` entries, an even number of them: even and odd ones are summed in two lanes.
+static double compute_dot(const double *a, const double *b, int count) {
+    both sum = {0, 0};
+    for (int k = 0; k < count; k += 2) sum += both_load(a + k) * both_load(b + k);
+    return sum[0] + sum[1];
+}
+
+void qp_clear(qp *q) {
+    q->count = q->factored = 0;
+    for (int i = 0; i < QP_SIZE; i++) q->half[i] = 0;
+}
 
 void qp_add(qp *q, double x) {
     int last = q->count++;
     q->x[last] = x;
-    for (int j = 0; j <= last; j++) {
-        double sum = 0;
-        for (int k = 0; k < QP_WIDTH; k++) sum += q->row[last][k] * q->row[j][k];
-        q->gram[last][j] = q->gram[j][last] = sum;
-    }
+    for (int j = 0; j <= last; j++) q->gram[last][j] = compute_dot(q->row[last], q->row[j], QP_WIDTH);
 }
 
 int qp_has(const qp *q, uint32_t item) {
@@ -40,51 +46,47 @@ static void drop(qp *q, int i) {
     q->c[i] = q->c[last];
     q->x[i] = q->x[last];
     for (int k = 0; k < QP_WIDTH; k++) q->row[i][k] = q->row[last][k];
-    for (int j = 0; j < last; j++)
-        if (j != i) q->gram[i][j] = q->gram[j][i] = q->gram[last][j];
+    for (int j = 0; j < i; j++) q->gram[i][j] = q->gram[last][j];
+    for (int j = i + 1; j < last; j++) q->gram[j][i] = q->gram[last][j];
     q->gram[i][i] = q->gram[last][last];
 }
 
-// Completes the Cholesky factor of the Gram matrix with its ridge. Returns -1, or the first unknown whose row the
-// earlier ones span.
+// Completes the Cholesky factor of the Gram matrix with its ridge, and L^-1 c. Returns -1, or the first unknown whose
+// row the earlier ones span. Entries of a row from its diagonal on are zero.
 static int complete_factor(qp *q) {
     for (; q->factored < q->count; q->factored++) {
         int i = q->factored;
         double *row = q->factor[i], d = q->gram[i][i] * (1 + QP_RIDGE);
-        for (int j = 0; j < i; j++) {
-            double s = q->gram[i][j];
-            for (int k = 0; k < j; k++) s -= row[k] * q->factor[j][k];
-            row[j] = s * q->inverse[j];
-        }
-        for (int k = 0; k < i; k++) d -= row[k] * row[k];
+        for (int k = 0; k < QP_SIZE; k++) row[k] = 0;
+        for (int j = 0; j < i; j++) row[j] = (q->gram[i][j] - compute_dot(row, q->factor[j], j)) * q->inverse[j];
+        d -= compute_dot(row, row, i);
         if (!(d > QP_DEPENDENT * q->gram[i][i])) return i;
         q->inverse[i] = 1 / sqrt(d);
+        q->half[i] = (q->c[i] - compute_dot(row, q->half, i)) * q->inverse[i];
     }
     return -1;
 }
 
-// x = (L L')^-1 c
-static void solve(const qp *q, const double *c, double *x) {
-    for (int j = 0; j < q->count; j++) {
-        double s = c[j];
-        for (int k = 0; k < j; k++) s -= q->factor[j][k] * x[k];
-        x[j] = s * q->inverse[j];
-    }
+// x = L'^-1 x
+static void solve_upper(const qp *q, double *x) {
     for (int i = q->count - 1; i >= 0; i--) {
-        double s = x[i];
-        for (int k = i + 1; k < q->count; k++) s -= q->factor[k][i] * x[k];
-        x[i] = s * q->inverse[i];
+        double value = x[i] * q->inverse[i];
+        // Past the end a row has a zero.
+        for (int k = 0; k < i; k += 2)
+            both_store(x + k, both_load(x + k) - both_load(q->factor[i] + k) * both_make(value, value));
+        x[i] = value;
     }
 }
 
 // The rest of the equations without the ridge, solved with it.
 void qp_refine(qp *q) {
-    double rest[QP_SIZE] = {0}, more[QP_SIZE];
+    double more[QP_SIZE] = {0};
     for (int i = 0; i < q->count; i++) {
-        rest[i] = q->c[i];
-        for (int j = 0; j < q->count; j++) rest[i] -= q->gram[i][j] * q->x[j];
+        double rest = q->c[i];
+        for (int j = 0; j < q->count; j++) rest -= (i > j ? q->gram[i][j] : q->gram[j][i]) * q->x[j];
+        more[i] = (rest - compute_dot(q->factor[i], more, i)) * q->inverse[i];
     }
-    solve(q, rest, more);
+    solve_upper(q, more);
     for (int i = 0; i < q->count; i++)
         if (!(q->x[i] + more[i] > 0)) return;
     for (int i = 0; i < q->count; i++) q->x[i] += more[i];
@@ -97,7 +99,8 @@ void qp_settle(qp *q) {
         int gone = complete_factor(q);
         double part = 1;
         if (gone < 0) {
-            solve(q, q->c, goal);
+            for (int i = 0; i < QP_SIZE; i++) goal[i] = i < q->count ? q->half[i] : 0;
+            solve_upper(q, goal);
             for (int i = 0; i < q->count; i++)
                 if (goal[i] <= 0 && part * (q->x[i] - goal[i]) >= q->x[i])
                     part = q->x[i] / (q->x[i] - goal[i]), gone = i;

@@ -13,9 +13,10 @@ typedef struct qp {
     uint32_t item[QP_SIZE]; ///< what the unknown belongs to, for the caller
     double row[QP_SIZE][QP_WIDTH];
     double c[QP_SIZE], x[QP_SIZE];
-    double gram[QP_SIZE][QP_SIZE];                     ///< row_i . row_j
+    double gram[QP_SIZE][QP_SIZE];                     ///< row_i . row_j for j <= i
     int factored;                                      ///< unknowns whose rows of the factor below are there
     double factor[QP_SIZE][QP_SIZE], inverse[QP_SIZE]; ///< Cholesky's, below the diagonal, and the diagonal's inverse
+    double half[QP_SIZE];                              ///< L^-1 c
 } qp;
 
 /// A program without unknowns.

@@ -4,9 +4,18 @@
 
 #include "linear/rotation.h"
 
+#include <string.h>
+
 typedef double both __attribute__((vector_size(16)));
 
 static inline both both_make(double a, double b) { return (both){a, b}; }
+/// x[0] and x[1], at any address.
+static inline both both_load(const double *x) {
+    both v;
+    memcpy(&v, x, sizeof v);
+    return v;
+}
+static inline void both_store(double *x, both v) { memcpy(x, &v, sizeof v); }
 
 /// Two vectors, with the operations and the order of vec3.h.
 typedef struct both_vec3 {
