@@ -18,9 +18,9 @@
 // of itself, at least 1e-10.
 //
 // A face of the cube begins with all vertices, each division with the list of the cell around it. The extreme vertices
-// at nine directions of a cell beat most vertices; in short lists all are tested against all. Cost: about half a us a
-// vertex. Lists of round bodies have 5 vertices and take 270 bytes a vertex. If lists stay long, as for the rings of a
-// cylinder, cells are coarser, and at most 512 bytes a vertex are used.
+// at the corners and the centre of a cell beat most vertices; of those left all are tested against all, unless they fit
+// one block. Cost: about half a us a vertex. Lists of round bodies have 5 vertices and take 270 bytes a vertex. If
+// lists stay long, as for the rings of a cylinder, cells are coarser, and at most 512 bytes a vertex are used.
 #include "shape/support_table.h"
 
 #include "base/allocator.h"
@@ -30,7 +30,7 @@
 
 #include <string.h>
 
-enum { SAMPLES = 9, SHORT = 32, PAIRS_MAX = 96, NESTED_MOST = 4, K_MOST = 128, LEVELS = 14, WHOLE = 4 };
+enum { SAMPLES = 9, PAIRS_MAX = 96, NESTED_MOST = 4, K_MOST = 128, LEVELS = 14, WHOLE = 4 };
 
 /// Vertices that may be extreme, padded to a multiple of 8 by the first.
 typedef struct list {
@@ -48,7 +48,7 @@ typedef struct builder {
     sym3 inverse;
     double reach;        ///< the largest length of a vertex
     list levels[LEVELS]; ///< room for the lists of a cell and of those around it
-    /// Of squares with longer lists: the vertices that are extreme at nine directions, row by row.
+    /// Of the square at each level: the vertices that are extreme at nine directions, row by row.
     uint32_t winners[LEVELS][SAMPLES];
     uint8_t *bits;
 } builder;
@@ -129,32 +129,32 @@ static void cull(const builder *b, const contest *c, const list *from, list *to)
     keep(b->bits, from, to);
 }
 
-/// Finds the vertices that are extreme at nine directions of the square: its corners, its centre and the middles of its
-/// sides. The corners are among the nine directions of the square around it, whose list is longer.
-static void find_winners(builder *b, const square *s, int level) {
-    uint32_t *own = b->winners[level];
-    simd_points points = get_points(&b->levels[level]);
-    for (uint32_t row = 0; row < 3; row++)
-        for (uint32_t column = 0; column < 3; column++) {
-            if (s->quarter != WHOLE && row != 1 && column != 1) {
-                own[3 * row + column] =
-                    b->winners[level - 1][3 * ((s->quarter >> 1) + row / 2) + (s->quarter & 1) + column / 2];
-                continue;
-            }
-            vec3 n = direction_at(b, s, 0.5 * row, 0.5 * column);
-            own[3 * row + column] = b->levels[level].index[simd_find_support(&points, n).index];
-        }
+/// The vertex of the list of a square that is extreme at a direction of the square.
+static uint32_t find_winner(const builder *b, const list *l, const square *s, uint32_t row, uint32_t column) {
+    simd_points points = get_points(l);
+    return l->index[simd_find_support(&points, direction_at(b, s, 0.5 * row, 0.5 * column)).index];
 }
 
-/// Adds the winners, each once.
+/// Adds the vertices that are extreme at the corners of the square and at its centre, each once. The corners are among
+/// the nine directions of the square around it.
 static void enter_winners(builder *b, contest *c, int level) {
-    const uint32_t *own = b->winners[level];
-    find_winners(b, &c->s, level);
-    for (uint32_t i = 0; i < SAMPLES; i++) {
-        uint32_t first = 0;
-        while (own[first] != own[i]) first++;
-        if (first == i) enter(c, &b->levels[0], own[i]);
+    uint32_t *own = b->winners[level], found[5];
+    const square *s = &c->s;
+    for (uint32_t i = 0; i < 5; i++) {
+        uint32_t row = i == 4 ? 1 : i & 2, column = i == 4 ? 1 : 2 * (i & 1), before = 0;
+        own[3 * row + column] =
+            i < 4 && s->quarter != WHOLE
+                ? b->winners[level - 1][3 * ((s->quarter >> 1) + row / 2) + (s->quarter & 1) + column / 2]
+                : find_winner(b, &b->levels[level], s, row, column);
+        found[i] = own[3 * row + column];
+        while (found[before] != found[i]) before++;
+        if (before == i) enter(c, &b->levels[0], found[i]);
     }
+}
+
+/// Finds the vertices that are extreme at the middles of the square's sides, before it is divided. l: its own list.
+static void find_middles(builder *b, const square *s, const list *l, int level) {
+    for (uint32_t i = 1; i < SAMPLES; i += 2) b->winners[level][i] = find_winner(b, l, s, i / 3, i % 3);
 }
 
 /// Copies the points that no other point of the list beats.
@@ -164,17 +164,10 @@ static void cull_by_pairs(const builder *b, contest *c, const list *from, list *
     cull(b, c, from, to);
 }
 
-/// Copies the points that the extreme points at nine directions of the cell do not beat; in a short list all are
-/// tested.
+/// Copies the points that the extreme points at five directions of the cell do not beat.
 static void cull_by_samples(builder *b, contest *c, int level) {
-    const list *from = &b->levels[level];
-    list *to = &b->levels[level + 1];
-    if (from->count <= SHORT) {
-        cull_by_pairs(b, c, from, to);
-        return;
-    }
     enter_winners(b, c, level);
-    cull(b, c, from, to);
+    cull(b, c, &b->levels[level], &b->levels[level + 1]);
 }
 
 static square quarter(const square *s, uint32_t i) {
@@ -216,12 +209,13 @@ static int fill_cell(builder *b, const square *s, uint32_t at, int level, int ne
     list *l = &b->levels[level + 1];
     contest_make(b, s, &c);
     cull_by_samples(b, &c, level);
-    if (b->levels[level].count > SHORT && l->count > SIMD_CELL && l->count <= PAIRS_MAX) cull_by_pairs(b, &c, l, l);
+    if (l->count > SIMD_CELL && l->count <= PAIRS_MAX) cull_by_pairs(b, &c, l, l);
     if (l->count <= SIMD_CELL || nested == NESTED_MOST || b->used > b->divided_most) return fill_list(b, at, l);
     uint32_t next;
     if (!reserve(b, 4, &next)) return 0;
     b->cells[at].count = 0;
     b->cells[at].next = next;
+    find_middles(b, s, l, level);
     for (uint32_t i = 0; i < 4; i++) {
         square inner = quarter(s, i);
         if (!fill_cell(b, &inner, next + i, level + 1, nested + 1)) return 0;
@@ -237,6 +231,7 @@ static int fill_grid(builder *b, const square *s, uint32_t row, uint32_t column,
     contest c;
     contest_make(b, s, &c);
     cull_by_samples(b, &c, level);
+    find_middles(b, s, &b->levels[level + 1], level);
     for (uint32_t i = 0; i < 4; i++) {
         square inner = quarter(s, i);
         if (!fill_grid(b, &inner, 2 * row + (i >> 1), 2 * column + (i & 1), level + 1)) return 0;
