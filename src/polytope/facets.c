@@ -256,9 +256,10 @@ int neighbors_compute(const surface *s, uint32_t *starts, uint32_t *neighbors, c
 
     // Each edge occurs once in each direction. First the lists in any order, then their transpose, which is sorted.
     memcpy(end, starts, count * sizeof *end);
-    for (size_t e = 0; e < edges; e++) {
-        size_t next = e % 3 == 2 ? e - 2 : e + 1;
-        unsorted[end[s->triangles[e]]++] = s->triangles[next];
+    for (const uint32_t *t = s->triangles; t < s->triangles + edges; t += 3) {
+        unsorted[end[t[0]]++] = t[1];
+        unsorted[end[t[1]]++] = t[2];
+        unsorted[end[t[2]]++] = t[0];
     }
     memcpy(end, starts, count * sizeof *end);
     for (uint32_t v = 0; v < count; v++)

@@ -1,6 +1,7 @@
-// Merge sort from the bottom up: runs of 1, 2, 4, ... are merged until one is left. Stable, n log n, no recursion.
-// Radix sort from the lowest byte (H. H. Seward, Information sorting in the application of electronic digital computers
-// to business operations, 1954); bytes that are equal in all keys are skipped.
+// Indices: merge sort from the bottom up: runs of 1, 2, 4, ... are merged until one is left. Stable, n log n, no
+// recursion. Entries: one distribution over slots; for many, or where that fails, radix sort from the lowest byte (H.
+// H. Seward, Information sorting in the application of electronic digital computers to business operations, 1954);
+// bytes that are equal in all keys are skipped.
 #include "polytope/sort.h"
 
 #include <string.h>
@@ -30,37 +31,46 @@ void sort_indices(uint32_t *index, uint32_t *scratch, uint32_t count, index_orde
     }
 }
 
-// Radix sort is faster from this number of entries on.
-enum { BYTES = 8, VALUES = 256, RADIX_LEAST = 256 };
+// Entries are distributed up to this number, beyond it sorted by all bytes of their keys.
+enum { BYTES = 8, VALUES = 256, DISTRIBUTED_MOST = 4096, SLOTS = 2048 };
 
-// Short runs are sorted by insertion.
-enum { RUN = 8 };
-
-static void sort_run(sort_entry *entries, uint32_t count) {
+// Sorts nearly sorted entries by insertion. 0 if they are not, after eight moves an entry.
+static int insert_entries(sort_entry *entries, uint32_t count) {
+    uint32_t left = 8 * count;
     for (uint32_t i = 1; i < count; i++) {
         sort_entry entry = entries[i];
         uint32_t k = i;
         for (; k > 0 && entries[k - 1].key > entry.key; k--) entries[k] = entries[k - 1];
         entries[k] = entry;
+        if (i - k > left) return 0;
+        left -= i - k;
     }
+    return 1;
 }
 
-// Merges runs between the two arrays in turn. Returns the one that holds the result.
-static sort_entry *merge_entries(sort_entry *from, sort_entry *to, uint32_t count) {
-    for (uint32_t start = 0; start < count; start += RUN)
-        sort_run(from + start, count - start < RUN ? count - start : RUN);
-    for (uint32_t run = RUN; run < count; run *= 2) {
-        for (uint32_t start = 0; start < count; start += 2 * run) {
-            uint32_t i = start, middle = start + run < count ? start + run : count, j = middle;
-            uint32_t end = middle + run < count ? middle + run : count;
-            for (uint32_t k = start; k < end; k++)
-                to[k] = j == end || (i < middle && from[i].key <= from[j].key) ? from[i++] : from[j++];
-        }
-        sort_entry *swapped = from;
-        from = to;
-        to = swapped;
+static uint32_t count_bits(uint64_t value) { return value ? 64 - (uint32_t)__builtin_clzll(value) : 0; }
+
+// Distributes the entries over about as many slots as there are entries, by the leading bits of what their keys are
+// above the least, and sorts the slots by insertion (E. J. Isaac, R. C. Singleton, Sorting by address calculation,
+// 1956). 0 if most keys fall into few slots; `entries` is unchanged then.
+static int distribute(const sort_entry *entries, sort_entry *to, uint32_t count) {
+    uint64_t least = entries[0].key, most = least;
+    for (uint32_t i = 1; i < count; i++) {
+        least = entries[i].key < least ? entries[i].key : least;
+        most = entries[i].key > most ? entries[i].key : most;
     }
-    return from;
+    uint32_t places[SLOTS], slots = 16, at = 0;
+    while (slots < count && slots < SLOTS) slots *= 2;
+    uint32_t bits = count_bits(most - least), kept = count_bits(slots - 1), shift = bits > kept ? bits - kept : 0;
+    memset(places, 0, slots * sizeof *places);
+    for (uint32_t i = 0; i < count; i++) places[(entries[i].key - least) >> shift]++;
+    for (uint32_t v = 0; v < slots; v++) {
+        uint32_t here = places[v];
+        places[v] = at;
+        at += here;
+    }
+    for (uint32_t i = 0; i < count; i++) to[places[(entries[i].key - least) >> shift]++] = entries[i];
+    return insert_entries(to, count);
 }
 
 // Returns the array that holds the result.
@@ -71,7 +81,7 @@ static sort_entry *sort_by_radix(sort_entry *entries, sort_entry *scratch, uint3
     sort_entry *from = entries, *to = scratch;
     for (int byte = 0; byte < BYTES; byte++) {
         uint32_t *place = places[byte], at = 0;
-        if (count == 0 || place[from[0].key >> 8 * byte & (VALUES - 1)] == count) continue;
+        if (place[from[0].key >> 8 * byte & (VALUES - 1)] == count) continue;
         for (int v = 0; v < VALUES; v++) {
             uint32_t here = place[v];
             place[v] = at;
@@ -86,7 +96,8 @@ static sort_entry *sort_by_radix(sort_entry *entries, sort_entry *scratch, uint3
 }
 
 void sort_entries(sort_entry *entries, sort_entry *scratch, uint32_t count) {
-    const sort_entry *sorted =
-        count < RADIX_LEAST ? merge_entries(entries, scratch, count) : sort_by_radix(entries, scratch, count);
+    if (count < 2) return;
+    int is_done = count <= DISTRIBUTED_MOST && distribute(entries, scratch, count);
+    const sort_entry *sorted = is_done ? scratch : sort_by_radix(entries, scratch, count);
     if (sorted != entries) memcpy(entries, sorted, count * sizeof *entries);
 }

@@ -27,8 +27,9 @@ static cloud make_cloud(const double *xyz, uint32_t count) {
     return (cloud){xyz, count, vec3_add(vec3_scale(b.min, 0.5), vec3_scale(b.max, 0.5)), unit, 1 / unit};
 }
 
-// The sphere through k <= 4 points, with its centre in their span; 0 if there is none in doubles.
-static int make_through(const vec3 *p, int k, sphere *s) {
+// The sphere through k <= 4 points, with its centre in their span; 0 if there is none in doubles. *is_least: the centre
+// is in their hull, so that no smaller sphere holds them.
+static int make_through(const vec3 *p, int k, sphere *s, int *is_least) {
     vec3 e[3] = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}};
     for (int i = 1; i < k; i++) e[i - 1] = vec3_sub(p[i], p[0]);
     // With c = p0 + sum of x_i e_i: e_i . (c - p0) = |e_i|^2 / 2. Missing edges give the rows of the unit matrix.
@@ -38,23 +39,25 @@ static int make_through(const vec3 *p, int k, sphere *s) {
     if (!sym3_solve(gram, half, &x)) return 0;
     vec3 d = vec3_add_scaled(vec3_add_scaled(vec3_scale(e[0], x.x), e[1], x.y), e[2], x.z);
     *s = (sphere){vec3_add(p[0], d), vec3_norm(d)};
+    *is_least = min2(x.x, min2(x.y, x.z)) >= 0 && (x.x + x.y) + x.z <= 1;
     return vec3_is_finite(s->center);
 }
 
 // The smallest sphere of n <= 5 points that goes through the last one; the points on it become the first ones. Returns
-// their number, 0 if rounding leaves none.
+// their number, 0 if rounding leaves none. Mostly all points are on it, so the largest sets are tried first.
 static int find_smallest(vec3 *p, int n, sphere *best) {
-    int best_set = 0;
-    for (int set = 0; set < 1 << (n - 1); set++) {
+    int best_set = 0, is_least = 0;
+    for (int set = (1 << (n - 1)) - 1; set >= 0 && !(best_set && is_least); set--) {
         vec3 on[5] = {p[n - 1]};
         int k = 1;
         for (int i = 0; i < n - 1; i++)
             if (set >> i & 1) on[k++] = p[i];
         sphere s;
-        if (k > 4 || !make_through(on, k, &s) || (best_set && s.radius >= best->radius)) continue;
+        int could_be;
+        if (k > 4 || !make_through(on, k, &s, &could_be) || (best_set && s.radius >= best->radius)) continue;
         int holds = 1;
         for (int i = 0; i < n; i++) holds &= vec3_norm(vec3_sub(p[i], s.center)) <= s.radius * (1 + 1e-12);
-        if (holds) *best = s, best_set = set | 1 << (n - 1);
+        if (holds) *best = s, best_set = set | 1 << (n - 1), is_least = could_be;
     }
     int k = 0;
     for (int i = 0; i < n && best_set; i++)
