@@ -74,7 +74,7 @@ typedef struct joiner {
     uint32_t *seeds;     // for each facet its first triangle
     uint32_t *facet_of;
     uint8_t *kinds;
-    double flatness;
+    double flatness, thin; // thin: no triangle of a larger area is a sliver
 } joiner;
 
 static double compute_height(const joiner *j, uint32_t corner, const ovoid_plane *plane) {
@@ -119,6 +119,13 @@ static uint32_t find_host(const joiner *j, uint32_t t) {
     return host;
 }
 
+// 1 if a triangle is no higher than the flatness over its longest side.
+static int is_sliver(const joiner *j, uint32_t t, const vec3 corner[3]) {
+    double longest = 0;
+    for (int k = 0; k < 3; k++) longest = max2(longest, vec3_norm_squared(vec3_sub(corner[(k + 1) % 3], corner[k])));
+    return j->area[t] <= sqrt(longest) * j->flatness;
+}
+
 // Computes planes, areas and kinds, in the order of the triangles, for locality. A triangle is "near" if one across an
 // edge may join it: the corner beyond the edge is tested first, as it mostly decides.
 static void prepare(joiner *j) {
@@ -130,9 +137,7 @@ static void prepare(joiner *j) {
         ovoid_plane *plane = j->planes + t;
         *plane = (ovoid_plane){normal, vec3_dot(normal, c[0])};
         j->area[t] = vec3_norm(s->areas[t]);
-        double longest = 0;
-        for (int k = 0; k < 3; k++) longest = max2(longest, vec3_norm_squared(vec3_sub(c[(k + 1) % 3], c[k])));
-        j->kinds[t] = j->area[t] <= sqrt(longest) * j->flatness ? TRIANGLE_SLIVER : TRIANGLE_PLAIN;
+        j->kinds[t] = j->area[t] <= j->thin && is_sliver(j, t, c) ? TRIANGLE_SLIVER : TRIANGLE_PLAIN;
         for (uint32_t k = 0; k < 3; k++)
             if (compute_height(j, surface_get_beyond(s, t, k), plane) <= j->flatness &&
                 is_in_plane(j, s->across[3 * (size_t)t + k], plane))
@@ -182,6 +187,14 @@ static void add_compensated(double *sum, double *rest, double value) {
 // Replaces the planes of first triangles by those of facets: the sum of the areas that face the same way. In a plain
 // sum the roundings of thousands of slivers would turn the plane of a round face. rests: cleared, one a facet.
 static void compute_normals(const joiner *j, ovoid_plane *planes, vec3 *rests, uint32_t count) {
+    if (count == j->s->triangle_count) {
+        // Each facet is a triangle. + 0.0 makes every zero positive, as sums are.
+        for (uint32_t f = 0; f < count; f++) {
+            vec3 n = j->planes[j->seeds[f]].normal;
+            planes[f] = (ovoid_plane){{n.x + 0.0, n.y + 0.0, n.z + 0.0}, -INFINITY};
+        }
+        return;
+    }
     for (uint32_t f = 0; f < count; f++) planes[f] = (ovoid_plane){{0, 0, 0}, -INFINITY};
     for (uint32_t t = 0; t < j->s->triangle_count; t++) {
         uint32_t f = j->facet_of[t];
@@ -213,7 +226,9 @@ void facets_set_offsets(const surface *s, const double *vertices, facets *f) {
 
 int facets_create(const surface *s, const points *p, facets *f, const ovoid_allocator *allocator) {
     joiner j = {.s = s, .grid = p->grid, .facet_of = f->of};
-    j.flatness = FACET_FLATNESS * compute_extent(p->grid, p->count);
+    double extent = compute_extent(p->grid, p->count);
+    j.flatness = FACET_FLATNESS * extent;
+    j.thin = 4 * extent * j.flatness;
     size_t count = s->triangle_count;
     j.planes = allocator_allocate(allocator, count, sizeof *j.planes + sizeof *j.area + 3 * sizeof *j.order + 1);
     if (!j.planes) return 0;

@@ -40,7 +40,6 @@ enum { MANY = 2048, FEW = 128 };
 
 typedef struct facet {
     vec3 normal;        // (a - c) x (b - c), rounded
-    double bound;       // of the rounding of normal . (q - c), for any point q
     uint32_t vertex[3]; // a, b, c
     uint32_t across[3]; // beyond a b, b c, c a
     uint32_t points;    // its list: the highest point above it first, if there is any; NOTHING if it is empty
@@ -71,7 +70,7 @@ typedef struct builder {
     uint32_t first, last;   // of the queue of facets with points above
     uint32_t top, few;      // of the stack of facets with at most `few` points above
     uint32_t stamp;
-    vec3 size; // of the points' box, rounded up
+    double bound; // of the rounding of normal . (q - c), for any facet and point q
 } builder;
 
 static int array_grow(array *a, size_t size, const ovoid_allocator *allocator) {
@@ -211,10 +210,6 @@ static uint32_t add_facet(builder *b, uint32_t u, uint32_t v, uint32_t w) {
     facet *f = get_facet(b, index);
     vec3 c = get_point(b, w), p = vec3_sub(get_point(b, u), c), q = vec3_sub(get_point(b, v), c);
     f->normal = vec3_cross(p, q);
-    double x = fabs(p.y * q.z) + fabs(p.z * q.y), y = fabs(p.z * q.x) + fabs(p.x * q.z);
-    double z = fabs(p.x * q.y) + fabs(p.y * q.x);
-    // Shewchuk's (7 + 56 u) u on the permanent, with the box for q - c; rounded up generously.
-    f->bound = 9e-16 * ((x * b->size.x + y * b->size.y) + z * b->size.z);
     f->vertex[0] = u;
     f->vertex[1] = v;
     f->vertex[2] = w;
@@ -231,8 +226,8 @@ static double get_height(const builder *b, const facet *f, uint32_t p) {
 
 // The exact sign of the height over the facet's plane.
 static int get_side(const builder *b, const facet *f, uint32_t p, double height) {
-    if (height > f->bound) return 1;
-    if (-height > f->bound) return -1;
+    if (height > b->bound) return 1;
+    if (-height > b->bound) return -1;
     return -orient3d_sign(get_point(b, f->vertex[0]), get_point(b, f->vertex[1]), get_point(b, f->vertex[2]),
                           get_point(b, p));
 }
@@ -524,15 +519,18 @@ static int extract(builder *b, uint32_t count, surface *s) {
     return order_by_walk(s, b->allocator);
 }
 
-static vec3 compute_size(const double *grid, uint32_t count) {
+// Shewchuk's (7 + 56 u) u on the permanent, which is at most six times the volume of the points' box; rounded up
+// generously.
+static double compute_bound(const double *grid, uint32_t count) {
     box b = box_make_around(grid, count);
-    return vec3_scale(vec3_sub(b.max, b.min), 1 + 0x1p-50);
+    vec3 size = vec3_sub(b.max, b.min);
+    return 9e-16 * 6 * size.x * size.y * size.z;
 }
 
 // The hull of points in their order in memory, from its first simplex.
 static ovoid_code find_hull(builder *b, uint32_t count, surface *s) {
     b->first = b->last = b->top = NOTHING;
-    b->size = compute_size(b->grid, count);
+    b->bound = compute_bound(b->grid, count);
     b->state = s->state = allocator_allocate(b->allocator, count, 1);
     b->next = allocator_allocate(b->allocator, count, sizeof *b->next);
     // A hull of all points has about two facets a point; many points are mostly inside.
