@@ -17,6 +17,7 @@
 
 #include "ellipsoid/closed_fit.h"
 #include "ellipsoid/factor.h"
+#include "linear/both.h"
 #include "polytope/facets.h"
 #include "polytope/winding.h"
 
@@ -87,13 +88,20 @@ int ellipsoid_is_enclosing(const ovoid_polytope *polytope, const ovoid_ellipsoid
 typedef struct scaled {
     sym3dd q;
     vec3 center;
-    double unit; // lengths are multiplied by it
+    double unit;   // lengths are multiplied by it
+    vec3 farthest; // the largest |v - c| along each axis, in that unit
 } scaled;
 
-static scaled scale(const ovoid_ellipsoid *ellipsoid) {
+static scaled scale(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid) {
     const sym3 *q = &ellipsoid->q;
+    vec3 far = {0, 0, 0};
+    for (uint32_t v = 0; v < polytope->vertex_count; v++) {
+        vec3 d = vec3_sub(vec3_at(polytope->vertices, v), ellipsoid->center);
+        far = (vec3){max2(fabs(d.x), far.x), max2(fabs(d.y), far.y), max2(fabs(d.z), far.z)};
+    }
     double unit = ldexp(1, -find_unit_exponent(sqrt(fmax(q->xx, fmax(q->yy, q->zz)))));
-    return (scaled){sym3dd_from(sym3_scale(sym3_scale(*q, unit), unit)), ellipsoid->center, unit};
+    sym3dd scaled_q = sym3dd_from(sym3_scale(sym3_scale(*q, unit), unit));
+    return (scaled){scaled_q, ellipsoid->center, unit, vec3_scale(far, unit)};
 }
 
 // An upper bound of sqrt(n' Q n). 6 + 3 products and 8 sums in double-double: within 2^-97 of the sum of sizes. The
@@ -109,17 +117,6 @@ static double bound_reach(const scaled *s, vec3 direction) {
             size += fabs(term.high);
         }
     return sqrt(fmax(sum.high, 0) + 0x1p-96 * size + 0x1p-900) * (1 + 4 * ROUNDING);
-}
-
-// An upper bound of the square of bound_reach in doubles: products and sums are within 10 roundings of the sum of
-// sizes; 40 roundings exceed that, the rounding of bound_reach, and a rounding of each entry of Q.
-static double bound_reach_roughly(const scaled *s, vec3 n) {
-    double xx = n.x * n.x * s->q.m[0][0].high, yy = n.y * n.y * s->q.m[1][1].high, zz = n.z * n.z * s->q.m[2][2].high;
-    double xy = 2 * n.x * n.y * s->q.m[0][1].high, xz = 2 * n.x * n.z * s->q.m[0][2].high;
-    double yz = 2 * n.y * n.z * s->q.m[1][2].high;
-    double size = ((fabs(xx) + fabs(yy)) + fabs(zz)) + ((fabs(xy) + fabs(xz)) + fabs(yz));
-    double sum = ((xx + yy) + zz) + ((xy + xz) + yz);
-    return max2(sum, 0) + 40 * ROUNDING * size + 0x1p-899;
 }
 
 // The least of n . (v - c) over the triangle, less its rounding: difference, product, two sums, 4 roundings a term; 6
@@ -142,9 +139,55 @@ static double bound_factor(const scaled *s, const vec3 corner[3], vec3 n) {
 
 vec3 triangle_compute_normal(const vec3 corner[3]) { return vec3_unit(compute_area(corner[0], corner[1], corner[2])); }
 
+// ---- two triangles side by side, in doubles
+
+// The planes' normals and the corners of a triangle and the next one.
+typedef struct two_triangles {
+    both_vec3 normal, corner[3];
+} two_triangles;
+
+static two_triangles get_two(const ovoid_polytope *p, uint32_t t) {
+    uint32_t next = t + 1 < p->triangle_count ? t + 1 : t;
+    const uint32_t *a = p->triangles + 3 * (size_t)t, *b = p->triangles + 3 * (size_t)next;
+    two_triangles two;
+    two.normal = both_vec3_make(p->planes[p->triangle_facets[t]].normal, p->planes[p->triangle_facets[next]].normal);
+    for (int i = 0; i < 3; i++) two.corner[i] = both_vec3_make(vec3_at(p->vertices, a[i]), vec3_at(p->vertices, b[i]));
+    return two;
+}
+
+// An upper bound of the square of bound_reach in doubles: products and sums are within 10 roundings of the sum of
+// sizes; 40 roundings exceed that, the rounding of bound_reach, and a rounding of each entry of Q.
+static both bound_reach_roughly(const scaled *s, both_vec3 n) {
+    both x = both_set(2) * n.x, y = both_set(2) * n.y;
+    both xx = n.x * n.x * both_set(s->q.m[0][0].high), yy = n.y * n.y * both_set(s->q.m[1][1].high);
+    both zz = n.z * n.z * both_set(s->q.m[2][2].high), xy = x * n.y * both_set(s->q.m[0][1].high);
+    both xz = x * n.z * both_set(s->q.m[0][2].high), yz = y * n.z * both_set(s->q.m[1][2].high);
+    both size = ((both_abs(xx) + both_abs(yy)) + both_abs(zz)) + ((both_abs(xy) + both_abs(xz)) + both_abs(yz));
+    both sum = ((xx + yy) + zz) + ((xy + xz) + yz);
+    return both_make(max2(sum[0], 0), max2(sum[1], 0)) + both_set(40 * ROUNDING) * size + both_set(0x1p-899);
+}
+
+// A lower bound of n . (v - c) over the corners. Difference, product, two sums: 4 roundings a term, of which none
+// exceeds that of `farthest`; 6 with the bound's own.
+static both bound_least_roughly(const scaled *s, const two_triangles *two) {
+    both_vec3 n = two->normal, center = both_vec3_make(s->center, s->center);
+    both unit = both_set(s->unit), height[3];
+    for (int i = 0; i < 3; i++) {
+        both_vec3 d = both_vec3_sub(two->corner[i], center);
+        height[i] = both_vec3_dot(n, (both_vec3){d.x * unit, d.y * unit, d.z * unit});
+    }
+    both size = both_abs(n.x) * both_set(s->farthest.x) + both_abs(n.y) * both_set(s->farthest.y);
+    size += both_abs(n.z) * both_set(s->farthest.z);
+    return both_min(height[0], both_min(height[1], height[2])) - both_set(6 * ROUNDING) * size - both_set(0x1p-900);
+}
+
+// ---- all triangles
+
 // The factor of a triangle that may limit it: along the plane of its facet, or, if that is below `bound`, along its own
-// normal, which may give a larger one.
-static double bound_triangle(const scaled *s, const vec3 corner[3], vec3 n, double bound) {
+// normal, which may give a larger one. which: of the two.
+static double bound_triangle(const scaled *s, const two_triangles *two, int which, double bound) {
+    vec3 n = both_vec3_get(two->normal, which), corner[3];
+    for (int i = 0; i < 3; i++) corner[i] = both_vec3_get(two->corner[i], which);
     double clear = bound_factor(s, corner, n);
     return clear >= bound ? clear : fmax(clear, bound_factor(s, corner, triangle_compute_normal(corner)));
 }
@@ -157,19 +200,19 @@ typedef struct bounding {
 
 // The bound over all triangles. Most do not limit it, as rough bounds along the planes of their facets show.
 static double compute_clear_bound(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid, bounding how) {
-    scaled s = scale(ellipsoid);
+    scaled s = scale(polytope, ellipsoid);
     double bound = how.most;
-    for (uint32_t t = 0; t < polytope->triangle_count; t++) {
-        const uint32_t *index = polytope->triangles + 3 * (size_t)t;
-        vec3 corner[3];
-        for (int i = 0; i < 3; i++) corner[i] = vec3_at(polytope->vertices, index[i]);
-        vec3 n = polytope->planes[polytope->triangle_facets[t]].normal;
-        double least = bound_least(&s, corner, n), reach = bound_reach_roughly(&s, n);
-        // Squares save a root and a division; an infinite bound is never reached.
-        if (least > 0 && least * least * (1 - 8 * ROUNDING) >= bound * bound * reach) continue;
-        double clear = how.is_rough ? least / sqrt(reach) * (1 - 8 * ROUNDING) : bound_triangle(&s, corner, n, bound);
-        if (!(clear >= bound)) bound = clear;
-        if (isnan(bound)) return -INFINITY;
+    for (uint32_t t = 0; t < polytope->triangle_count; t += 2) {
+        two_triangles two = get_two(polytope, t);
+        both lows = bound_least_roughly(&s, &two), reaches = bound_reach_roughly(&s, two.normal);
+        for (int k = 0; k < 2; k++) {
+            double least = lows[k], reach = reaches[k];
+            // Squares save a root and a division; an infinite bound is never reached.
+            if (least > 0 && least * least * (1 - 8 * ROUNDING) >= bound * bound * reach) continue;
+            double clear = how.is_rough ? least / sqrt(reach) * (1 - 8 * ROUNDING) : bound_triangle(&s, &two, k, bound);
+            if (!(clear >= bound)) bound = clear;
+            if (isnan(bound)) return -INFINITY;
+        }
     }
     return polytope->triangle_count ? bound : -INFINITY;
 }

@@ -51,21 +51,23 @@ static void gather(solver *w) {
 
 static vec3 get_normal(const solver *w, uint32_t i) { return (vec3){w->g.x[i], w->g.y[i], w->g.z[i]}; }
 
-static both both_set(double x) { return both_make(x, x); }
 static both_vec3 load_normals(const columns *c, uint32_t i) {
     return (both_vec3){both_load(c->x + i), both_load(c->y + i), both_load(c->z + i)};
+}
+
+// l' n
+static both_vec3 pull_back(lower3 l, both_vec3 n) {
+    return (both_vec3){(both_set(l.xx) * n.x + both_set(l.yx) * n.y) + both_set(l.zx) * n.z,
+                       both_set(l.yy) * n.y + both_set(l.zy) * n.z, both_set(l.zz) * n.z};
 }
 
 // Evaluates the halfspaces, and scales the ellipsoid until it meets the first. 0 if its centre is outside.
 static int evaluate(solver *w) {
     inscribed *s = w->s;
-    lower3 l = s->map;
     both_vec3 center = both_vec3_make(s->x, s->x);
     double least = INFINITY;
     for (uint32_t i = 0; i < w->count; i += 2) {
-        both_vec3 n = load_normals(&w->given, i);
-        both_vec3 g = {(both_set(l.xx) * n.x + both_set(l.yx) * n.y) + both_set(l.zx) * n.z,
-                       both_set(l.yy) * n.y + both_set(l.zy) * n.z, both_set(l.zz) * n.z};
+        both_vec3 n = load_normals(&w->given, i), g = pull_back(s->map, n);
         both square = both_vec3_dot(g, g), part = both_set(1) / both_make(sqrt(square[0]), sqrt(square[1]));
         both beta = (both_load(w->given.offset + i) - both_vec3_dot(n, center)) * part;
         both_store(w->g.x + i, g.x * part), both_store(w->g.y + i, g.y * part), both_store(w->g.z + i, g.z * part);
@@ -313,15 +315,20 @@ static int find_cell(vec3 n) {
 // `most`: -1 if there is none.
 static double find_tightest(halfspace_set set, const inscribed *s, double most, int64_t which[CELLS]) {
     double tightest = INFINITY, worst[CELLS];
+    both_vec3 center = both_vec3_make(s->x, s->x);
     for (int cell = 0; cell < CELLS; cell++) worst[cell] = most, which[cell] = -1;
-    for (uint32_t i = 0; i < set.count; i++) {
-        const ovoid_plane *h = &set.items[i];
-        double room = h->offset - vec3_dot(h->normal, s->x);
-        double beta = room / vec3_norm(lower3_mul_transposed_vec3(s->map, h->normal));
-        if (!(beta >= tightest)) tightest = beta;
-        if (!(beta < most)) continue;
-        int cell = find_cell(h->normal);
-        if (beta < worst[cell]) worst[cell] = beta, which[cell] = i;
+    for (uint32_t i = 0; i < set.count; i += 2) {
+        uint32_t pair = set.count - i < 2 ? 1 : 2;
+        const ovoid_plane *h = &set.items[i], *next = h + (pair - 1);
+        both_vec3 n = both_vec3_make(h->normal, next->normal), g = pull_back(s->map, n);
+        both room = both_make(h->offset, next->offset) - both_vec3_dot(n, center), square = both_vec3_dot(g, g);
+        for (uint32_t k = 0; k < pair; k++) {
+            double beta = room[k] / sqrt(square[k]);
+            if (!(beta >= tightest)) tightest = beta;
+            if (!(beta < most)) continue;
+            int cell = find_cell(h[k].normal);
+            if (beta < worst[cell]) worst[cell] = beta, which[cell] = i + k;
+        }
     }
     return tightest;
 }

@@ -16,6 +16,14 @@ static inline both both_load(const double *x) {
     return v;
 }
 static inline void both_store(double *x, both v) { memcpy(x, &v, sizeof v); }
+static inline both both_set(double x) { return both_make(x, x); }
+typedef long long both_bits __attribute__((vector_size(16)));
+static inline both both_abs(both v) { return (both)((both_bits)v & ~(both_bits)both_set(-0.0)); }
+/// The lesser of each; b where one is NaN.
+static inline both both_min(both a, both b) {
+    both_bits is_less = a < b;
+    return (both)((is_less & (both_bits)a) | (~is_less & (both_bits)b));
+}
 
 /// Two vectors, with the operations and the order of vec3.h.
 typedef struct both_vec3 {
@@ -25,6 +33,8 @@ typedef struct both_vec3 {
 static inline both_vec3 both_vec3_make(vec3 a, vec3 b) {
     return (both_vec3){both_make(a.x, b.x), both_make(a.y, b.y), both_make(a.z, b.z)};
 }
+/// One of the two.
+static inline vec3 both_vec3_get(both_vec3 v, int which) { return (vec3){v.x[which], v.y[which], v.z[which]}; }
 static inline both_vec3 both_vec3_sub(both_vec3 a, both_vec3 b) { return (both_vec3){a.x - b.x, a.y - b.y, a.z - b.z}; }
 static inline both both_vec3_dot(both_vec3 a, both_vec3 b) { return (a.x * b.x + a.y * b.y) + a.z * b.z; }
 static inline both_vec3 both_vec3_cross(both_vec3 a, both_vec3 b) {
