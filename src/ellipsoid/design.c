@@ -15,9 +15,24 @@
 
 #include "ellipsoid/qp.h"
 #include "ellipsoid/root.h"
+#include "linear/both.h"
 
 // Cells of directions; steps on one core set; rounds over all points.
 enum { CELLS = 24, STEPS = 40, ROUNDS = 40, SUPPORT = 10 };
+
+// Coordinates side by side. Behind an odd number of points stands one of weight zero.
+typedef struct columns {
+    double x[DESIGN_SUPPORT], y[DESIGN_SUPPORT], z[DESIGN_SUPPORT];
+} columns;
+
+static void set_column(columns *c, uint32_t i, vec3 v) { c->x[i] = v.x, c->y[i] = v.y, c->z[i] = v.z; }
+static vec3 get_column(const columns *c, uint32_t i) { return (vec3){c->x[i], c->y[i], c->z[i]}; }
+static both_vec3 load_columns(const columns *c, uint32_t i) {
+    return (both_vec3){both_load(c->x + i), both_load(c->y + i), both_load(c->z + i)};
+}
+static void store_columns(columns *c, uint32_t i, both_vec3 v) {
+    both_store(c->x + i, v.x), both_store(c->y + i, v.y), both_store(c->z + i, v.z);
+}
 
 // The points that the steps work on.
 typedef struct core {
@@ -29,8 +44,8 @@ typedef struct core {
     uint32_t count;
     uint32_t point[DESIGN_SUPPORT];
     double weight[DESIGN_SUPPORT];
-    vec3 y[DESIGN_SUPPORT]; // coordinates
-    vec3 u[DESIGN_SUPPORT]; // coordinates where mean and covariance are 0 and 1
+    columns y; // coordinates
+    columns u; // coordinates where mean and covariance are 0 and 1
     double variance[DESIGN_SUPPORT];
 } core;
 
@@ -43,18 +58,35 @@ static int find_cell(vec3 y) {
 
 // ---- Newton steps on the core set
 
+static double add_both(both v) { return v[0] + v[1]; }
+
+// weight: also one of zero behind an odd number.
 static sym3 compute_covariance(const core *c, const double *weight, vec3 *mean) {
-    double total = 0;
-    vec3 sum = {0, 0, 0};
-    for (uint32_t i = 0; i < c->count; i++) {
-        total += weight[i];
-        sum = vec3_add_scaled(sum, c->y[i], weight[i]);
+    both none = {0, 0}, total = none, xx = none, xy = none, xz = none, yy = none, yz = none, zz = none;
+    both_vec3 sum = {none, none, none};
+    for (uint32_t i = 0; i < c->count; i += 2) {
+        both_vec3 y = load_columns(&c->y, i);
+        both w = both_load(weight + i);
+        total += w;
+        sum = (both_vec3){sum.x + w * y.x, sum.y + w * y.y, sum.z + w * y.z};
     }
-    double part = 1 / total;
-    *mean = vec3_scale(sum, part);
-    sym3 s = sym3_diagonal(0, c->m < 3, c->m < 4);
-    for (uint32_t i = 0; i < c->count; i++) s = sym3_add(s, sym3_outer(vec3_sub(c->y[i], *mean), weight[i] * part));
-    return s;
+    double part = 1 / add_both(total);
+    *mean = (vec3){add_both(sum.x) * part, add_both(sum.y) * part, add_both(sum.z) * part};
+    for (uint32_t i = 0; i < c->count; i += 2) {
+        both_vec3 d = both_vec3_sub(load_columns(&c->y, i), both_vec3_make(*mean, *mean));
+        both w = both_load(weight + i), x = w * d.x, y = w * d.y;
+        xx += x * d.x, xy += x * d.y, xz += x * d.z, yy += y * d.y, yz += y * d.z, zz += w * d.z * d.z;
+    }
+    sym3 s = {add_both(xx), add_both(xy), add_both(xz), add_both(yy), add_both(yz), add_both(zz)};
+    return sym3_add(sym3_scale(s, part), sym3_diagonal(0, c->m < 3, c->m < 4));
+}
+
+// The point where mean and covariance are 0 and 1.
+static both_vec3 map_two(const core *c, both_vec3 y) {
+    lower3 l = c->inverse;
+    both_vec3 d = both_vec3_sub(y, both_vec3_make(c->mean, c->mean));
+    return (both_vec3){both_set(l.xx) * d.x, both_set(l.yx) * d.x + both_set(l.yy) * d.y,
+                       (both_set(l.zx) * d.x + both_set(l.zy) * d.y) + both_set(l.zz) * d.z};
 }
 
 // Evaluates all points of the core set. 0 if the covariance has no root.
@@ -63,10 +95,12 @@ static int evaluate(core *c) {
     if (!lower3_make_root(c->covariance, &root)) return 0;
     c->inverse = lower3_inverse(root);
     double top = 0;
-    for (uint32_t i = 0; i < c->count; i++) {
-        c->u[i] = lower3_mul_vec3(c->inverse, vec3_sub(c->y[i], c->mean));
-        c->variance[i] = 1 + vec3_norm_squared(c->u[i]);
-        top = max2(top, c->variance[i]);
+    for (uint32_t i = 0; i < c->count; i += 2) {
+        both_vec3 u = map_two(c, load_columns(&c->y, i));
+        both variance = both_set(1) + both_vec3_dot(u, u);
+        store_columns(&c->u, i, u);
+        both_store(c->variance + i, variance);
+        top = max2(top, i + 1 < c->count ? max2(variance[0], variance[1]) : variance[0]);
     }
     c->excess = top / c->m - 1;
     return 1;
@@ -74,7 +108,7 @@ static int evaluate(core *c) {
 
 static void add_point(qp *q, const core *c, uint32_t i, double weight) {
     const double r = 1.4142135623730951;
-    vec3 u = c->u[i];
+    vec3 u = get_column(&c->u, i);
     const double row[QP_WIDTH] = {u.x * u.x, r * u.x * u.y, r * u.x * u.z, u.y * u.y, r * u.y * u.z,
                                   u.z * u.z, r * u.x,       r * u.y,       r * u.z,   1};
     for (int k = 0; k < QP_WIDTH; k++) q->row[q->count][k] = row[k];
@@ -111,12 +145,15 @@ static uint32_t find_steepest(const core *c, const qp *q, double least) {
     for (int i = 0; i < q->count; i++)
         for (int k = 0; k < QP_WIDTH; k++) s[k] += q->x[i] * q->row[i][k];
     uint32_t steepest = c->count;
-    for (uint32_t i = 0; i < c->count; i++) {
-        vec3 u = c->u[i];
-        double x = u.x * (s[0] * u.x + r * (s[1] * u.y + s[2] * u.z + s[6]));
-        double y = u.y * (s[3] * u.y + r * (s[4] * u.z + s[7])), z = u.z * (s[5] * u.z + r * s[8]);
-        double slope = (2 * c->variance[i] - c->m) - (((x + y) + z) + s[9]);
-        if (slope > least && !qp_has(q, i)) least = slope, steepest = i;
+    both xx = both_set(s[0]), xy = both_set(r * s[1]), xz = both_set(r * s[2]), yy = both_set(s[3]);
+    both yz = both_set(r * s[4]), zz = both_set(s[5]), px = both_set(r * s[6]), py = both_set(r * s[7]);
+    both pz = both_set(r * s[8]), rest = both_set(c->m + s[9]);
+    for (uint32_t i = 0; i < c->count; i += 2) {
+        both_vec3 u = load_columns(&c->u, i);
+        both x = u.x * ((xx * u.x + xy * u.y) + (xz * u.z + px)), y = u.y * ((yy * u.y + yz * u.z) + py);
+        both slope = both_set(2) * both_load(c->variance + i) - (((x + y) + u.z * (zz * u.z + pz)) + rest);
+        for (uint32_t k = 0; k < 2 && i + k < c->count; k++)
+            if (slope[k] > least && !qp_has(q, i + k)) least = slope[k], steepest = i + k;
     }
     return steepest;
 }
@@ -141,10 +178,11 @@ static void solve_model(const core *c, double least, double *weight) {
 // Moves the weights toward others, by the first of 1, 1/2, 1/4, ... of the way with which the determinant grows. Near
 // the optimum the growth is below rounding, and a full step is taken.
 static int move_weights(core *c, const double *goal) {
-    double before = sym3_det(c->covariance) * (c->excess < 1e-5 ? 1 - 1e-13 : 1), next[DESIGN_SUPPORT], part = 1;
+    double before = sym3_det(c->covariance) * (c->excess < 1e-5 ? 1 - 1e-13 : 1), next[DESIGN_SUPPORT + 1], part = 1;
     for (int trial = 0; trial < 8; trial++, part *= 0.5) {
         double total = 0;
         vec3 mean;
+        next[c->count] = 0;
         for (uint32_t i = 0; i < c->count; i++) {
             next[i] = trial ? c->weight[i] + part * (goal[i] - c->weight[i]) : goal[i];
             total += next[i];
@@ -162,6 +200,10 @@ static int move_weights(core *c, const double *goal) {
 // Newton steps until the excess is small or there is no progress. 0 if the covariance has no root.
 static int settle(core *c, double excess, uint32_t *steps) {
     double goal[DESIGN_SUPPORT];
+    if (c->count % 2) {
+        set_column(&c->y, c->count, get_column(&c->y, 0));
+        c->weight[c->count] = 0;
+    }
     c->covariance = compute_covariance(c, c->weight, &c->mean);
     for (int step = 0; step < STEPS; step++) {
         if (!evaluate(c)) return 0;
@@ -196,7 +238,7 @@ static int whiten(design *d) {
 
 static void take_point(core *c, const design *d, uint32_t point) {
     c->point[c->count] = point;
-    c->y[c->count] = vec3_at(d->local, point);
+    set_column(&c->y, c->count, vec3_at(d->local, point));
     c->weight[c->count++] = 0;
 }
 
@@ -223,17 +265,21 @@ static double scan(core *c, const design *d, double least, uint32_t *added) {
     double worst[CELLS], top = 0;
     uint32_t which[CELLS] = {0}, kept = 0;
     for (int cell = 0; cell < CELLS; cell++) worst[cell] = c->m * (1 + least);
-    for (uint32_t i = 0; i < d->point_count; i++) {
-        vec3 u = lower3_mul_vec3(c->inverse, vec3_sub(vec3_at(d->local, i), c->mean));
-        double variance = 1 + vec3_norm_squared(u);
-        top = max2(top, variance);
-        if (!(variance > c->m)) continue;
-        int cell = find_cell(u);
-        if (variance > worst[cell]) worst[cell] = variance, which[cell] = i;
+    for (uint32_t i = 0; i < d->point_count; i += 2) {
+        uint32_t pair = d->point_count - i < 2 ? 1 : 2;
+        both_vec3 u = map_two(c, both_vec3_make(vec3_at(d->local, i), vec3_at(d->local, i + pair - 1)));
+        both variance = both_set(1) + both_vec3_dot(u, u);
+        for (uint32_t k = 0; k < pair; k++) {
+            top = max2(top, variance[k]);
+            if (!(variance[k] > c->m)) continue;
+            int cell = find_cell(both_vec3_get(u, (int)k));
+            if (variance[k] > worst[cell]) worst[cell] = variance[k], which[cell] = i + k;
+        }
     }
     for (uint32_t i = 0; i < c->count; i++) {
         if (!(c->weight[i] > 0)) continue;
-        c->point[kept] = c->point[i], c->y[kept] = c->y[i], c->weight[kept++] = c->weight[i];
+        set_column(&c->y, kept, get_column(&c->y, i));
+        c->point[kept] = c->point[i], c->weight[kept++] = c->weight[i];
     }
     c->count = kept;
     for (int cell = 0; cell < CELLS && c->count < DESIGN_SUPPORT; cell++) {
