@@ -27,7 +27,6 @@
 
 #include "base/allocator.h"
 #include "base/error.h"
-#include "linear/box.h"
 #include "linear/exact.h"
 #include "polytope/curve.h"
 
@@ -521,16 +520,16 @@ static int extract(builder *b, uint32_t count, surface *s) {
 
 // Shewchuk's (7 + 56 u) u on the permanent, which is at most six times the volume of the points' box; rounded up
 // generously.
-static double compute_bound(const double *grid, uint32_t count) {
-    box b = box_make_around(grid, count);
-    vec3 size = vec3_sub(b.max, b.min);
+double quickhull_bound_heights(const box *b) {
+    vec3 size = vec3_sub(b->max, b->min);
     return 9e-16 * 6 * size.x * size.y * size.z;
 }
 
 // The hull of points in their order in memory, from its first simplex.
 static ovoid_code find_hull(builder *b, uint32_t count, surface *s) {
     b->first = b->last = b->top = NOTHING;
-    b->bound = compute_bound(b->grid, count);
+    box whole = box_make_around(b->grid, count);
+    b->bound = quickhull_bound_heights(&whole);
     b->state = s->state = allocator_allocate(b->allocator, count, 1);
     b->next = allocator_allocate(b->allocator, count, sizeof *b->next);
     // A hull of all points has about two facets a point; many points are mostly inside.

@@ -2,6 +2,7 @@
 #ifndef OVOID_POLYTOPE_QUICKHULL_H
 #define OVOID_POLYTOPE_QUICKHULL_H
 
+#include "linear/box.h"
 #include "polytope/points.h"
 
 /// The position of a point relative to the hull.
@@ -30,6 +31,9 @@ static inline uint32_t surface_get_beyond(const surface *s, uint32_t triangle, u
     uint32_t from = s->triangles[3 * (size_t)triangle + k];
     return other[0] == from ? other[1] : other[1] == from ? other[2] : other[0];
 }
+
+/// The error of (a - c) x (b - c) . (q - c) in doubles is at most this for any points of the box.
+double quickhull_bound_heights(const box *b);
 
 void surface_destroy(surface *s, const ovoid_allocator *allocator);
 

@@ -26,7 +26,7 @@
 // Without (2) the great icosahedron would pass: 12 vertices and 20 triangles, as the icosahedron has, convex at each
 // edge, but wound seven times around its centre. Signs are exact (linear/exact.h).
 //
-// Cost: linear; per triangle one sign for (1), one and a half for (3).
+// Cost: linear; per triangle one sign for (1), one and a half for (3); mostly doubles show them.
 #include "polytope/surface_proof.h"
 
 #include "base/allocator.h"
@@ -42,9 +42,11 @@ typedef struct prover {
     surface_flaw *flaw;
     vec3 inside;      // in units of the grid
     uint32_t *starts; // of each vertex: its first edge in the lists below; one more at the end
-    uint32_t *end;    // of each vertex: the end of its list as it grows; later its edges that are no creases
-    uint32_t *edges;  // the lists
-    uint64_t steps;   // along lists
+    uint32_t *end; // of each vertex: the end of its list as it grows; the last vertex that an edge of it led to; later
+                   // its edges that are no creases
+    uint32_t *edges; // the lists
+    uint32_t *into;  // of each vertex, while one vertex is looked at: the triangle of its edge to that one
+    double bound;    // of the rounding of heights over triangles
 } prover;
 
 static ovoid_code refuse(const prover *w, uint32_t triangle, const char *what) {
@@ -84,50 +86,62 @@ static ovoid_code list_edges(const prover *w) {
 
 static uint32_t get_degree(const prover *w, uint32_t v) { return w->starts[v + 1] - w->starts[v]; }
 
-// Counts the edges from `to` to `from` and writes one of them. They are searched at the vertex with fewer edges: each
-// triangle there has one outgoing and one incoming edge.
-static uint32_t count_opposite(prover *w, uint32_t from, uint32_t to, size_t *found) {
-    int at_from = get_degree(w, from) < get_degree(w, to);
-    uint32_t at = at_from ? from : to, count = 0;
-    for (uint32_t i = w->starts[at]; i < w->starts[at + 1]; i++) {
-        size_t out = w->edges[i], opposite = at_from ? get_previous(out) : out;
-        uint32_t other = w->s->triangles[at_from ? opposite : get_next(out)];
-        if (other == (at_from ? to : from)) *found = opposite, count++;
+// Finds the triangle across each edge out of vertex v: the edges into v are noted at the vertices they come from.
+static ovoid_code find_across_at(const prover *w, uint32_t v) {
+    const uint32_t *triangles = w->s->triangles;
+    for (uint32_t i = w->starts[v]; i < w->starts[v + 1]; i++) {
+        size_t into = get_previous(w->edges[i]);
+        uint32_t from = triangles[into];
+        if (w->end[from] == v)
+            return refuse(w, (uint32_t)(into / 3), "two triangles run through an edge in the same direction");
+        w->end[from] = v;
+        w->into[from] = (uint32_t)(into / 3);
     }
-    w->steps += w->starts[at + 1] - w->starts[at];
-    return count;
+    for (uint32_t i = w->starts[v]; i < w->starts[v + 1]; i++) {
+        uint32_t e = w->edges[i], to = triangles[get_next(e)];
+        if (w->end[to] != v) return refuse(w, e / 3, "the surface is open: no triangle is beyond an edge");
+        w->s->across[e] = w->into[to];
+    }
+    return OVOID_OK;
 }
 
-// Finds the triangle across each edge. The edges of a hull form a planar graph, in which the sum over all edges of the
-// smaller degree of their ends is at most 6 times their number (N. Chiba, T. Nishizeki, Arboricity and subgraph listing
-// algorithms, 1985); here each edge is processed in both directions. So a surface that takes longer is not a hull, and
-// the cost is linear for every claim.
-static ovoid_code find_across(prover *w) {
-    size_t edges = 3 * (size_t)w->s->triangle_count;
-    for (size_t e = 0; e < edges; e++) {
-        size_t opposite = 0;
-        uint32_t count = count_opposite(w, w->s->triangles[e], w->s->triangles[get_next(e)], &opposite);
-        if (count == 0) return refuse(w, (uint32_t)(e / 3), "the surface is open: no triangle is beyond an edge");
-        if (count > 1) return refuse(w, (uint32_t)(e / 3), "two triangles run through an edge in the same direction");
-        if (w->steps > 6 * (uint64_t)edges) return refuse(w, (uint32_t)(e / 3), "the edges are not those of a hull");
-        w->s->across[e] = (uint32_t)(opposite / 3);
+static ovoid_code find_across(const prover *w) {
+    memset(w->end, 0xff, w->p->count * sizeof *w->end);
+    for (uint32_t v = 0; v < w->p->count; v++) {
+        ovoid_code code = find_across_at(w, v);
+        if (code) return code;
     }
     return OVOID_OK;
 }
 
 // ---- convexity ----
 
+// A plane through three corners; heights over it are bounded as those of quickhull.
+typedef struct side {
+    vec3 corner[3], normal;
+    double bound;
+} side;
+
+// The exact sign of the height of a point over the plane.
+static int get_side(const side *f, vec3 p) {
+    double height = vec3_dot(f->normal, vec3_sub(p, f->corner[2]));
+    if (fabs(height) > f->bound) return height > 0 ? 1 : -1;
+    return -orient3d_sign(f->corner[0], f->corner[1], f->corner[2], p);
+}
+
 // (1) and (3): each edge is looked at from the triangle with the smaller number.
 static ovoid_code verify_triangle(const prover *w, uint32_t t) {
     const surface *s = w->s;
     const uint32_t *corner = s->triangles + 3 * (size_t)t;
-    vec3 a = vec3_at(w->p->grid, corner[0]), b = vec3_at(w->p->grid, corner[1]), c = vec3_at(w->p->grid, corner[2]);
-    if (orient3d_sign(a, b, c, w->inside) <= 0) return refuse(w, t, "a triangle does not face outward");
+    side f = {.bound = w->bound};
+    for (int k = 0; k < 3; k++) f.corner[k] = vec3_at(w->p->grid, corner[k]);
+    f.normal = vec3_cross(vec3_sub(f.corner[0], f.corner[2]), vec3_sub(f.corner[1], f.corner[2]));
+    if (get_side(&f, w->inside) >= 0) return refuse(w, t, "a triangle does not face outward");
     for (uint32_t k = 0; k < 3; k++) {
         if (s->across[3 * (size_t)t + k] < t) continue;
-        int sign = orient3d_sign(a, b, c, vec3_at(w->p->grid, surface_get_beyond(s, t, k)));
-        if (sign < 0) return refuse(w, t, "the surface is not convex at an edge");
-        if (sign > 0) continue;
+        int sign = get_side(&f, vec3_at(w->p->grid, surface_get_beyond(s, t, k)));
+        if (sign > 0) return refuse(w, t, "the surface is not convex at an edge");
+        if (sign < 0) continue;
         w->end[corner[k]]++;
         w->end[corner[(k + 1) % 3]]++;
     }
@@ -158,6 +172,9 @@ static ovoid_code prove(prover *w) {
     if (w->s->rank < 3) return refuse_vertex(w, 0, "the vertices lie in a plane");
     // The vertices are below 2^240 there; much farther out, signs would overflow.
     if (!(vec3_max_abs(w->inside) <= 0x1p241)) return refuse(w, 0, "the surface does not wind once around its inside");
+    box whole = box_make_around(w->p->grid, w->p->count);
+    whole = box_add_point(&whole, w->inside);
+    w->bound = quickhull_bound_heights(&whole);
     memcpy(w->s->triangles, w->claim->triangles, 3 * (size_t)w->s->triangle_count * sizeof *w->s->triangles);
     ovoid_code code = list_edges(w);
     if (!code) code = find_across(w);
@@ -171,11 +188,12 @@ ovoid_code surface_create_proven(const surface_claim *claim, const points *p, co
     size_t edges = 3 * (size_t)claim->triangle_count, count = p->count;
     s->triangles = allocator_allocate(allocator, edges, sizeof *s->triangles);
     s->across = allocator_allocate(allocator, edges, sizeof *s->across);
-    w.starts = allocator_allocate(allocator, 2 * count + 1 + edges, sizeof *w.starts);
+    w.starts = allocator_allocate(allocator, 3 * count + 1 + edges, sizeof *w.starts);
     ovoid_code code = OVOID_ERROR_MEMORY;
     if (s->triangles && s->across && w.starts) {
         w.end = w.starts + count + 1;
-        w.edges = w.end + count;
+        w.into = w.end + count;
+        w.edges = w.into + count;
         code = prove(&w);
     }
     allocator_release(allocator, w.starts);

@@ -4,9 +4,9 @@
 
 #include "ovoid/shape.h"
 
-/// The smallest number of vertices of solids that are written with their triangles: smaller hulls are found in half a
-/// millisecond.
-enum { SHAPE_TRIANGLES_LEAST = 512 };
+/// The smallest number of vertices of solids that are written with their triangles: smaller hulls are found in the time
+/// of a proof.
+enum { SHAPE_TRIANGLES_LEAST = 16 };
 
 /// ovoid_shape_write in the given version: 1, of a shape without an allowance; 2, with one; 3, with triangles, of a
 /// solid whose inner ellipsoid is more than a point; 4 and 5, as 2 and 3, of a shape whose allowance has an axis;
