@@ -41,7 +41,8 @@ typedef struct facet {
     vec3 normal;        // (a - c) x (b - c), rounded
     uint32_t vertex[3]; // a, b, c
     uint32_t across[3]; // beyond a b, b c, c a
-    uint32_t points;    // its list: the highest point above it first, if there is any; NOTHING if it is empty
+    double height;      // of the highest point above it, if there is any
+    uint32_t points;    // its list: that point first; NOTHING if it is empty
     uint32_t count;     // of its list
     uint32_t pending;   // the next facet of the queue or the stack, NOTHING at its end
     uint32_t stamp;     // of the last point for which is_above was computed
@@ -130,10 +131,11 @@ static void find_ends(const builder *b, uint32_t count, uint32_t end[2]) {
 static void find_far(const builder *b, uint32_t count, uint32_t far[2]) {
     for (int k = 0; k < 2; k++) {
         vec3 from = get_point(b, far[1 - k]);
-        for (uint32_t i = 0; i < count; i++)
-            if (vec3_norm_squared(vec3_sub(get_point(b, i), from)) >
-                vec3_norm_squared(vec3_sub(get_point(b, far[k]), from)))
-                far[k] = i;
+        double most = vec3_norm_squared(vec3_sub(get_point(b, far[k]), from));
+        for (uint32_t i = 0; i < count; i++) {
+            double square = vec3_norm_squared(vec3_sub(get_point(b, i), from));
+            if (square > most) most = square, far[k] = i;
+        }
     }
 }
 
@@ -256,7 +258,8 @@ static int has_above(const builder *b, const facet *f) {
 static void list_point(builder *b, uint32_t index, uint32_t p, int side, double height) {
     facet *f = get_facet(b, index);
     b->state[p] = side > 0 ? POINT_EXTREME : POINT_ON_FACE;
-    int is_first = f->points == NOTHING || (side > 0 && (!has_above(b, f) || height > get_height(b, f, f->points)));
+    int is_first = f->points == NOTHING || (side > 0 && (!has_above(b, f) || height > f->height));
+    if (is_first) f->height = height;
     uint32_t *link = is_first ? &f->points : &b->next[f->points];
     b->next[p] = *link;
     *link = p;

@@ -25,9 +25,11 @@
 
 #include "base/allocator.h"
 #include "base/compiler.h"
+#include "linear/both.h"
 #include "shape/direction_cells.h"
 #include "simd/support.h"
 
+#include <stddef.h>
 #include <string.h>
 
 enum { SAMPLES = 9, PAIRS_MAX = 96, NESTED_MOST = 4, K_MOST = 128, LEVELS = 14, WHOLE = 4 };
@@ -73,6 +75,7 @@ typedef struct square {
 typedef struct contest {
     square s;
     double corners[4][3];
+    both_vec3 sides[2]; ///< the same, two by two
     double limits[PAIRS_MAX][4];
     uint32_t count;
     double margin;
@@ -89,6 +92,8 @@ static void contest_make(const builder *b, const square *s, contest *c) {
         c->corners[k][0] = v.x, c->corners[k][1] = v.y, c->corners[k][2] = v.z;
         longest = max2(longest, vec3_norm_squared(v));
     }
+    for (int k = 0; k < 2; k++)
+        c->sides[k] = both_vec3_make(vec3_at(c->corners[2 * k], 0), vec3_at(c->corners[2 * k + 1], 0));
     c->s = *s;
     c->count = 0;
     c->margin = 32 * 0x1p-53 * b->reach * sqrt(longest);
@@ -96,9 +101,9 @@ static void contest_make(const builder *b, const square *s, contest *c) {
 
 /// Adds point i of the list to the points that may beat others.
 static void enter(contest *c, const list *l, uint32_t i) {
-    for (int k = 0; k < 4; k++)
-        c->limits[c->count][k] =
-            ((l->x[i] * c->corners[k][0] + l->y[i] * c->corners[k][1]) + l->z[i] * c->corners[k][2]) - c->margin;
+    both_vec3 p = {both_set(l->x[i]), both_set(l->y[i]), both_set(l->z[i])};
+    for (int k = 0; k < 2; k++)
+        both_store(&c->limits[c->count][2 * k], both_vec3_dot(p, c->sides[k]) - both_set(c->margin));
     c->count++;
 }
 
@@ -175,16 +180,17 @@ static square quarter(const square *s, uint32_t i) {
     return (square){s->face, i, s->a + (i >> 1) * side, s->b + (i & 1) * side, side};
 }
 
-/// Reserves consecutive cleared blocks; 0 if there are too many.
+/// Reserves consecutive blocks; 0 if there are too many.
 static int reserve(builder *b, uint32_t blocks, uint32_t *at) {
     *at = b->used;
     if (blocks > b->capacity - b->used) return 0;
-    memset(&b->cells[b->used], 0, blocks * sizeof *b->cells); // padding too, so that equal shapes are equal blocks
     b->used += blocks;
     return 1;
 }
 
+/// Fills a block's entries and clears what follows them, padding too, so that equal shapes are equal blocks.
 static void fill_block(simd_cell *cell, const list *l, uint32_t first) {
+    memset((char *)cell + offsetof(simd_cell, count), 0, sizeof *cell - offsetof(simd_cell, count));
     for (uint32_t i = 0; i < SIMD_CELL; i++) {
         uint32_t k = first + i < l->count ? first + i : first;
         cell->x[i] = l->x[k], cell->y[i] = l->y[k], cell->z[i] = l->z[k];
@@ -195,9 +201,9 @@ static void fill_block(simd_cell *cell, const list *l, uint32_t first) {
 static int fill_list(builder *b, uint32_t at, const list *l) {
     uint32_t more = (l->count + SIMD_CELL - 1) / SIMD_CELL - 1, next = 0;
     if (more && !reserve(b, more, &next)) return 0;
+    fill_block(&b->cells[at], l, 0);
     b->cells[at].count = l->count;
     b->cells[at].next = next;
-    fill_block(&b->cells[at], l, 0);
     for (uint32_t i = 0; i < more; i++) fill_block(&b->cells[next + i], l, (i + 1) * SIMD_CELL);
     return 1;
 }
@@ -213,7 +219,7 @@ static int fill_cell(builder *b, const square *s, uint32_t at, int level, int ne
     if (l->count <= SIMD_CELL || nested == NESTED_MOST || b->used > b->divided_most) return fill_list(b, at, l);
     uint32_t next;
     if (!reserve(b, 4, &next)) return 0;
-    b->cells[at].count = 0;
+    memset(&b->cells[at], 0, sizeof b->cells[at]);
     b->cells[at].next = next;
     find_middles(b, s, l, level);
     for (uint32_t i = 0; i < 4; i++) {
