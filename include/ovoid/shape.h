@@ -201,8 +201,8 @@ OVOID_API ovoid_measures ovoid_shape_get_measures(const ovoid_shape *shape);
 OVOID_API size_t ovoid_shape_get_size(const ovoid_shape *shape);
 
 /**
- * The shape as bytes of a versioned, little-endian file (".ovoid") with a checksum; for solids of 16 vertices or more
- * the file contains the hull's triangles. Writes at most capacity bytes to buffer and returns the number of bytes
+ * The shape as bytes of a versioned, little-endian file (".ovoid") with a checksum; for solids of 16 vertices or more,
+ * unless they are regular prisms, pyramids or boxes, the file contains the hull's triangles. Writes at most capacity bytes to buffer and returns the number of bytes
  * needed; nothing is written if capacity is too small.
  */
 OVOID_API size_t ovoid_shape_write(const ovoid_shape *shape, void *buffer, size_t capacity);

@@ -136,9 +136,11 @@ size_t shape_write_version(const ovoid_shape *shape, uint32_t version, void *buf
     return l.size;
 }
 
-// The proof of the triangles needs a point inside: the centre of an inner ellipsoid that is more than a point.
+// The proof of the triangles needs a point inside: the centre of an inner ellipsoid that is more than a point. The hull
+// of a body in closed form is known from its vertices.
 static uint32_t choose_version(const ovoid_shape *s) {
-    int is_large = s->rank == 3 && s->vertex_count >= SHAPE_TRIANGLES_LEAST && s->inner.q.xx != 0;
+    int is_large = s->rank == 3 && s->vertex_count >= SHAPE_TRIANGLES_LEAST && s->inner.q.xx != 0 &&
+                   closed_form_find(shape_vertices(s), s->vertex_count).kind == FORM_NONE;
     if (shape_is_round(s)) return is_large ? 7 : 6;
     if (shape_has_axis(s)) return is_large ? 5 : 4;
     return is_large ? 3 : s->has_allowance ? 2 : 1;

@@ -4,8 +4,8 @@
 
 #include "ovoid/shape.h"
 
-/// The smallest number of vertices of solids that are written with their triangles: smaller hulls are found in the time
-/// of a proof.
+/// The smallest number of vertices of solids, of no closed form, that are written with their triangles: smaller hulls
+/// are found in the time of a proof.
 enum { SHAPE_TRIANGLES_LEAST = 16 };
 
 /// ovoid_shape_write in the given version: 1, of a shape without an allowance; 2, with one; 3, with triangles, of a
