@@ -200,6 +200,24 @@ static void flip_edge(const forgery *f, uint32_t t, const uint32_t c[3]) {
     set_triangle(f, across, beyond, c[1], c[2]);
 }
 
+static int has_edge(const forgery *f, uint32_t from, uint32_t to) {
+    for (uint32_t t = 0; t < f->triangles; t++) {
+        uint32_t c[3];
+        get_triangle(f, t, c);
+        for (int k = 0; k < 3; k++)
+            if (c[k] == from && c[(k + 1) % 3] == to) return 1;
+    }
+    return 0;
+}
+
+// Moves the last corner of triangle t to a vertex that neither of the others has an edge to.
+static void tear(const forgery *f, uint32_t t, const uint32_t c[3]) {
+    uint32_t w = 0;
+    while (w == c[0] || w == c[1] || has_edge(f, c[1], w) || has_edge(f, w, c[0])) w++;
+    CHECK(w < f->vertices);
+    set_triangle(f, t, c[0], c[1], w);
+}
+
 static void check_broken_triangles(void) {
     ovoid_shape *s = make_round(40);
     uint32_t c[3], d[3];
@@ -216,6 +234,9 @@ static void check_broken_triangles(void) {
         set_triangle(&f, t, c[0], c[1],
                      (c[2] + 1) % 40 == c[0] || (c[2] + 1) % 40 == c[1] ? (c[2] + 3) % 40 : (c[2] + 1) % 40);
         check_refused(&f, "", 0);
+        f = forge(s);
+        tear(&f, t, c);
+        check_refused(&f, "the surface is open", 0);
         f = forge(s);
         set_triangle(&f, t, c[0], c[1], c[1]);
         check_refused(&f, "", 0);
