@@ -202,8 +202,8 @@ OVOID_API size_t ovoid_shape_get_size(const ovoid_shape *shape);
 
 /**
  * The shape as bytes of a versioned, little-endian file (".ovoid") with a checksum; for solids of 16 vertices or more,
- * unless they are regular prisms, pyramids or boxes, the file contains the hull's triangles. Writes at most capacity bytes to buffer and returns the number of bytes
- * needed; nothing is written if capacity is too small.
+ * unless they are regular prisms, pyramids or boxes, the file contains the hull's triangles. Writes at most capacity
+ * bytes to buffer and returns the number of bytes needed; nothing is written if capacity is too small.
  */
 OVOID_API size_t ovoid_shape_write(const ovoid_shape *shape, void *buffer, size_t capacity);
 
