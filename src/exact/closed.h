@@ -5,6 +5,7 @@
 #ifndef OVOID_EXACT_CLOSED_H
 #define OVOID_EXACT_CLOSED_H
 
+#include "exact/nearest.h"
 #include "exact/small.h"
 
 /// 1 for a point, a segment, or a body of eight vertices, which may be a box.
@@ -29,19 +30,6 @@ static inline vec3 closed_get_half(const ovoid_shape *s) {
 
 /// 1 for the origin of the body frame, with a radius: no rotation changes it.
 static inline int closed_is_origin(const ovoid_shape *s) { return (s->vertex_count == 1) & !(s->extent > 0); }
-
-/// Two points d apart, A's to B's: their distance, the unit normal, and the gap along it. Any normal is as good as
-/// another where they are one.
-typedef struct closed_points {
-    vec3 normal;
-    double gap, distance;
-} closed_points;
-static inline closed_points closed_find_points(vec3 d) {
-    double square = vec3_norm_squared(d), distance = sqrt(square);
-    vec3 n = square > 1e-250 && square < 1e250 ? vec3_scale(d, 1 / distance) : vec3_unit(d);
-    if (!(vec3_max_abs(n) > 0)) n = (vec3){1, 0, 0};
-    return (closed_points){n, vec3_dot(n, d), distance};
-}
 
 /// The squares of squares of lengths are in the range of doubles.
 static inline int closed_is_moderate(const pair_frame *f) { return f->size > 0x1p-200 && f->size < 0x1p200; }
@@ -87,7 +75,7 @@ static inline int closed_are_origins(const ovoid_shape *a, const ovoid_shape *b)
 static inline int closed_run_origins(const placed_query *query, small_end *end) {
     const pair_frame *f = query->frame;
     if (!closed_is_moderate(f)) return 0;
-    closed_points points = closed_find_points(f->offset);
+    nearest_points points = nearest_find_points(f->offset);
     if (!closed_set_bounds(query, points.gap, points.distance, end)) return 0;
     end->normal = vec3_clear_signs(points.normal);
     // The difference's direction is the normal.
