@@ -20,6 +20,7 @@
 #include "ovoid/fcl/manager.hpp"
 #include "ovoid/fcl/motions.hpp"
 #include "ovoid/fcl/planes.hpp"
+#include "ovoid/fcl/swept.hpp"
 
 #include <fcl/fcl.h>
 
@@ -59,11 +60,17 @@ template <class S> struct posed {
     ::fcl::NODE_TYPE type = of->getNodeType();
 
     bool is_flat() const { return type == ::fcl::GEOM_HALFSPACE || type == ::fcl::GEOM_PLANE; }
-    const body *find(table &in) const { return in.find<S>({of, type}, owner); }
+    typed<S> self() const { return {of, type}; }
+    const body *find(table &in) const { return in.find<S>(self(), owner); }
     bool place(const ovoid_shape *shape, ovoid_prepared_shape &to) const {
         return type == ::fcl::GEOM_SPHERE ? place_sphere<S>(shape, pose, to) : detail::place<S>(shape, pose, to);
     }
 };
+/// Two geometries that are swept spheres, at their poses; false if one is none.
+template <class S>
+OVOID_FCL_INLINE bool make_swept_pair(const posed<S> &a, const posed<S> &b, ovoid_swept_sphere (&to)[2]) {
+    return make_swept<S>(a.self(), a.pose, to[0]) && make_swept<S>(b.self(), b.pose, to[1]);
+}
 template <class S> posed<S> pose_of(const ::fcl::CollisionObject<S> *o) {
     return {o->collisionGeometry().get(), o->getTransform(), &o->collisionGeometry()};
 }
@@ -85,7 +92,7 @@ template <class S> bool make_plane_answer(const posed<S> &a, const posed<S> &b, 
     const bool is_sphere = other.type == ::fcl::GEOM_SPHERE;
     if (other.is_flat() || !is_rigid<S>(flat.pose)) return false;
     if (!(is_sphere ? is_in_range<S>(other.pose) : is_rigid<S>(other.pose))) return false;
-    answer = ask_plane<S>({other.of, other.type}, other.pose, make_plane<S>({flat.of, flat.type}, flat.pose));
+    answer = ask_plane<S>(other.self(), other.pose, make_plane<S>(flat.self(), flat.pose));
     return std::isfinite(answer.distance);
 }
 
@@ -120,16 +127,16 @@ template <class S> bool collide_plane(contact_list<S> &to, const posed<S> &a, co
     if (other.of->getObjectType() != ::fcl::OT_BVH || to.room() == 1)
         contacts.add(answer);
     else
-        list_plane(other.of, other.pose, make_plane<S>({flat.of, flat.type}, flat.pose),
+        list_plane(other.of, other.pose, make_plane<S>(flat.self(), flat.pose),
                    [&](const plane_answer &at) { return contacts.add(at); });
     return true;
 }
 
+/// The contacts of other geometries than swept spheres, and of those that need their shapes.
 template <class S>
-std::size_t collide(const posed<S> &a, const posed<S> &b, const ::fcl::CollisionRequest<S> &request,
-                    ::fcl::CollisionResult<S> &result) {
-    if (!request.enable_cost && request.isSatisfied(result)) return result.numContacts();
-    contact_list<S> to(a.of, b.of, request, result);
+OVOID_FCL_APART std::size_t collide_others(contact_list<S> &to, const posed<S> &a, const posed<S> &b,
+                                           const ::fcl::CollisionRequest<S> &request,
+                                           ::fcl::CollisionResult<S> &result) {
     body_couple couple;
     if (request.enable_cost || request.num_max_contacts == 0)
         return OVOID_FCL_ITSELF::template collide<S>(a.of, a.pose, b.of, b.pose, request, result);
@@ -146,6 +153,19 @@ std::size_t collide(const posed<S> &a, const posed<S> &b, const ::fcl::Collision
     return result.numContacts();
 }
 
+template <class S>
+std::size_t collide(const posed<S> &a, const posed<S> &b, const ::fcl::CollisionRequest<S> &request,
+                    ::fcl::CollisionResult<S> &result) {
+    const std::size_t before = result.numContacts();
+    if (!request.enable_cost && before > 0 && request.num_max_contacts <= before) return before;
+    ovoid_swept_sphere swept[2];
+    contact_list<S> to(a.self(), b.self(), request, result);
+    if (!request.enable_cost && request.num_max_contacts > 0 && make_swept_pair(a, b, swept) &&
+        collide_swept<S>(to, {&swept[0], &swept[1]}))
+        return result.numContacts();
+    return collide_others(to, a, b, request, result);
+}
+
 /// A distance in FCL's terms, before it is written to a result.
 struct distance_answer {
     double distance;
@@ -154,14 +174,25 @@ struct distance_answer {
 };
 
 /// Of shapes that overlap FCL's distance is -1, unless the signed one is wanted.
+inline distance_answer make_distance(const ovoid_verdict &x, const ovoid_witness &at, bool is_signed) {
+    const bool is_apart = x.status == OVOID_SEPARATED || (x.status == OVOID_UNDECIDED && !is_hit(x));
+    const double apart = is_apart || is_signed ? middle(x) : x.status == OVOID_TOUCHING ? 0 : -1;
+    return {apart, at.point_a, at.point_b, -1, -1};
+}
 inline distance_answer measure_shapes(const body_couple &of, bool is_signed) {
     ovoid_witness at;
     const ovoid_evidence evidence = {nullptr, &at, nullptr};
     const ovoid_verdict x = is_signed ? ovoid_prepared_depth(of.prepared(), nullptr, &evidence)
                                       : ovoid_prepared_distance(of.prepared(), nullptr, &evidence);
-    const bool is_apart = x.status == OVOID_SEPARATED || (x.status == OVOID_UNDECIDED && !is_hit(x));
-    const double apart = is_apart || is_signed ? middle(x) : x.status == OVOID_TOUCHING ? 0 : -1;
-    return {apart, at.point_a, at.point_b, -1, -1};
+    return make_distance(x, at, is_signed);
+}
+/// Of swept spheres; false if their shapes have to be asked.
+inline bool measure_swept(const ovoid_swept_pair &pair, bool is_signed, distance_answer &found) {
+    ovoid_witness at;
+    const ovoid_verdict x = is_signed ? ovoid_swept_depth(pair, &at) : ovoid_swept_distance(pair, &at);
+    if (x.status == OVOID_UNDECIDED) return false;
+    found = make_distance(x, at, is_signed);
+    return true;
 }
 
 /// Of meshes that cross the signed distance is minus the length of a translation that is proven to part them; the
@@ -182,23 +213,32 @@ inline distance_answer measure_plane(const plane_answer &x, bool is_a, bool is_s
     return {distance, is_a ? on_plane : point, is_a ? point : on_plane, is_a ? -1 : x.i, is_a ? x.i : -1};
 }
 
+/// The distance of other geometries than swept spheres, and of those that need their shapes; false if FCL has to
+/// answer.
+template <class S>
+OVOID_FCL_APART bool measure_others(const posed<S> &a, const posed<S> &b, bool is_signed, distance_answer &found) {
+    plane_answer plane;
+    body_couple couple;
+    if (a.is_flat() || b.is_flat()) {
+        if (!make_plane_answer(a, b, plane)) return false;
+        found = measure_plane(plane, a.is_flat(), is_signed);
+        return true;
+    }
+    if (!make_couple(a, b, couple)) return false;
+    found = couple.has_mesh() ? measure_meshes(couple, is_signed) : measure_shapes(couple, is_signed);
+    return true;
+}
+
 template <class S>
 S distance(const posed<S> &a, const posed<S> &b, const ::fcl::DistanceRequest<S> &request,
            ::fcl::DistanceResult<S> &result) {
     if (request.isSatisfied(result)) return result.min_distance;
+    const bool is_signed = request.enable_signed_distance;
     distance_answer found;
-    plane_answer plane;
-    body_couple couple;
-    if (a.is_flat() || b.is_flat()) {
-        if (!make_plane_answer(a, b, plane))
-            return OVOID_FCL_ITSELF::template distance<S>(a.of, a.pose, b.of, b.pose, request, result);
-        found = measure_plane(plane, a.is_flat(), request.enable_signed_distance);
-    } else if (!make_couple(a, b, couple)) {
+    ovoid_swept_sphere swept[2];
+    if (!(make_swept_pair(a, b, swept) && measure_swept({&swept[0], &swept[1]}, is_signed, found)) &&
+        !measure_others(a, b, is_signed, found))
         return OVOID_FCL_ITSELF::template distance<S>(a.of, a.pose, b.of, b.pose, request, result);
-    } else {
-        found = couple.has_mesh() ? measure_meshes(couple, request.enable_signed_distance)
-                                  : measure_shapes(couple, request.enable_signed_distance);
-    }
     // Points are written whether or not they were asked for, as FCL does.
     result.update(static_cast<S>(found.distance), a.of, b.of, found.i, found.j, from_vec3<S>(found.point_a),
                   from_vec3<S>(found.point_b));

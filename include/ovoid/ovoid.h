@@ -22,6 +22,7 @@
 #include "ovoid/shape.h"
 #include "ovoid/smooth.h"
 #include "ovoid/solid.h"
+#include "ovoid/swept.h"
 #include "ovoid/world.h"
 #include "ovoid/world_manifolds.h"
 

@@ -4,23 +4,24 @@
 // is the least behind; of a point in a box that is the depth, for which another proof is needed (exact/inside.h).
 #include "exact/closed.h"
 
-// The core of a shape, turned into the world's axes, and its middle, from the origin of the body frame; that of a
-// sphere around that origin needs no turn.
-static vec3 turn_core(const ovoid_shape *s, const mat3 *turn, nearest_core *to) {
+// The axes of the core of a shape, turned into the world's axes, and its middle, from the origin of the body frame;
+// that of a sphere around that origin needs no turn.
+static vec3 turn_core(const ovoid_shape *s, const mat3 *turn, vec3 *axis) {
     if (s->vertex_count == 8) {
-        to->dimension = 3;
-        for (int i = 0; i < 3; i++) to->axis[i] = mat3_mul_vec3(*turn, s->box.axis[i]);
+        for (int i = 0; i < 3; i++) axis[i] = mat3_mul_vec3(*turn, s->box.axis[i]);
         return mat3_mul_vec3(*turn, s->box.center);
     }
-    to->dimension = s->vertex_count - 1;
-    if (to->dimension == 1) to->axis[0] = mat3_mul_vec3(*turn, closed_get_half(s));
+    if (s->vertex_count == 2) axis[0] = mat3_mul_vec3(*turn, closed_get_half(s));
     return closed_is_origin(s) ? (vec3){0, 0, 0} : mat3_mul_vec3(*turn, closed_get_middle(s));
 }
 
+static uint32_t count_axes(const ovoid_shape *s) { return s->vertex_count == 8 ? 3 : s->vertex_count - 1; }
+
 // The nearest points of a placed pair; A's from the origin of its body frame.
 static void find_nearest_pair(const pair_frame *f, nearest_pair *found) {
-    nearest_core a, b;
-    vec3 middle = turn_core(f->a, &f->world, &a), other = turn_core(f->b, &f->world_b, &b);
+    vec3 axes_a[3], axes_b[3];
+    vec3 middle = turn_core(f->a, &f->world, axes_a), other = turn_core(f->b, &f->world_b, axes_b);
+    const nearest_core a = {count_axes(f->a), axes_a}, b = {count_axes(f->b), axes_b};
     nearest_find(&a, &b, vec3_add(f->offset, vec3_sub(other, middle)), found);
     found->point_a = vec3_add(middle, found->point_a);
 }
@@ -48,8 +49,6 @@ static void add_cuts(const double *t, uint32_t count, unsigned first, cut *cuts,
         cuts[at] = (cut){weight, bit};
     }
 }
-
-static uint32_t count_axes(const ovoid_shape *s) { return s->vertex_count == 8 ? 3 : s->vertex_count - 1; }
 
 static uint32_t get_vertex(const ovoid_shape *s, unsigned bits) {
     return s->vertex_count == 8 ? s->box.corner[bits & 7] : s->vertex_count == 2 ? bits & 1 : 0;
@@ -92,11 +91,9 @@ static void write_points(const pair_frame *f, const nearest_pair *found, simplex
 
 // ---- the answer
 
-// Radii go along the difference, or where they overlap along the normal (pair/proof.c).
 static closed_cores find_cores(const pair_frame *f, const nearest_pair *found, double distance) {
-    int is_apart = distance > f->a->radius + f->b->radius;
-    vec3 n = is_apart ? vec3_scale(found->difference, 1 / distance) : found->normal;
     vec3 a = vec3_add(f->world_origin, found->point_a);
+    vec3 n = nearest_find_direction(found, distance, f->a->radius + f->b->radius);
     return (closed_cores){a, vec3_add(a, found->difference), n};
 }
 

@@ -76,7 +76,10 @@ static void find_segments(vec3 u, vec3 v, vec3 d, nearest_pair *out) {
     double s, t;
     find_parameters(d, u, v, &s, &t);
     vec3 w = vec3_add_scaled(vec3_add_scaled(d, v, t), u, -s);
-    vec3 n = find_segments_normal(w, u, v, fabs(s) < 1, fabs(t) < 1);
+    // A difference that is not short has digits enough for a direction.
+    double square = vec3_norm_squared(w), all = vec3_norm_squared(d) + (vec3_norm_squared(u) + vec3_norm_squared(v));
+    vec3 n = square > 0x1p-16 * all ? vec3_scale(w, 1 / sqrt(square))
+                                    : find_segments_normal(w, u, v, fabs(s) < 1, fabs(t) < 1);
     out->a[0] = s;
     out->b[0] = t;
     out->point_a = vec3_scale(u, s);

@@ -5,10 +5,10 @@
 
 #include "linear/vec3.h"
 
-/// A core around its middle. The axes beyond its dimension are not read.
+/// A core around its middle.
 typedef struct nearest_core {
     uint32_t dimension; ///< 0: a point, 1: a segment, 3: a box
-    vec3 axis[3];       ///< half axes
+    const vec3 *axis;   ///< that many half axes
 } nearest_core;
 
 /// The nearest points: their parameters, A's point from the middle of A, the points' difference, B's minus A's, the
@@ -34,5 +34,11 @@ static inline nearest_points nearest_find_points(vec3 d) {
 
 /// The nearest points of two cores whose middles are d apart, A's to B's.
 void nearest_find(const nearest_core *a, const nearest_core *b, vec3 d, nearest_pair *out);
+
+/// The direction along which the radii of the cores go: the points' difference, or where the radii, of that sum,
+/// overlap, the normal (pair/proof.c). distance: of the points.
+static inline vec3 nearest_find_direction(const nearest_pair *found, double distance, double radii) {
+    return distance > radii ? vec3_scale(found->difference, 1 / distance) : found->normal;
+}
 
 #endif

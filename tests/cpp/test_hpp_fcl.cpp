@@ -383,7 +383,8 @@ static void test_left_to_fcl() {
     for (const auto *wrong_pose : {&grown, &mirrored, &sheared})
         for (const CollisionGeometryd *other :
              {static_cast<const CollisionGeometryd *>(&a), static_cast<const CollisionGeometryd *>(&plane)})
-            CHECK_EQ(count(&a, other, *wrong_pose, CollisionRequestd()), 1);
+            // A box is its own mirror image.
+            CHECK_EQ(count(&a, other, *wrong_pose, CollisionRequestd()), wrong_pose != &mirrored || other != &a);
     CHECK_EQ(count(&a, &wrong, t, CollisionRequestd()), 1);
     CHECK_EQ(count(&plane, &plane, t, CollisionRequestd()), 1);
     CHECK_EQ(count(&a, &plane, t, CollisionRequestd()), 0);

@@ -1,6 +1,6 @@
-// The translations that <ovoid/fcl.hpp> keeps: each geometry is translated once; a geometry that is changed, refitted
-// or has another one's address is translated anew, and the answer is that of a fresh geometry; those of dead geometries
-// go; many threads get what one gets.
+// The translations that <ovoid/fcl.hpp> keeps, of other geometries than pairs of spheres, capsules and boxes: each
+// geometry is translated once; a geometry that is changed, refitted or has another one's address is translated anew,
+// and the answer is that of a fresh geometry; those of dead geometries go; many threads get what one gets.
 #include "fcl_zoo.hpp"
 
 #include <ovoid/fcl.hpp>
@@ -110,7 +110,7 @@ static void test_deaths() {
     ovoid::fcl::trim();
     CHECK_EQ(ovoid::fcl::count_kept(), 0u);
     std::vector<CollisionObjectd> living;
-    for (int i = 0; i < 40; i++) living.emplace_back(std::make_shared<Boxd>(1, 1, 1 + 0.01 * i), right(3));
+    for (int i = 0; i < 40; i++) living.emplace_back(std::make_shared<Cylinderd>(1, 1 + 0.01 * i), right(3));
     CollisionResultd result;
     const auto ask_all = [&] {
         for (const auto &o : living) {
@@ -122,10 +122,12 @@ static void test_deaths() {
     CHECK_EQ(ovoid::fcl::count_kept(), 40u);
     // Geometries of objects that died; others come in their place. What lives stays.
     for (int i = 0; i < 5000; i++) {
-        const CollisionObjectd brief(std::make_shared<Sphered>(0.1 + 1e-4 * i), still);
+        const double size = 0.1 + 1e-4 * i;
+        const auto sheet = std::make_shared<TrianglePd>(Vector3d(0, 0, 0), Vector3d(size, 0, 0), Vector3d(0, 1, 0));
+        const CollisionObjectd brief(sheet, still);
         result.clear();
         ovoid::fcl::collide<double>(&living[0], &brief, CollisionRequestd(), result);
-        const Sphered raw(0.1 + 1e-4 * i);
+        const TrianglePd raw(Vector3d(0, 0, 0), Vector3d(size, 0, 0), Vector3d(0, 1, 0));
         DistanceResultd distance;
         ovoid::fcl::distance<double>(&raw, still, living[0].collisionGeometry().get(), right(9), DistanceRequestd(),
                                      distance);
@@ -151,7 +153,7 @@ static void test_threads() {
         for (int i = 0; i < 1400; i++) {
             const auto &box = boxes[std::size_t(i * 13 + salt * 0) % boxes.size()];
             found.push_back(ask(box.get(), ball.get(), right(3)));
-            const Capsuled brief(0.1 + 0.0001 * (i + salt), 1);
+            const Coned brief(0.1 + 0.0001 * (i + salt), 1);
             ask(&brief, box.get(), right(4));
             if (i % 400 == 0) ovoid::fcl::trim();
         }

@@ -30,10 +30,10 @@ inline ovoid_vec3 between(const ovoid_vec3 &a, const ovoid_vec3 &b, double part)
     return {a.x + part * (b.x - a.x), a.y + part * (b.y - a.y), a.z + part * (b.z - a.z)};
 }
 /// Where a contact is between the two deepest points: in the middle; of two spheres, as in FCL, by their radii.
-template <class S> double get_part(const geometry<S> *o1, const geometry<S> *o2) {
-    if (o1->getNodeType() != ::fcl::GEOM_SPHERE || o2->getNodeType() != ::fcl::GEOM_SPHERE) return 0.5;
-    const double a = static_cast<const ::fcl::Sphere<S> *>(o1)->radius,
-                 b = static_cast<const ::fcl::Sphere<S> *>(o2)->radius;
+template <class S> double get_part(const typed<S> &o1, const typed<S> &o2) {
+    if (o1.type != ::fcl::GEOM_SPHERE || o2.type != ::fcl::GEOM_SPHERE) return 0.5;
+    const double a = static_cast<const ::fcl::Sphere<S> *>(o1.of)->radius,
+                 b = static_cast<const ::fcl::Sphere<S> *>(o2.of)->radius;
     return a + b > 0 ? a / (a + b) : 0.5;
 }
 
@@ -105,7 +105,7 @@ template <class Take> void search_pairs(const body_couple &of, Take take) {
 /// Adds contacts to a result of FCL.
 template <class S> class contact_list {
   public:
-    contact_list(const geometry<S> *o1, const geometry<S> *o2, const ::fcl::CollisionRequest<S> &request,
+    contact_list(const typed<S> &o1, const typed<S> &o2, const ::fcl::CollisionRequest<S> &request,
                  ::fcl::CollisionResult<S> &result)
         : o1_(o1), o2_(o2), request_(&request), result_(&result) {}
 
@@ -117,16 +117,16 @@ template <class S> class contact_list {
     bool is_detailed() const { return request_->enable_contact; }
 
     /// A contact without details, of parts i and j (-1: not of a mesh).
-    void add(int i, int j) { result_->addContact(::fcl::Contact<S>(o1_, o2_, i, j)); }
+    void add(int i, int j) { result_->addContact(::fcl::Contact<S>(o1_.of, o2_.of, i, j)); }
     /// A contact with details. FCL's depths are not negative.
     void add(int i, int j, const ovoid_manifold_point &at, const ovoid_vec3 &normal) {
-        result_->addContact(::fcl::Contact<S>(o1_, o2_, i, j,
+        result_->addContact(::fcl::Contact<S>(o1_.of, o2_.of, i, j,
                                               from_vec3<S>(between(at.point_a, at.point_b, get_part(o1_, o2_))),
                                               from_vec3<S>(normal), static_cast<S>(std::max(0.0, -at.separation))));
     }
 
   private:
-    const geometry<S> *o1_, *o2_;
+    typed<S> o1_, o2_;
     const ::fcl::CollisionRequest<S> *request_;
     ::fcl::CollisionResult<S> *result_;
 };

@@ -1,0 +1,91 @@
+/**
+ * @file swept.hpp
+ * FCL's spheres, capsules and boxes as swept spheres (<ovoid/swept.h>), for <ovoid/fcl.hpp>: they are read from the
+ * geometry and the transform in each call, so nothing of them is kept, looked up or prepared.
+ */
+#ifndef OVOID_FCL_SWEPT_HPP
+#define OVOID_FCL_SWEPT_HPP
+
+#include "ovoid/fcl/contacts.hpp"
+#include "ovoid/swept.h"
+
+#include <cmath>
+
+namespace ovoid {
+namespace fcl {
+namespace detail {
+
+/// How far the columns of a transform may be from unit vectors at right angles: the sum of what their products are off.
+constexpr double swept_rounding = 32 * 1.1102230246251565e-16;
+
+/// Column k of a transform.
+template <class S> ovoid_vec3 get_column(const ::fcl::Transform3<S> &t, int k) {
+    const auto m = [&](int i) { return static_cast<double>(t.matrix().coeff(i, k)); };
+    return {m(0), m(1), m(2)};
+}
+/// How far the product of two columns is from that of a rotation.
+template <class S> double off_product(const ::fcl::Transform3<S> &t, int i, int k) {
+    const auto m = [&](int row, int column) { return static_cast<double>(t.matrix().coeff(row, column)); };
+    return std::fabs(m(0, i) * m(0, k) + m(1, i) * m(1, k) + m(2, i) * m(2, k) - (i == k ? 1 : 0));
+}
+
+/// The geometry at its transform, of which no more is read than the body needs; false if it is none of these types, has
+/// a size that is not above 0, or is at a transform that is not rigid to a few roundings.
+template <class S>
+OVOID_FCL_INLINE bool make_swept(const typed<S> &g, const ::fcl::Transform3<S> &t, ovoid_swept_sphere &to) {
+    switch (g.type) {
+    case ::fcl::GEOM_SPHERE:
+        to.radius = static_cast<double>(static_cast<const ::fcl::Sphere<S> *>(g.of)->radius);
+        to.dimension = 0;
+        break;
+    case ::fcl::GEOM_CAPSULE: {
+        const auto *s = static_cast<const ::fcl::Capsule<S> *>(g.of);
+        if (!(s->lz > 0) || !(off_product<S>(t, 2, 2) <= swept_rounding)) return false;
+        to.radius = static_cast<double>(s->radius);
+        to.dimension = 1;
+        to.half[0] = static_cast<double>(s->lz) / 2;
+        to.axis[0] = get_column<S>(t, 2);
+        break;
+    }
+    case ::fcl::GEOM_BOX: {
+        const auto &side = static_cast<const ::fcl::Box<S> *>(g.of)->side;
+        const double off = off_product<S>(t, 0, 0) + off_product<S>(t, 1, 1) + off_product<S>(t, 2, 2) +
+                           off_product<S>(t, 0, 1) + off_product<S>(t, 1, 2) + off_product<S>(t, 2, 0);
+        if (!(side[0] > 0 && side[1] > 0 && side[2] > 0 && off <= swept_rounding)) return false;
+        to.radius = 0;
+        to.dimension = 3;
+        for (int k = 0; k < 3; k++) {
+            to.half[k] = static_cast<double>(side[k]) / 2;
+            to.axis[k] = get_column<S>(t, k);
+        }
+        break;
+    }
+    default: return false;
+    }
+    to.center = to_vec3<S>(t.translation());
+    return true;
+}
+
+/// The contacts of two swept spheres; false if their shapes have to be asked.
+template <class S> OVOID_FCL_INLINE bool collide_swept(contact_list<S> &to, const ovoid_swept_pair &pair) {
+    if (!to.is_detailed()) {
+        const ovoid_verdict found = ovoid_swept_collide(pair);
+        if (found.status == OVOID_UNDECIDED) return false;
+        if (is_hit(found)) to.add(-1, -1);
+        return true;
+    }
+    // Of capsules and boxes a manifold may be wanted.
+    const bool is_single = to.room() == 1 || pair.a->dimension == 0 || pair.b->dimension == 0;
+    if (!is_single) return ovoid_swept_collide(pair).status == OVOID_SEPARATED;
+    measured depth;
+    depth.bracket = ovoid_swept_contact(pair, &depth.at);
+    if (depth.bracket.status == OVOID_UNDECIDED) return false;
+    if (is_hit(depth.bracket)) add_deepest(to, -1, -1, depth);
+    return true;
+}
+
+} // namespace detail
+} // namespace fcl
+} // namespace ovoid
+
+#endif

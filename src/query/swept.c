@@ -1,0 +1,294 @@
+// Queries of swept spheres (ovoid/swept.h): closed forms without shapes, frames and proofs. Of a point and another core
+// the point's coordinates along the other one's axes, cut off at its ends; of segments, and of a box and a segment, the
+// nearest points of exact/nearest.h; of two boxes the separating axes.
+//
+// Errors, in parts u s, u = 2^-53, s the sum of both bodies' reaches and radii and of the distance of the centres. The
+// axes are numbers that are given, so nothing is turned, and what is measured in the world (pair/reject.h, off by less
+// than 60 u s) bounds that: the gap along any unit normal bounds the distance from below, and two points of the cores
+// bound it from above, whatever the angles of the axes. Axes whose products are off by 32 u together are those of a
+// rotation to 32 u in norm, which moves no point of a core by more than 32 u s: what is read as if they were at right
+// angles, the reach of a box, the distance of a point and a core, and two boxes, is off by that and the roundings of
+// its sums, less than 60 u s again. All bounds are widened by FRAME_REJECT, 384 u s.
+//
+// Two boxes are apart exactly where one of 15 axes separates them (S. Gottschalk, M. C. Lin, D. Manocha, OBBTree: a
+// hierarchical structure for rapid interference detection, 1996): the six axes a_i, b_j, and a_i x b_j. All gaps are
+// off by less than 200 u s. An axis decides where its gap is beyond SAT_DOUBT s on either side of zero; that of a cross
+// product is not divided by its length, at most 1, which makes it decide less. Of edges that are parallel to
+// SAT_PARALLEL the cross product is no axis: were all such edges turned parallel, which moves no point by more than 4
+// SAT_PARALLEL s, it would be zero and the other axes would decide, whose gaps change by less than 8 SAT_PARALLEL s;
+// and boxes that overlap by more than a movement overlap without it. Both are covered by SAT_DOUBT.
+#include "ovoid/swept.h"
+#include "base/compiler.h"
+#include "base/environment.h"
+#include "exact/nearest.h"
+#include "pair/reject.h"
+
+#define SAT_DOUBT 0x1p-34
+#define SAT_PARALLEL 0x1p-40
+
+// Lengths whose squares of squares are in the range of doubles.
+#define LEAST 1e-50
+#define MOST 1e50
+// The width of a bracket that answers, as a part of the size.
+#define TOLERANCE 1e-12
+
+typedef ovoid_swept_sphere swept;
+
+// What is asked for beside the sign: as bits, the distance of bodies that are apart, and the depth of those that
+// overlap.
+typedef enum question { OF_SIGN, OF_DISTANCE, OF_CONTACT, OF_BOTH } question;
+
+// Two bodies: centres d apart, A's to B's.
+typedef struct placed {
+    const swept *a, *b;
+    vec3 d;
+    double distance, reach, radii; ///< of the centres; sums of both bodies
+    double size, claim;
+} placed;
+
+static const ovoid_verdict undecided = {OVOID_UNDECIDED, OVOID_STAGE_SUPPORT, OVOID_LIMIT_PRECISION, 0, -INFINITY,
+                                        INFINITY};
+
+// How far a core reaches from its centre.
+static inline double find_reach(const swept *s) {
+    const double *h = s->half;
+    return s->dimension == 0 ? 0 : s->dimension == 1 ? h[0] : sqrt((h[0] * h[0] + h[1] * h[1]) + h[2] * h[2]);
+}
+
+static inline placed place(const swept *a, const swept *b) {
+    placed p = {.a = a, .b = b, .d = vec3_sub(b->center, a->center)};
+    p.distance = vec3_norm(p.d);
+    p.reach = find_reach(a) + find_reach(b);
+    p.radii = a->radius + b->radius;
+    p.size = p.distance + p.reach + p.radii;
+    p.claim = FRAME_REJECT * p.size;
+    return p;
+}
+
+// Not so of NaN.
+static inline int is_moderate(const placed *p) {
+    return (p->size > LEAST) & (p->size < MOST) & (p->a->radius >= 0) & (p->b->radius >= 0);
+}
+
+static inline ovoid_verdict make_verdict(double lower, double upper, double tolerance) {
+    ovoid_status status = lower > 0                    ? OVOID_SEPARATED
+                          : upper < 0                  ? OVOID_OVERLAPPING
+                          : upper - lower <= tolerance ? OVOID_TOUCHING
+                                                       : OVOID_UNDECIDED;
+    return (ovoid_verdict){status, OVOID_STAGE_SUPPORT, OVOID_LIMIT_NONE, 0, lower, upper};
+}
+
+// ---- two boxes
+
+// Of the axes so far: one separates the boxes; one leaves it open.
+typedef struct axes_found {
+    int is_apart, is_open;
+} axes_found;
+
+static inline void take_axis(double gap, double doubt, axes_found *found) {
+    found->is_apart |= gap > doubt;
+    found->is_open |= !(gap < -doubt);
+}
+
+// The gaps along the boxes' own axes. c: the products of A's and B's axes, without signs.
+static inline void take_faces(const placed *of, double c[3][3], double doubt, axes_found *found) {
+    const double *a = of->a->half, *b = of->b->half;
+    for (int i = 0; i < 3; i++) {
+        double of_b = (b[0] * c[i][0] + b[1] * c[i][1]) + b[2] * c[i][2],
+               of_a = (a[0] * c[0][i] + a[1] * c[1][i]) + a[2] * c[2][i];
+        take_axis(fabs(vec3_dot(of->a->axis[i], of->d)) - a[i] - of_b, doubt, found);
+        take_axis(fabs(vec3_dot(of->b->axis[i], of->d)) - b[i] - of_a, doubt, found);
+    }
+}
+
+static int is_parallel(vec3 a, vec3 b) { return vec3_norm_squared(vec3_cross(a, b)) < SAT_PARALLEL * SAT_PARALLEL; }
+
+// The gaps along the cross products of A's axis i and B's axes.
+static inline void take_edges(const placed *of, double c[3][3], int i, double doubt, axes_found *found) {
+    static const int next[5] = {0, 1, 2, 0, 1};
+    const double *a = of->a->half, *b = of->b->half;
+    int k = next[i + 1], m = next[i + 2];
+    vec3 across = vec3_cross(of->d, of->a->axis[i]);
+    for (int j = 0; j < 3; j++) {
+        int p = next[j + 1], q = next[j + 2];
+        double of_a = c[m][j] * a[k] + c[k][j] * a[m], of_b = c[i][q] * b[p] + c[i][p] * b[q];
+        double gap = fabs(vec3_dot(across, of->b->axis[j])) - of_a - of_b;
+        axes_found here = {0, 0};
+        take_axis(gap, doubt, &here);
+        if (here.is_open && !here.is_apart && is_parallel(of->a->axis[i], of->b->axis[j])) here.is_open = 0;
+        found->is_apart |= here.is_apart;
+        found->is_open |= here.is_open;
+    }
+}
+
+// Of two boxes the sign alone. Radii are not asked for: two boxes with radii may be apart or not between the axes.
+COMPILER_NOINLINE static ovoid_verdict separate_boxes(const placed *p) {
+    double c[3][3], doubt = SAT_DOUBT * p->size;
+    axes_found found = {0, 0};
+    if (p->radii > 0) return undecided;
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++) c[i][j] = fabs(vec3_dot(p->a->axis[i], p->b->axis[j]));
+    take_faces(p, c, doubt, &found);
+    for (int i = 0; i < 3 && !found.is_apart && !found.is_open; i++) take_edges(p, c, i, doubt, &found);
+    if (found.is_apart) return make_verdict(p->claim, p->distance + p->claim, 0);
+    if (found.is_open) return undecided;
+    return make_verdict(-p->size, -p->claim, 0);
+}
+
+// ---- two points
+
+// Both radii go along the line of the points; 0 where it is none to rounding.
+COMPILER_INLINED int measure_points(ovoid_swept_pair pair, ovoid_witness *witness, ovoid_verdict *to) {
+    const swept *a = pair.a, *b = pair.b;
+    vec3 d = vec3_sub(b->center, a->center);
+    double distance = vec3_norm(d), gap = distance - (a->radius + b->radius), size = distance + (a->radius + b->radius),
+           claim = FRAME_REJECT * size;
+    if (!((distance > LEAST) & (size < MOST) & (a->radius >= 0) & (b->radius >= 0))) return 0;
+    *to = make_verdict(gap - claim, gap + claim, TOLERANCE * size);
+    if (!witness) return 1;
+    vec3 n = vec3_scale(d, 1 / distance);
+    witness->normal = vec3_clear_signs(n);
+    witness->point_a = vec3_clear_signs(vec3_add_scaled(a->center, n, a->radius));
+    witness->point_b = vec3_clear_signs(vec3_add_scaled(b->center, n, -b->radius));
+    return 1;
+}
+
+// ---- a point and another core
+
+// A point y from the centre of a core: the vector to it from the nearest point of the core.
+static inline vec3 cut_off(const swept *core, vec3 y, double excess[3]) {
+    vec3 off = {0, 0, 0};
+    if (core->dimension == 1) {
+        double along = vec3_dot(core->axis[0], y), h = core->half[0];
+        return vec3_add_scaled(y, core->axis[0], -max2(-h, min2(h, along)));
+    }
+    for (int i = 0; i < 3; i++) {
+        double along = vec3_dot(core->axis[i], y), h = core->half[i];
+        excess[i] = along - max2(-h, min2(h, along));
+        off = vec3_add_scaled(off, core->axis[i], excess[i]);
+    }
+    return off;
+}
+
+// The way out of a box for a point y in it: a unit normal, and how far.
+static vec3 find_way_out(const swept *box, vec3 y, double *depth) {
+    vec3 out = box->axis[0];
+    *depth = INFINITY;
+    for (int i = 0; i < 3; i++) {
+        double along = vec3_dot(box->axis[i], y), left = box->half[i] - fabs(along);
+        if (!(left < *depth)) continue;
+        *depth = left;
+        out = along < 0 ? vec3_neg(box->axis[i]) : box->axis[i];
+    }
+    return out;
+}
+
+// The core's point is the point less the gap along the normal, which goes to it from the core.
+static void write_points(const placed *p, vec3 normal, double gap, ovoid_witness *to) {
+    int is_point_b = p->b->dimension == 0;
+    const swept *point = is_point_b ? p->b : p->a, *core = is_point_b ? p->a : p->b;
+    vec3 on_point = vec3_add_scaled(point->center, normal, -point->radius),
+         on_core = vec3_add_scaled(point->center, normal, core->radius - gap);
+    to->normal = vec3_clear_signs(is_point_b ? normal : vec3_neg(normal));
+    to->point_a = vec3_clear_signs(is_point_b ? on_core : on_point);
+    to->point_b = vec3_clear_signs(is_point_b ? on_point : on_core);
+}
+
+// 0 if the point is in the core, or on it to rounding, and more than the sign is asked for where it has none here.
+COMPILER_INLINED int measure_point(const placed *p, question asked, ovoid_witness *witness, ovoid_verdict *to) {
+    double excess[3];
+    int is_point_b = p->b->dimension == 0;
+    const swept *core = is_point_b ? p->a : p->b;
+    vec3 y = is_point_b ? p->d : vec3_neg(p->d), off = cut_off(core, y, excess), normal;
+    double gap = vec3_norm(off);
+    if (asked == OF_SIGN) {
+        // A point in the core is deeper than that.
+        double lower = gap > p->claim ? gap - p->radii - p->claim : -p->size;
+        *to = make_verdict(lower, gap - p->radii + p->claim, TOLERANCE * p->size);
+        return to->status != OVOID_UNDECIDED;
+    }
+    if (gap > 0x1p-20 * p->size) {
+        normal = vec3_scale(off, 1 / gap);
+    } else if (core->dimension == 3 && excess[0] == 0 && excess[1] == 0 && excess[2] == 0) {
+        normal = find_way_out(core, y, &gap);
+        gap = -gap;
+    } else {
+        return 0;
+    }
+    *to = make_verdict(gap - p->radii - p->claim, gap - p->radii + p->claim, TOLERANCE * p->size);
+    if (witness) write_points(p, normal, gap, witness);
+    return 1;
+}
+
+// ---- other pairs
+
+// The half axes of a core.
+static inline void scale_axes(const swept *s, vec3 *axes) {
+    axes[0] = vec3_scale(s->axis[0], s->half[0]);
+    if (s->dimension == 1) return;
+    axes[1] = vec3_scale(s->axis[1], s->half[1]);
+    axes[2] = vec3_scale(s->axis[2], s->half[2]);
+}
+
+// No zero is negative, as in all witnesses.
+static void write_witness(const placed *p, const nearest_pair *found, vec3 along, ovoid_witness *to) {
+    vec3 a = vec3_add(p->a->center, found->point_a), b = vec3_add(a, found->difference);
+    to->point_a = vec3_clear_signs(vec3_add_scaled(a, along, p->a->radius));
+    to->point_b = vec3_clear_signs(vec3_add_scaled(b, along, -p->b->radius));
+    to->normal = vec3_clear_signs(found->normal);
+}
+
+COMPILER_NOINLINE static ovoid_verdict measure_nearest(const placed *p, question asked, ovoid_witness *witness) {
+    vec3 axes_a[3], axes_b[3];
+    scale_axes(p->a, axes_a);
+    scale_axes(p->b, axes_b);
+    const nearest_core a = {p->a->dimension, axes_a}, b = {p->b->dimension, axes_b};
+    double tolerance = TOLERANCE * p->size;
+    nearest_pair found;
+    nearest_find(&a, &b, p->d, &found);
+    double distance = vec3_norm(found.difference);
+    ovoid_verdict v = make_verdict(found.gap - p->radii - p->claim, distance - p->radii + p->claim, tolerance);
+    unsigned wanted = v.status == OVOID_SEPARATED ? OF_DISTANCE : v.status == OVOID_OVERLAPPING ? OF_CONTACT : OF_BOTH;
+    if (v.status == OVOID_UNDECIDED || (asked & wanted && !(v.upper - v.lower <= tolerance))) return undecided;
+    if (witness) write_witness(p, &found, nearest_find_direction(&found, distance, p->radii), witness);
+    return v;
+}
+
+COMPILER_INLINED ovoid_verdict find(ovoid_swept_pair pair, question asked, ovoid_witness *witness) {
+    ovoid_verdict v;
+    uint32_t a = pair.a->dimension, b = pair.b->dimension;
+    if ((a | b) == 0) return measure_points(pair, witness, &v) ? v : undecided;
+    placed p = place(pair.a, pair.b);
+    if (!is_moderate(&p)) return undecided;
+    double gap = p.distance - p.reach - p.radii - p.claim;
+    if (!(asked & OF_DISTANCE) && gap > 0) return make_verdict(gap, p.distance - p.radii + p.claim, 0);
+    if (a == 0 || b == 0) return measure_point(&p, asked, witness, &v) ? v : undecided;
+    if (a + b == 6) return asked == OF_SIGN ? separate_boxes(&p) : undecided;
+    return measure_nearest(&p, asked, witness);
+}
+
+// One for each question, so that none does what another one needs.
+COMPILER_NOINLINE static ovoid_verdict find_sign(ovoid_swept_pair pair) { return find(pair, OF_SIGN, NULL); }
+COMPILER_NOINLINE static ovoid_verdict find_distance(ovoid_swept_pair pair, ovoid_witness *witness) {
+    return find(pair, OF_DISTANCE, witness);
+}
+COMPILER_NOINLINE static ovoid_verdict find_contact(ovoid_swept_pair pair, ovoid_witness *witness) {
+    return find(pair, OF_CONTACT, witness);
+}
+COMPILER_NOINLINE static ovoid_verdict find_depth(ovoid_swept_pair pair, ovoid_witness *witness) {
+    return find(pair, OF_BOTH, witness);
+}
+
+ovoid_verdict ovoid_swept_collide(ovoid_swept_pair pair) { ENVIRONMENT_RETURN_CALL(find_sign(pair)); }
+
+ovoid_verdict ovoid_swept_distance(ovoid_swept_pair pair, ovoid_witness *witness) {
+    ENVIRONMENT_RETURN_CALL(find_distance(pair, witness));
+}
+
+ovoid_verdict ovoid_swept_contact(ovoid_swept_pair pair, ovoid_witness *witness) {
+    ENVIRONMENT_RETURN_CALL(find_contact(pair, witness));
+}
+
+ovoid_verdict ovoid_swept_depth(ovoid_swept_pair pair, ovoid_witness *witness) {
+    ENVIRONMENT_RETURN_CALL(find_depth(pair, witness));
+}

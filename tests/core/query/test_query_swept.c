@@ -1,0 +1,258 @@
+// Swept spheres (query/swept.c): their brackets beside those of the same bodies as shapes, whose answers are put before
+// ovoid_answer_verify. Axes are the columns of the shapes' rotations, off by 36 roundings, so two true brackets have a
+// common point to 2e-14 of the size. Random pairs of all types and scales, parallel, right-angled and nearly parallel
+// axes, pairs that touch; points in the bodies, and refused numbers.
+#include "ovoid/ovoid.h"
+
+#include "check.h"
+#include "places.h"
+
+#include <string.h>
+
+typedef struct body {
+    ovoid_swept_sphere swept;
+    ovoid_posed_shape shape;
+} body;
+
+static ovoid_posed_shape make_shape(const ovoid_swept_sphere *s, ovoid_quat q) {
+    ovoid_shape_options options = {0};
+    options.radius = s->radius;
+    ovoid_shape *made = s->dimension == 0 ? ovoid_shape_create_sphere(s->radius, NULL, NULL)
+                        : s->dimension == 1
+                            ? ovoid_shape_create_capsule(s->radius, s->half[0], NULL, NULL)
+                            : ovoid_shape_create_box((ovoid_vec3){s->half[0], s->half[1], s->half[2]}, &options, NULL);
+    return (ovoid_posed_shape){made, {s->center, q}};
+}
+
+/// A capsule's axis is the third one of its frame.
+static body make_body(uint32_t dimension, double radius, const double half[3], ovoid_vec3 center, ovoid_quat q) {
+    body b = {{center, radius, dimension, {half[0], half[1], half[2]}, {{0, 0, 0}}}, {0}};
+    ovoid_pose pose = {center, q};
+    double rows[9];
+    ovoid_pose_compute_matrix(&pose, rows);
+    for (int k = 0; k < 3; k++) b.swept.axis[k] = (ovoid_vec3){rows[k], rows[3 + k], rows[6 + k]};
+    if (dimension == 1) b.swept.axis[0] = b.swept.axis[2];
+    b.shape = make_shape(&b.swept, q);
+    CHECK(b.shape.shape != NULL);
+    return b;
+}
+
+static double dot(ovoid_vec3 a, ovoid_vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+static ovoid_vec3 between(ovoid_vec3 a, ovoid_vec3 b) { return (ovoid_vec3){b.x - a.x, b.y - a.y, b.z - a.z}; }
+
+/// How far a point is beyond a body's surface; in a box's core -1 is enough to say.
+static double measure_beyond(const ovoid_swept_sphere *s, ovoid_vec3 p) {
+    ovoid_vec3 y = between(s->center, p);
+    double square = dot(y, y), inside = 0;
+    for (uint32_t i = 0; i < s->dimension; i++) {
+        double along = dot(y, s->axis[i]), beyond = fmax(0, fabs(along) - s->half[i]);
+        square -= along * along;
+        inside += beyond * beyond;
+    }
+    return sqrt(fmax(0, square * (s->dimension < 3)) + inside) - s->radius;
+}
+
+/// The size of a pair: no coordinate that enters the answer is larger.
+static double measure_size(const body *a, const body *b) {
+    ovoid_vec3 d = between(a->swept.center, b->swept.center);
+    double size = sqrt(dot(d, d));
+    for (const body *x = a;; x = b) {
+        size += x->swept.radius;
+        for (uint32_t k = 0; k < x->swept.dimension; k++) size += x->swept.half[k];
+        if (x == b) return size;
+    }
+}
+
+typedef struct truth {
+    double lower, upper, size;
+} truth;
+
+static truth find_truth(const body *a, const body *b) {
+    ovoid_pair pair = {a->shape.shape, b->shape.shape, a->shape.pose, b->shape.pose};
+    ovoid_options options = {0, 1e-11, 0, 0};
+    const ovoid_answer_basis basis = {&options, NULL};
+    ovoid_answer depth = ovoid_depth(&pair, &options, NULL, NULL);
+    ovoid_error error = {0};
+    // Without its cover only the lower bound of a depth is proven; its upper bound is that of a translation.
+    if (depth.lower > 0 && !CHECK(ovoid_answer_verify(&pair, &depth, &basis, &error) == OVOID_OK))
+        printf("%s\n", error.message);
+    double size = measure_size(a, b), slack = 2e-14 * size;
+    return (truth){depth.lower - slack, depth.upper + slack, size};
+}
+
+static void check_bracket(const ovoid_verdict *v, const truth *t) {
+    CHECK_LE(v->lower, t->upper);
+    CHECK_LE(t->lower, v->upper);
+    CHECK_EQ((int)v->status, (int)(v->lower > 0 ? OVOID_SEPARATED : v->upper < 0 ? OVOID_OVERLAPPING : OVOID_TOUCHING));
+}
+
+/// Points on the bodies, their difference along the normal.
+static void check_witness(const body *a, const body *b, const ovoid_verdict *v, const ovoid_witness *w, double size) {
+    double distance = 0.5 * (v->lower + v->upper), far = fabs(a->swept.center.x) + size, slack = 1e-12 * far;
+    CHECK_NEAR(dot(w->normal, w->normal), 1, 1e-14);
+    CHECK_NEAR(dot(between(w->point_a, w->point_b), w->normal), distance, slack);
+    CHECK_LE(measure_beyond(&a->swept, w->point_a), slack);
+    CHECK_LE(measure_beyond(&b->swept, w->point_b), slack);
+    if (distance > 0)
+        CHECK_NEAR(sqrt(dot(between(w->point_a, w->point_b), between(w->point_a, w->point_b))), distance, slack);
+}
+
+typedef struct tally {
+    long calls, signs, depths;
+} tally;
+
+static void check_pair(const body *a, const body *b, tally *all) {
+    const ovoid_swept_pair pair = {&a->swept, &b->swept};
+    truth t = find_truth(a, b);
+    ovoid_witness w, again;
+    ovoid_verdict sign = ovoid_swept_collide(pair), depth = ovoid_swept_depth(pair, &w);
+    all->calls++;
+    all->signs += sign.status != OVOID_UNDECIDED;
+    all->depths += depth.status != OVOID_UNDECIDED;
+    if (sign.status != OVOID_UNDECIDED) check_bracket(&sign, &t);
+    if (depth.status != OVOID_UNDECIDED) {
+        check_bracket(&depth, &t);
+        CHECK_LE(depth.upper - depth.lower, 1e-12 * t.size);
+        check_witness(a, b, &depth, &w, t.size);
+    }
+    // What asks for less has the same answer, and an answer where that has one.
+    ovoid_verdict distance = ovoid_swept_distance(pair, &again);
+    if (depth.status == OVOID_SEPARATED) CHECK(memcmp(&again, &w, sizeof w) == 0 && distance.lower == depth.lower);
+    if (depth.status != OVOID_UNDECIDED) CHECK_EQ((int)distance.status, (int)depth.status);
+    if (distance.status != OVOID_UNDECIDED) check_bracket(&distance, &t);
+    ovoid_verdict contact = ovoid_swept_contact(pair, &again);
+    if (depth.status == OVOID_OVERLAPPING) CHECK(memcmp(&again, &w, sizeof w) == 0 && contact.lower == depth.lower);
+    if (depth.status != OVOID_UNDECIDED) CHECK_EQ((int)contact.status, (int)depth.status);
+    if (contact.status != OVOID_UNDECIDED) check_bracket(&contact, &t);
+}
+
+static void destroy(body *b) { ovoid_shape_destroy((ovoid_shape *)b->shape.shape); }
+
+/// Turns: none, by right angles, nearly none, any.
+static ovoid_quat make_turn(int kind, uint64_t *r) {
+    const double tiny = exp(random_uniform(r, -40, -2));
+    if (kind == 0) return (ovoid_quat){1, 0, 0, 0};
+    if (kind == 1) return (ovoid_quat){1, random_uniform(r, 0, 1) < 0.5 ? 1 : 0, 0, 0};
+    if (kind == 2) return (ovoid_quat){1, tiny, -tiny, 0.5 * tiny};
+    return random_quat(r);
+}
+
+static void test_random(void) {
+    uint64_t r = 7;
+    static const uint32_t dimensions[3] = {0, 1, 3};
+    for (int x = 0; x < 3; x++)
+        for (int y = 0; y < 3; y++) {
+            tally all = {0, 0, 0};
+            for (int i = 0; i < 1200; i++) {
+                double scale = i % 5 ? 1 : exp(random_uniform(&r, -20, 20));
+                double half[2][3], radius[2];
+                for (int k = 0; k < 2; k++) {
+                    for (int n = 0; n < 3; n++) half[k][n] = scale * random_uniform(&r, 0.1, 1);
+                    radius[k] = scale * random_uniform(&r, 0, 0.5);
+                }
+                // Two boxes are asked without radii.
+                if (dimensions[x] + dimensions[y] == 6) radius[0] = radius[1] = 0;
+                int is_far = i % 7 == 0;
+                ovoid_vec3 at = random_vec3(&r, is_far ? 1e3 * scale : scale), off = random_vec3(&r, 1.5 * scale);
+                if (i % 11 == 0) off = (ovoid_vec3){0, off.y, 0};
+                if (i % 13 == 0) off.x = half[0][0] + half[1][0] + radius[0] + radius[1];
+                body a = make_body(dimensions[x], radius[0], half[0], at, make_turn(i % 4, &r));
+                body b =
+                    make_body(dimensions[y], radius[1], half[1], (ovoid_vec3){at.x + off.x, at.y + off.y, at.z + off.z},
+                              make_turn(i % 3 + i % 2, &r));
+                check_pair(&a, &b, &all);
+                destroy(&a);
+                destroy(&b);
+            }
+            // Most pairs are answered: where a sign is left open they touch, or edges are nearly parallel.
+            CHECK_LE(0.85 * (double)all.calls, (double)all.signs);
+            if (dimensions[x] * dimensions[y] == 0) CHECK_LE(0.9 * (double)all.calls, (double)all.depths);
+            if (dimensions[x] + dimensions[y] == 6) CHECK_EQ(all.depths, 0);
+        }
+}
+
+/// Two boxes that only the cross product of two edges separates, and the same a little nearer; parallel edges.
+static void test_edges(void) {
+    const double half[3] = {1, 1, 1};
+    const double turn = 0.3826834323650898, rest = 0.9238795325112867; // sine and cosine of 22.5 degrees
+    tally all = {0, 0, 0};
+    for (int k = 0; k < 2; k++) {
+        // An edge of each faces the other one: they are sqrt(2) from the centres, at right angles to each other.
+        double d = 2 * 1.4142135623730951 + (k ? -1e-6 : 1e-6);
+        body a = make_body(3, 0, half, (ovoid_vec3){0, 0, 0}, (ovoid_quat){rest, 0, turn, 0});
+        body b = make_body(3, 0, half, (ovoid_vec3){d, 0, 0}, (ovoid_quat){rest, 0, 0, turn});
+        const ovoid_swept_pair pair = {&a.swept, &b.swept};
+        CHECK_EQ((int)ovoid_swept_collide(pair).status, (int)(k ? OVOID_OVERLAPPING : OVOID_SEPARATED));
+        check_pair(&a, &b, &all);
+        destroy(&a);
+        destroy(&b);
+        body c = make_body(3, 0, half, (ovoid_vec3){0, 0, 0}, (ovoid_quat){1, 0, 0, 0});
+        body e = make_body(3, 0, half, (ovoid_vec3){k ? 1.999 : 2.001, 0.5, 0.25}, (ovoid_quat){1, 0, 0, 0});
+        const ovoid_swept_pair aligned = {&c.swept, &e.swept};
+        CHECK_EQ((int)ovoid_swept_collide(aligned).status, (int)(k ? OVOID_OVERLAPPING : OVOID_SEPARATED));
+        destroy(&c);
+        destroy(&e);
+    }
+}
+
+/// A point in a box, with and without a radius: the depth is the way to the nearest face.
+static void test_inside(void) {
+    const double half[3] = {1, 2, 3};
+    for (int i = 0; i < 12; i++) {
+        double radius = i % 2 ? 0.25 : 0;
+        ovoid_vec3 at = {i % 4 < 2 ? 0.75 : -0.75, 0.5, i < 6 ? 0.25 : -0.25};
+        body box = make_body(3, 0, half, (ovoid_vec3){0, 0, 0}, (ovoid_quat){1, 0, 0, 0});
+        ovoid_swept_sphere ball = {at, radius, 0, {0, 0, 0}, {{0, 0, 0}}};
+        const ovoid_swept_pair pair = {i % 3 ? &box.swept : &ball, i % 3 ? &ball : &box.swept};
+        ovoid_witness w;
+        ovoid_verdict v = ovoid_swept_depth(pair, &w), sign = ovoid_swept_collide(pair);
+        CHECK_NEAR(0.5 * (v.lower + v.upper), -0.25 - radius, 1e-12);
+        CHECK_EQ((int)v.status, (int)OVOID_OVERLAPPING);
+        CHECK_NEAR(w.normal.x, (at.x > 0) == (i % 3 > 0) ? 1 : -1, 0);
+        CHECK_LE(sign.lower, -0.25 - radius);
+        CHECK_EQ((int)sign.status, (int)(radius > 0 ? OVOID_OVERLAPPING : OVOID_UNDECIDED));
+        destroy(&box);
+    }
+}
+
+static void check_refused(const ovoid_swept_sphere *a, const ovoid_swept_sphere *b) {
+    const ovoid_swept_pair pair = {a, b}, other = {b, a};
+    ovoid_witness w, before;
+    memset(&w, 7, sizeof w);
+    before = w;
+    CHECK_EQ((int)ovoid_swept_collide(pair).status, (int)OVOID_UNDECIDED);
+    CHECK_EQ((int)ovoid_swept_collide(other).status, (int)OVOID_UNDECIDED);
+    CHECK_EQ((int)ovoid_swept_depth(pair, &w).status, (int)OVOID_UNDECIDED);
+    CHECK_EQ((int)ovoid_swept_distance(other, &w).status, (int)OVOID_UNDECIDED);
+    CHECK_EQ((int)ovoid_swept_contact(pair, &w).status, (int)OVOID_UNDECIDED);
+    CHECK(memcmp(&w, &before, sizeof w) == 0);
+}
+
+static void test_refused(void) {
+    const ovoid_swept_sphere plain[3] = {{{0.1, 0.2, 0.3}, 0.5, 0, {0, 0, 0}, {{0, 0, 0}}},
+                                         {{0.1, 0.2, 0.3}, 0.5, 1, {1, 0, 0}, {{1, 0, 0}}},
+                                         {{0.1, 0.2, 0.3}, 0, 3, {1, 1, 1}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}};
+    for (int k = 0; k < 3; k++)
+        for (int n = 0; n < 3; n++) {
+            ovoid_swept_sphere wrong = plain[n];
+            wrong.center.y = NAN;
+            check_refused(&plain[k], &wrong);
+            wrong.center.y = 1e60;
+            check_refused(&plain[k], &wrong);
+            wrong.center.y = 3;
+            wrong.radius = -0.1;
+            check_refused(&plain[k], &wrong);
+            wrong.radius = NAN;
+            check_refused(&plain[k], &wrong);
+        }
+    const ovoid_swept_sphere small = {{0, 0, 0}, 1e-60, 0, {0, 0, 0}, {{0, 0, 0}}};
+    check_refused(&small, &small);
+}
+
+int main(void) {
+    test_random();
+    test_edges();
+    test_inside();
+    test_refused();
+    return check_end();
+}
