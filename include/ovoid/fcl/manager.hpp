@@ -1,14 +1,14 @@
 /**
  * @file manager.hpp
  * A broad-phase manager with the interface of FCL's, for <ovoid/fcl.hpp>. A tree of boxes is built over all objects by
- * halving them along the longest axis of their centres; objects that are registered after that are kept in a list
- * beside it until they are a sixteenth of all, or until the next setup() or update(). An update refits the tree, and
- * builds it anew where its boxes have grown by a fifth.
+ * halving them along the longest axis of their centres, down to blocks of eight; objects that are registered after that
+ * are kept in a list beside it until they are a sixteenth of all, or until the next setup() or update(). An update
+ * refits the tree, and builds it anew where its boxes have grown by a fifth.
  */
 #ifndef OVOID_FCL_MANAGER_HPP
 #define OVOID_FCL_MANAGER_HPP
 
-#include "ovoid/fcl/boxes.hpp"
+#include "ovoid/fcl/blocks.hpp"
 #include "ovoid/fcl/pose.hpp"
 
 #include <fcl/fcl.h>
@@ -54,7 +54,7 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
         const std::size_t place = found->second;
         places_.erase(found);
         objects_[place] = nullptr;
-        set_box(place, empty_box());
+        set_box(place, detail::empty_box());
         if (places_.size() < objects_.size() / 2) build();
     }
     /** Builds the tree, if objects were registered since it was built. */
@@ -66,7 +66,7 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
         if (count_recent() > 0) return build();
         if (leaves_ == 0) return;
         refit();
-        if (!(measure() <= 1.2 * measure_)) build();
+        if (!(tree_.measure() <= 1.2 * measure_)) build();
     }
     /** Reads the box of one object. */
     void update(object *o) override {
@@ -109,16 +109,14 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
         const auto take = [&](std::size_t i, std::size_t j) {
             return objects_[i] && objects_[j] && callback(objects_[i], objects_[j], data);
         };
-        if (leaves_ > 0 &&
-            detail::visit_own(detail::pair_search(boxes_.data(), boxes_.data(), detail::overlap_test(), take), root()))
-            return;
+        if (tree_.find_own(take)) return;
         for (std::size_t k = leaves_; k < objects_.size(); k++)
             if (objects_[k] && find_overlaps(box_at(k), k, [&](std::size_t i) { return take(i, k); })) return;
     }
     /** Calls back with two objects while their boxes are nearer than the least distance so far. */
     void distance(void *data, ::fcl::DistanceCallBack<S> callback) const override {
         nearest found(callback, data);
-        if (leaves_ > 0 && find_own(found)) return;
+        if (find_own(found)) return;
         for (std::size_t k = leaves_; k < objects_.size(); k++)
             if (objects_[k] && find_near(box_at(k), k, found, objects_[k])) return;
     }
@@ -139,10 +137,7 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
             return;
         }
         const auto take_leaves = [&](std::size_t i, std::size_t j) { return take(objects_[i], ours->objects_[j]); };
-        if (leaves_ > 0 && ours->leaves_ > 0 &&
-            detail::pair_search(boxes_.data(), ours->boxes_.data(), detail::overlap_test(), take_leaves)
-                .visit(root(), ours->root()))
-            return;
+        if (tree_.find_both(ours->tree_, take_leaves)) return;
         for (std::size_t k = ours->leaves_; k < ours->objects_.size(); k++)
             if (find_overlaps(ours->box_at(k), objects_.size(), [&](std::size_t i) { return take_leaves(i, k); }))
                 return;
@@ -183,18 +178,12 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
         const auto &box = o->getAABB();
         return {detail::to_vec3<S>(box.min_), detail::to_vec3<S>(box.max_)};
     }
-    /// In the place of an object that was removed: it meets nothing.
-    static ovoid_box empty_box() {
-        const double far = std::numeric_limits<double>::infinity();
-        return {{far, far, far}, {-far, -far, -far}};
-    }
     static std::vector<object *> objects_of(const base &manager) {
         std::vector<object *> objects;
         manager.getObjects(objects);
         return objects;
     }
 
-    detail::box_range root() const { return {0, 0, leaves_}; }
     std::size_t count_recent() const { return objects_.size() - leaves_; }
     const ovoid_box &box_at(std::size_t recent) const { return recent_[recent - leaves_]; }
 
@@ -209,28 +198,10 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
         if (place >= leaves_)
             recent_[place - leaves_] = box;
         else
-            set_box(root(), place, box);
-    }
-    void set_box(const detail::box_range &at, std::size_t place, const ovoid_box &box) {
-        if (at.is_leaf()) {
-            boxes_[at.node] = box;
-            return;
-        }
-        const detail::box_range lower = at.lower(), upper = at.upper();
-        set_box(place < lower.end ? lower : upper, place, box);
-        boxes_[at.node] = detail::join(boxes_[lower.node], boxes_[upper.node]);
+            tree_.set(place, box);
     }
     void refit() {
-        detail::fill_boxes(boxes_, root(),
-                           [this](std::size_t i) { return objects_[i] ? box_of(objects_[i]) : empty_box(); });
-    }
-    /// The sum of the lengths of all boxes that hold an object.
-    double measure() const {
-        double sum = 0;
-        for (const ovoid_box &box : boxes_)
-            if (box.min.x <= box.max.x)
-                sum += (box.max.x - box.min.x) + (box.max.y - box.min.y) + (box.max.z - box.min.z);
-        return sum;
+        tree_.fill(leaves_, [this](std::size_t i) { return objects_[i] ? box_of(objects_[i]) : detail::empty_box(); });
     }
 
     /// An object and the doubled centre of its box, for the build.
@@ -248,13 +219,12 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
         leaves_ = items.size();
         objects_.resize(leaves_);
         recent_.clear();
-        boxes_.resize(detail::count_boxes(leaves_));
         for (std::size_t i = 0; i < leaves_; i++) {
             objects_[i] = items[i].of;
             places_[items[i].of] = i;
         }
-        if (leaves_ > 0) refit();
-        measure_ = measure();
+        refit();
+        measure_ = tree_.measure();
     }
     static item make_item(object *o) {
         const ovoid_box box = box_of(o);
@@ -263,9 +233,10 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
             if (!std::isfinite(c)) c = 0; // no order is known of NaN
         return made;
     }
-    /// Puts the items into the order of the tree's leaves.
+    /// Puts the items into the order of the tree's leaves: the halves of a range are those of its blocks.
     static void split(item *first, item *end) {
-        const auto half = (end - first) / 2;
+        const auto size = static_cast<std::ptrdiff_t>(detail::block_size);
+        const auto half = (end - first + size - 1) / size / 2 * size;
         if (half == 0) return;
         int axis = 0;
         double longest = -1;
@@ -283,10 +254,7 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
 
     /// Takes the places below `end` whose boxes meet a box, until `take` returns true: then it returns true.
     template <class Take> bool find_overlaps(const ovoid_box &box, std::size_t end, const Take &take) const {
-        const auto take_leaf = [&](std::size_t i, std::size_t) { return take(i); };
-        if (leaves_ > 0 &&
-            detail::pair_search(boxes_.data(), &box, detail::overlap_test(), take_leaf).visit(root(), {0, 0, 1}))
-            return true;
+        if (tree_.find(box, take)) return true;
         for (std::size_t k = leaves_; k < end; k++)
             if (detail::overlap_test()(box_at(k), box) && take(k)) return true;
         return false;
@@ -294,11 +262,10 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
     bool find_near(object *o, nearest &found) const { return find_near(box_of(o), objects_.size(), found, o); }
     /// Asks for the places below `end` and an object with this box.
     bool find_near(const ovoid_box &box, std::size_t end, nearest &found, object *o) const {
-        const auto take = [&](std::size_t i, std::size_t) { return found.take(objects_[i], o); };
-        if (leaves_ > 0 && detail::near_search(boxes_.data(), &box, found.bound2(), take).visit(root(), {0, 0, 1}))
-            return true;
+        const auto take = [&](std::size_t i) { return found.take(objects_[i], o); };
+        if (tree_.find_near(box, found.bound2(), take)) return true;
         for (std::size_t k = leaves_; k < end; k++)
-            if (detail::compute_gap2(box_at(k), box) < found.bound2() && take(k, 0)) return true;
+            if (detail::compute_gap2(box_at(k), box) < found.bound2() && take(k)) return true;
         return false;
     }
     /// Asks for the pairs of the tree. Those with the nearest boxes come first, as the distance of one of them ends
@@ -307,24 +274,19 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
         double least2 = std::numeric_limits<double>::infinity();
         std::size_t first = 0, second = 0;
         const auto seek = [&](std::size_t i, std::size_t j) {
-            least2 = detail::compute_gap2(leaf_box(i), leaf_box(j)), first = i, second = j;
+            least2 = detail::compute_gap2(tree_.box(i), tree_.box(j)), first = i, second = j;
             return least2 == 0;
         };
-        detail::visit_own(detail::near_search(boxes_.data(), boxes_.data(), least2, seek), root());
+        tree_.find_own_near(least2, seek);
         if (first != second && found.take(objects_[first], objects_[second])) return true;
         const auto take = [&](std::size_t i, std::size_t j) {
             return (i != first || j != second) && found.take(objects_[i], objects_[j]);
         };
-        return detail::visit_own(detail::near_search(boxes_.data(), boxes_.data(), found.bound2(), take), root());
-    }
-    const ovoid_box &leaf_box(std::size_t i) const {
-        detail::box_range at = root();
-        while (!at.is_leaf()) at = i < at.lower().end ? at.lower() : at.upper();
-        return boxes_[at.node];
+        return tree_.find_own_near(found.bound2(), take);
     }
 
     std::vector<object *> objects_; ///< of the tree's leaves, then those registered since; NULL: removed
-    std::vector<ovoid_box> boxes_;  ///< of the tree
+    detail::block_tree tree_;       ///< of the boxes of the first objects
     std::vector<ovoid_box> recent_; ///< of the objects that are not in the tree
     std::unordered_map<object *, std::size_t> places_;
     std::size_t leaves_ = 0; ///< of the tree
