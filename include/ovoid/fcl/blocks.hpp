@@ -1,8 +1,8 @@
 /**
  * @file blocks.hpp
- * The boxes of a broad-phase manager, for <ovoid/fcl.hpp>: in blocks of eight, with a tree of boxes over the blocks.
+ * The boxes of a broad-phase manager, for <ovoid/fcl.hpp>: in blocks, with a tree of boxes over the blocks.
  * A block has its boxes side by side in single precision too, rounded outward, so that a compiler's vectors compare
- * eight at once; what they let pass is compared in doubles.
+ * four at once; what they let pass is compared in doubles.
  */
 #ifndef OVOID_FCL_BLOCKS_HPP
 #define OVOID_FCL_BLOCKS_HPP
@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <vector>
 
@@ -21,30 +22,30 @@ namespace fcl {
 namespace detail {
 
 /// The number of boxes in a block.
-constexpr std::size_t block_size = 8;
+constexpr std::size_t block_size = 16;
 
-/// The place of a box that is none: it meets nothing, and is infinitely far from all.
+/// In the place of a box that is none: it is infinitely far from all, and meets only what is as large as numbers are.
 inline ovoid_box empty_box() {
-    const double far = std::numeric_limits<double>::infinity();
+    const double far = std::numeric_limits<double>::max();
     return {{far, far, far}, {-far, -far, -far}};
 }
-
-/// A number rounded down to single precision: off by a rounding of the product, of the sum and of the conversion. NaN
-/// and what is beyond the floats become an end that holds everything.
-inline float round_down(double x) {
-    const double low = x - (std::fabs(x) * 0x1p-22 + 0x1p-140);
-    if (!(low >= -0x1p127)) return x > 0 ? 0x1p127f : -std::numeric_limits<float>::infinity();
-    return static_cast<float>(low < 0x1p127 ? low : 0x1p127);
-}
-inline float round_up(double x) { return -round_down(-x); }
 
 /// A box in single precision.
 struct float_box {
     float low[3], high[3];
 };
+/// A box rounded outward. Each number is off by a rounding of the product, of the sum and of the conversion, together
+/// less than it is moved. An end that is NaN, or beyond the floats on its own side, becomes infinite. No branches.
 inline float_box round_out(const ovoid_box &b) {
-    return {{round_down(b.min.x), round_down(b.min.y), round_down(b.min.z)},
-            {round_up(b.max.x), round_up(b.max.y), round_up(b.max.z)}};
+    // Upper ends are rounded as their opposites are.
+    const double ends[6] = {b.min.x, b.min.y, b.min.z, -b.max.x, -b.max.y, -b.max.z};
+    float rounded[6];
+    for (int i = 0; i < 6; i++) {
+        double low = ends[i] - (std::fabs(ends[i]) * 0x1p-22 + 0x1p-140);
+        low = low > -0x1p127 ? low : -std::numeric_limits<double>::infinity();
+        rounded[i] = static_cast<float>(low < 0x1p127 ? low : 0x1p127);
+    }
+    return {{rounded[0], rounded[1], rounded[2]}, {-rounded[3], -rounded[4], -rounded[5]}};
 }
 
 /// The boxes of a block, coordinate by coordinate.
@@ -57,18 +58,44 @@ struct box_block {
     float_box get(std::size_t lane) const {
         return {{low[0][lane], low[1][lane], low[2][lane]}, {high[0][lane], high[1][lane], high[2][lane]}};
     }
-    /// The lanes, as bits, whose boxes may meet a box. A loop of lanes without a branch, which compilers turn into
-    /// vectors.
+    /// The lanes, as bits, whose boxes may meet a box.
+#if defined(__GNUC__)
+    // The compiler's own vectors, which it has for every processor.
     std::uint32_t find(const float_box &b) const {
-        static constexpr std::int32_t bits[block_size] = {1, 2, 4, 8, 16, 32, 64, 128};
-        std::int32_t found = 0;
+        using flags = std::int32_t __attribute__((vector_size(16)));
+        using halves = std::int64_t __attribute__((vector_size(16)));
+        flags found = {0, 0, 0, 0};
+        for (int i = 0; i < static_cast<int>(block_size); i += 4) {
+            flags beyond = {0, 0, 0, 0};
+            for (int k = 0; k < 3; k++)
+                beyond |= (load(&low[k][i]) > spread(b.high[k])) | (spread(b.low[k]) > load(&high[k][i]));
+            found |= ~beyond & (flags{1, 2, 4, 8} << i);
+        }
+        halves both;
+        std::memcpy(&both, &found, sizeof both);
+        const auto all = static_cast<std::uint64_t>(both[0] | both[1]);
+        return static_cast<std::uint32_t>(all | all >> 32);
+    }
+
+  private:
+    using four = float __attribute__((vector_size(16)));
+    static four load(const float *from) {
+        four to;
+        std::memcpy(&to, from, sizeof to);
+        return to;
+    }
+    static four spread(float x) { return four{x, x, x, x}; }
+#else
+    std::uint32_t find(const float_box &b) const {
+        std::uint32_t found = 0;
         for (std::size_t i = 0; i < block_size; i++) {
             const bool is_beyond = (low[0][i] > b.high[0]) | (low[1][i] > b.high[1]) | (low[2][i] > b.high[2]) |
                                    (b.low[0] > high[0][i]) | (b.low[1] > high[1][i]) | (b.low[2] > high[2][i]);
-            found |= is_beyond ? 0 : bits[i];
+            found |= static_cast<std::uint32_t>(!is_beyond) << i;
         }
-        return static_cast<std::uint32_t>(found);
+        return found;
     }
+#endif
 };
 
 /// The lowest bit that is set.
@@ -96,6 +123,7 @@ class block_tree {
         leaves_.resize(blocks * block_size);
         blocks_.resize(blocks);
         all_.resize(blocks);
+        outer_.resize(blocks);
         boxes_.resize(count_boxes(blocks));
         for (std::size_t i = 0; i < leaves_.size(); i++) set_leaf(i, i < count ? box_of(i) : empty_box());
         if (blocks > 0) fill_boxes(boxes_, root(), [this](std::size_t block) { return join_block(block); });
@@ -167,8 +195,9 @@ class block_tree {
 
   private:
     box_range root() const { return {0, 0, blocks_.size()}; }
+    static constexpr std::uint32_t every = (std::uint32_t{1} << block_size) - 1;
     /// The lanes after lane i.
-    static std::uint32_t above(std::size_t i) { return 0xfeu << i & 0xffu; }
+    static std::uint32_t above(std::size_t i) { return every << i << 1 & every; }
 
     void set_leaf(std::size_t place, const ovoid_box &box) {
         leaves_[place] = box;
@@ -177,6 +206,7 @@ class block_tree {
     ovoid_box join_block(std::size_t block) {
         ovoid_box all = empty_box();
         for (std::size_t i = 0; i < block_size; i++) all = join(all, leaves_[block * block_size + i]);
+        outer_[block] = round_out(all);
         return all_[block] = all;
     }
     void set_above(const box_range &at, std::size_t block) {
@@ -204,8 +234,7 @@ class block_tree {
     /// Takes the pairs of block x here and block y there: first the lanes of y that meet all of x are found.
     template <class Take>
     bool take_pairs(const block_tree &there, std::size_t x, std::size_t y, const Take &take) const {
-        const std::uint32_t every = 0xff;
-        for (std::uint32_t lanes = there.blocks_[y].find(round_out(all_[x])); lanes; lanes &= lanes - 1)
+        for (std::uint32_t lanes = there.blocks_[y].find(outer_[x]); lanes; lanes &= lanes - 1)
             if (take_lanes(there, x, y * block_size + find_lowest(lanes), every, take)) return true;
         return false;
     }
@@ -222,6 +251,7 @@ class block_tree {
     std::vector<ovoid_box> leaves_; ///< with empty boxes up to the end of the last block
     std::vector<box_block> blocks_;
     std::vector<ovoid_box> all_;   ///< of each block
+    std::vector<float_box> outer_; ///< the same, rounded outward
     std::vector<ovoid_box> boxes_; ///< the tree, whose leaves are those
 };
 
