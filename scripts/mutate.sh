@@ -17,7 +17,7 @@ cd "$(dirname "$0")/.." || exit 1
 jobs=${JOBS:-2}
 copy=build/mutate
 tree=$copy/tree
-groups="allowance query prepared depth_memory growth boxes closed exact hull shape ellipsoid simd environment tools world world_manifolds solid_manifolds compound solid solid_body solid_files decompose motion smooth paper manifold table lanes io robot robot_read robot_solid robot_spheres robot_cover robot_table robot_compare ompl fcl adapters robot_cli robot_spheres_cli shard verify page report python python_solid decompose_watch robot_watch hostile hostile_cli contact_faces contact_python python_fcl"
+groups="allowance query prepared depth_memory growth boxes closed swept exact hull shape ellipsoid simd environment tools world world_manifolds solid_manifolds compound solid solid_body solid_files decompose motion smooth paper manifold table lanes io robot robot_read robot_solid robot_spheres robot_cover robot_table robot_compare ompl fcl adapters robot_cli robot_spheres_cli shard verify page report python python_solid decompose_watch robot_watch hostile hostile_cli contact_faces contact_python python_fcl"
 
 # The tests of a group, fastest first; arguments after a colon.
 tests_of() {
@@ -31,6 +31,7 @@ tests_of() {
     growth) echo "test_simd_epa8 test_judge_capacity $query" ;;
     boxes) echo "test_simd_box_axes test_query_boxes $query" ;;
     closed) echo "test_query_closed test_judge_closed test_query_batch test_prepared test_allowance test_query_boxes $query" ;;
+    swept) echo "test_query_swept" ;;
     exact) echo "test_linear test_hull $query" ;;
     hull) echo "test_linear test_hull_sort test_hull test_measures test_shape $query" ;;
     shape) echo "test_centered_box test_regular_solid test_measures test_shape test_shape_triangles test_shape_file test_shape_rim $query" ;;

@@ -272,6 +272,29 @@ void test_strange() {
     CHECK(sorted<double>(before.pairs) == sorted<double>(pairs));
 }
 
+/// Boxes side by side, whose faces are in one plane or off it by roundings: none of the pairs that meet is lost where
+/// boxes are compared in single precision.
+void test_touching() {
+    std::vector<std::unique_ptr<CollisionObjectd>> all;
+    std::vector<CollisionObjectd *> list;
+    for (int i = 0; i < 125; i++) {
+        Transform3d t = Transform3d::Identity();
+        t.translation() = Vector3d(i % 5, i / 5 % 5, i / 25) * 0.1 + Vector3d(1.3, -7.7, 1000.1);
+        all.push_back(std::make_unique<CollisionObjectd>(std::make_shared<Boxd>(0.1, 0.1, 0.1), t));
+        all.back()->computeAABB();
+        list.push_back(all.back().get());
+    }
+    ovoid::fcl::BroadPhaseManager<double> ours;
+    NaiveCollisionManager<double> theirs;
+    ours.registerObjects(list);
+    theirs.registerObjects(list);
+    record<double> a, b;
+    ours.collide(&a, note<double>);
+    theirs.collide(&b, note<double>);
+    CHECK_LE(150, b.pairs.size());
+    CHECK(sorted<double>(a.pairs) == sorted<double>(b.pairs));
+}
+
 /// Through the shim: the least distance of all pairs, and each pair that collides.
 void test_shim() {
     random_poses poses(15);
@@ -315,6 +338,7 @@ int main() {
     test_two<float>();
     test_stop();
     test_strange();
+    test_touching();
     test_shim();
     return check_end();
 }

@@ -215,6 +215,34 @@ static void test_inside(void) {
     }
 }
 
+/// The distance of two points, a point and a segment, and a point and a box along the world's axes, in long double: the
+/// bracket holds it, which the distance as it is computed in doubles is seldom.
+static void test_rounding(void) {
+    typedef long double real;
+    uint64_t r = 21;
+    const ovoid_vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    static const uint32_t dimensions[3] = {0, 1, 3};
+    for (int i = 0; i < 600; i++) {
+        ovoid_swept_sphere a = {random_vec3(&r, 1), random_uniform(&r, 0, 0.5), 0, {0, 0, 0}, {{0, 0, 0}}}, b = a;
+        b.center = random_vec3(&r, 1);
+        b.dimension = dimensions[i % 3];
+        for (int k = 0; k < 3; k++) b.axis[k] = axes[k], b.half[k] = random_uniform(&r, 0.01, 0.5);
+        real square = 0;
+        const double *from = &a.center.x, *to = &b.center.x;
+        for (int k = 0; k < 3; k++) {
+            real off = fabsl((real)from[k] - to[k]) - ((uint32_t)k < b.dimension ? b.half[k] : 0);
+            square += off > 0 ? off * off : 0;
+        }
+        const ovoid_swept_pair pair = {i % 2 ? &a : &b, i % 2 ? &b : &a};
+        ovoid_witness w;
+        ovoid_verdict v = ovoid_swept_depth(pair, &w), sign = ovoid_swept_collide(pair);
+        real distance = sqrtl(square) - ((real)a.radius + b.radius);
+        if (v.status == OVOID_UNDECIDED || !(square > 0)) continue;
+        CHECK(v.lower < distance && distance < v.upper);
+        if (sign.status != OVOID_UNDECIDED) CHECK(sign.lower < distance && distance < sign.upper);
+    }
+}
+
 static void check_refused(const ovoid_swept_sphere *a, const ovoid_swept_sphere *b) {
     const ovoid_swept_pair pair = {a, b}, other = {b, a};
     ovoid_witness w, before;
@@ -245,6 +273,10 @@ static void test_refused(void) {
             wrong.radius = NAN;
             check_refused(&plain[k], &wrong);
         }
+    // Two boxes with radii, which overlap.
+    ovoid_swept_sphere round = plain[2];
+    round.radius = 0.25;
+    check_refused(&plain[2], &round);
     const ovoid_swept_sphere small = {{0, 0, 0}, 1e-60, 0, {0, 0, 0}, {{0, 0, 0}}};
     check_refused(&small, &small);
 }
@@ -253,6 +285,7 @@ int main(void) {
     test_random();
     test_edges();
     test_inside();
+    test_rounding();
     test_refused();
     return check_end();
 }
