@@ -5,7 +5,8 @@
  * OVOID_FCL_REPLACE defined before this header, the calls of namespace fcl go to ovoid without another change of the
  * program, except for those that name their template argument (fcl::collide<double>). Links libovoid and libfcl.
  *
- * Geometries are translated once and kept (<ovoid/fcl/cache.hpp>). Calls are safe from several threads.
+ * Spheres, capsules and boxes are read in each call (<ovoid/fcl/swept.hpp>); other geometries, and pairs of these that
+ * closed forms leave open, are translated once and kept (<ovoid/fcl/cache.hpp>). Calls are safe from several threads.
  *
  * FCL answers what ovoid does not: octrees, clouds of points, cost sources, num_max_contacts = 0, a plane or halfspace
  * against another one, geometries that ovoid refuses (a side below 0, NaN), transforms that are no rigid motions,
