@@ -1,9 +1,9 @@
 /**
  * @file swept.h
- * Swept spheres: a ball swept over a point, a segment or a box, given by numbers alone. Spheres, capsules and boxes
- * with or without a radius are such bodies (E. Larsen, S. Gottschalk, M. C. Lin, D. Manocha, Fast proximity queries
- * with swept sphere volumes, 1999). Nothing is created or prepared for them: for hosts that hold their own geometries
- * and ask each pair once, as a broad phase does.
+ * Swept spheres: a ball swept over a point, a segment, a box, a cylinder or a cone, given by numbers alone. Spheres,
+ * capsules and boxes with or without a radius are such bodies (E. Larsen, S. Gottschalk, M. C. Lin, D. Manocha, Fast
+ * proximity queries with swept sphere volumes, 1999). Nothing is created or prepared for them: for hosts that hold
+ * their own geometries and ask each pair once, as a broad phase does.
  *
  * The queries are closed forms without a proof. Where a closed form does not answer, the verdict is undecided, and the
  * same bodies as shapes (<ovoid/shape.h>) have an answer with its proof by <ovoid/query.h>.
@@ -17,15 +17,22 @@
 extern "C" {
 #endif
 
-/**
- * A body: all points within `radius` of center + sum t_i axis[i], |t_i| <= half[i]. World axes, one unit of length.
- * Axes beyond the dimension are not read.
- */
+/** What the ball is swept over. The cores' axes and lengths are below. */
+typedef enum ovoid_swept_core {
+    OVOID_SWEPT_POINT = 0,
+    OVOID_SWEPT_SEGMENT = 1,  /**< along axis[0], half[0] to either side */
+    OVOID_SWEPT_CYLINDER = 2, /**< around axis[0], half[0] to either side, of the radius half[1] */
+    OVOID_SWEPT_BOX = 3,      /**< half[k] to either side along each axis[k] */
+    OVOID_SWEPT_CONE = 4      /**< around axis[0]: the apex is half[0] along it, the base of radius half[1] opposite */
+} ovoid_swept_core;
+
+/** A body: all points within `radius` of its core. World axes, one unit of length. What a core does not name is not
+ * read. */
 typedef struct ovoid_swept_sphere {
     ovoid_vec3 center;
-    double radius;      /**< >= 0 */
-    uint32_t dimension; /**< 0: a point, 1: a segment, 3: a box */
-    double half[3];     /**< half lengths, > 0 */
+    double radius; /**< >= 0 */
+    ovoid_swept_core core;
+    double half[3];     /**< lengths, > 0 */
     ovoid_vec3 axis[3]; /**< unit, and at right angles: their products are off by 2^-48 together */
 } ovoid_swept_sphere;
 

@@ -1,6 +1,7 @@
 // Queries of swept spheres (ovoid/swept.h): closed forms without shapes, frames and proofs. Of a point and another core
-// the point's coordinates along the other one's axes, cut off at its ends; of segments, and of a box and a segment, the
-// nearest points of exact/nearest.h; of two boxes the separating axes.
+// the point's coordinates along the other one's axes, cut off at its ends, of a cylinder and a cone in the plane of
+// axis and point; of segments, and of a box and a segment, the nearest points of exact/nearest.h; of two boxes the
+// separating axes.
 //
 // Errors, in parts u s, u = 2^-53, s the sum of both bodies' reaches and radii and of the distance of the centres. The
 // axes are numbers that are given, so nothing is turned, and what is measured in the world (pair/reject.h, off by less
@@ -52,7 +53,9 @@ static const ovoid_verdict undecided = {OVOID_UNDECIDED, OVOID_STAGE_SUPPORT, OV
 // How far a core reaches from its centre.
 static inline double find_reach(const swept *s) {
     const double *h = s->half;
-    return s->dimension == 0 ? 0 : s->dimension == 1 ? h[0] : sqrt((h[0] * h[0] + h[1] * h[1]) + h[2] * h[2]);
+    if (s->core <= OVOID_SWEPT_SEGMENT) return s->core == OVOID_SWEPT_POINT ? 0 : h[0];
+    double square = h[0] * h[0] + h[1] * h[1];
+    return sqrt(s->core == OVOID_SWEPT_BOX ? square + h[2] * h[2] : square);
 }
 
 static inline placed place(const swept *a, const swept *b) {
@@ -155,37 +158,94 @@ COMPILER_INLINED int measure_points(ovoid_swept_pair pair, ovoid_witness *witnes
 
 // ---- a point and another core
 
-// A point y from the centre of a core: the vector to it from the nearest point of the core.
-static inline vec3 cut_off(const swept *core, vec3 y, double excess[3]) {
-    vec3 off = {0, 0, 0};
-    if (core->dimension == 1) {
-        double along = vec3_dot(core->axis[0], y), h = core->half[0];
-        return vec3_add_scaled(y, core->axis[0], -max2(-h, min2(h, along)));
-    }
-    for (int i = 0; i < 3; i++) {
-        double along = vec3_dot(core->axis[i], y), h = core->half[i];
-        excess[i] = along - max2(-h, min2(h, along));
-        off = vec3_add_scaled(off, core->axis[i], excess[i]);
-    }
-    return off;
+// A point y from the centre of a core: the vector to it from the nearest point of the core; or of a point in the core a
+// unit normal of its surface where that is nearest, and how far it is.
+typedef struct way_out {
+    int is_inside;
+    vec3 off;
+    double depth;
+} way_out;
+
+static inline way_out leave_segment(const swept *core, vec3 y) {
+    double along = vec3_dot(core->axis[0], y), h = core->half[0];
+    return (way_out){0, vec3_add_scaled(y, core->axis[0], -max2(-h, min2(h, along))), 0};
 }
 
-// The way out of a box for a point y in it: a unit normal, and how far.
-static vec3 find_way_out(const swept *box, vec3 y, double *depth) {
-    vec3 out = box->axis[0];
-    *depth = INFINITY;
+static inline way_out leave_box(const swept *core, vec3 y) {
+    way_out out = {1, {0, 0, 0}, INFINITY};
+    double along[3];
     for (int i = 0; i < 3; i++) {
-        double along = vec3_dot(box->axis[i], y), left = box->half[i] - fabs(along);
-        if (!(left < *depth)) continue;
-        *depth = left;
-        out = along < 0 ? vec3_neg(box->axis[i]) : box->axis[i];
+        double h = core->half[i];
+        along[i] = vec3_dot(core->axis[i], y);
+        double excess = along[i] - max2(-h, min2(h, along[i]));
+        out.off = vec3_add_scaled(out.off, core->axis[i], excess);
+        out.is_inside &= !(fabs(excess) > 0);
+    }
+    if (!out.is_inside) return out;
+    for (int i = 0; i < 3; i++) {
+        double left = core->half[i] - fabs(along[i]);
+        if (!(left < out.depth)) continue;
+        out.depth = left;
+        out.off = along[i] < 0 ? vec3_neg(core->axis[i]) : core->axis[i];
     }
     return out;
 }
 
+// A point beside an axis: its coordinate along the axis, its distance from it, and the unit vector that it is off.
+typedef struct beside_axis {
+    double z, r;
+    vec3 away;
+} beside_axis;
+
+static inline beside_axis find_beside_axis(vec3 axis, vec3 y) {
+    double z = vec3_dot(axis, y);
+    vec3 off = vec3_add_scaled(y, axis, -z);
+    double r = vec3_norm(off);
+    return (beside_axis){z, r, vec3_scale(off, r > 0 ? 1 / r : 0)};
+}
+
+// By r and z outward. Inside, a direction from the axis that has no digits is not taken: the depth is none.
+static inline way_out make_way_out(const swept *core, const beside_axis *at, int is_inside, double r, double z,
+                                   double depth) {
+    vec3 off = vec3_add_scaled(vec3_scale(at->away, r), core->axis[0], z);
+    int is_vague = is_inside && fabs(r) > 0 && !(at->r > 0x1p-20 * core->half[1]);
+    return (way_out){is_inside && !is_vague, is_vague ? (vec3){0, 0, 0} : off, depth};
+}
+
+static inline way_out leave_cylinder(const swept *core, vec3 y) {
+    beside_axis at = find_beside_axis(core->axis[0], y);
+    double r = at.r - core->half[1], z = fabs(at.z) - core->half[0], side = at.z < 0 ? -1 : 1;
+    if (r <= 0 && z <= 0) return make_way_out(core, &at, 1, z > r ? 0 : 1, z > r ? side : 0, -max2(r, z));
+    return make_way_out(core, &at, 0, max2(0, r), side * max2(0, z), 0);
+}
+
+// In the plane of the axis and the point: the slant goes from the rim (R, -h) to the apex (0, h), the base to the rim.
+static inline way_out leave_cone(const swept *core, vec3 y) {
+    beside_axis at = find_beside_axis(core->axis[0], y);
+    double h = core->half[0], R = core->half[1], squared = R * R + 4 * h * h, scale = 1 / sqrt(squared);
+    double slant = (2 * h * at.r + R * (at.z - h)) * scale, base = -h - at.z;
+    if (slant <= 0 && base <= 0) {
+        int is_slant = slant > base;
+        return make_way_out(core, &at, 1, is_slant ? 2 * h * scale : 0, is_slant ? R * scale : -1, -max2(slant, base));
+    }
+    double t = max2(0, min2(1, (R * (R - at.r) + 2 * h * (at.z + h)) / squared));
+    double r = at.r - R * (1 - t), z = at.z + h - 2 * h * t, r_base = at.r - min2(at.r, R), z_base = at.z + h;
+    int is_slant = r * r + z * z < r_base * r_base + z_base * z_base;
+    return make_way_out(core, &at, 0, is_slant ? r : r_base, is_slant ? z : z_base, 0);
+}
+
+static inline way_out leave_core(const swept *core, vec3 y) {
+    switch (core->core) {
+    case OVOID_SWEPT_SEGMENT: return leave_segment(core, y);
+    case OVOID_SWEPT_BOX: return leave_box(core, y);
+    case OVOID_SWEPT_CYLINDER: return leave_cylinder(core, y);
+    default: return leave_cone(core, y);
+    }
+}
+
 // The core's point is the point less the gap along the normal, which goes to it from the core.
 static void write_points(const placed *p, vec3 normal, double gap, ovoid_witness *to) {
-    int is_point_b = p->b->dimension == 0;
+    int is_point_b = p->b->core == 0;
     const swept *point = is_point_b ? p->b : p->a, *core = is_point_b ? p->a : p->b;
     vec3 on_point = vec3_add_scaled(point->center, normal, -point->radius),
          on_core = vec3_add_scaled(point->center, normal, core->radius - gap);
@@ -194,40 +254,34 @@ static void write_points(const placed *p, vec3 normal, double gap, ovoid_witness
     to->point_b = vec3_clear_signs(is_point_b ? on_point : on_core);
 }
 
-// 0 if the point is in the core, or on it to rounding, and more than the sign is asked for where it has none here.
+// 0 if the point is so near to the core's surface or axis that no direction has digits, and more than the sign is asked
+// for where it has none here.
 COMPILER_INLINED int measure_point(const placed *p, question asked, ovoid_witness *witness, ovoid_verdict *to) {
-    double excess[3];
-    int is_point_b = p->b->dimension == 0;
+    int is_point_b = p->b->core == OVOID_SWEPT_POINT;
     const swept *core = is_point_b ? p->a : p->b;
-    vec3 y = is_point_b ? p->d : vec3_neg(p->d), off = cut_off(core, y, excess), normal;
-    double gap = vec3_norm(off);
+    way_out out = leave_core(core, is_point_b ? p->d : vec3_neg(p->d));
+    double gap = out.is_inside ? -out.depth : vec3_norm(out.off);
     if (asked == OF_SIGN) {
-        // A point in the core is deeper than that.
-        double lower = gap > p->claim ? gap - p->radii - p->claim : -p->size;
+        // A point that is not seen to be outside may be deep inside.
+        double lower = out.is_inside || gap > p->claim ? gap - p->radii - p->claim : -p->size;
         *to = make_verdict(lower, gap - p->radii + p->claim, TOLERANCE * p->size);
         return to->status != OVOID_UNDECIDED;
     }
-    if (gap > 0x1p-20 * p->size) {
-        normal = vec3_scale(off, 1 / gap);
-    } else if (core->dimension == 3 && excess[0] == 0 && excess[1] == 0 && excess[2] == 0) {
-        normal = find_way_out(core, y, &gap);
-        gap = -gap;
-    } else {
-        return 0;
-    }
+    if (!out.is_inside && !(gap > 0x1p-20 * p->size)) return 0;
     *to = make_verdict(gap - p->radii - p->claim, gap - p->radii + p->claim, TOLERANCE * p->size);
-    if (witness) write_points(p, normal, gap, witness);
+    if (witness) write_points(p, out.is_inside ? out.off : vec3_scale(out.off, 1 / gap), gap, witness);
     return 1;
 }
 
 // ---- other pairs
 
-// The half axes of a core.
-static inline void scale_axes(const swept *s, vec3 *axes) {
+// The half axes of a segment or a box.
+static inline nearest_core scale_axes(const swept *s, vec3 *axes) {
     axes[0] = vec3_scale(s->axis[0], s->half[0]);
-    if (s->dimension == 1) return;
+    if (s->core == OVOID_SWEPT_SEGMENT) return (nearest_core){1, axes};
     axes[1] = vec3_scale(s->axis[1], s->half[1]);
     axes[2] = vec3_scale(s->axis[2], s->half[2]);
+    return (nearest_core){3, axes};
 }
 
 // No zero is negative, as in all witnesses.
@@ -240,9 +294,7 @@ static void write_witness(const placed *p, const nearest_pair *found, vec3 along
 
 COMPILER_NOINLINE static ovoid_verdict measure_nearest(const placed *p, question asked, ovoid_witness *witness) {
     vec3 axes_a[3], axes_b[3];
-    scale_axes(p->a, axes_a);
-    scale_axes(p->b, axes_b);
-    const nearest_core a = {p->a->dimension, axes_a}, b = {p->b->dimension, axes_b};
+    const nearest_core a = scale_axes(p->a, axes_a), b = scale_axes(p->b, axes_b);
     double tolerance = TOLERANCE * p->size;
     nearest_pair found;
     nearest_find(&a, &b, p->d, &found);
@@ -254,16 +306,19 @@ COMPILER_NOINLINE static ovoid_verdict measure_nearest(const placed *p, question
     return v;
 }
 
+static inline int has_half_axes(unsigned core) { return core == OVOID_SWEPT_SEGMENT || core == OVOID_SWEPT_BOX; }
+
 COMPILER_INLINED ovoid_verdict find(ovoid_swept_pair pair, question asked, ovoid_witness *witness) {
     ovoid_verdict v;
-    uint32_t a = pair.a->dimension, b = pair.b->dimension;
-    if ((a | b) == 0) return measure_points(pair, witness, &v) ? v : undecided;
+    unsigned a = pair.a->core, b = pair.b->core;
+    if ((a | b) == OVOID_SWEPT_POINT) return measure_points(pair, witness, &v) ? v : undecided;
     placed p = place(pair.a, pair.b);
     if (!is_moderate(&p)) return undecided;
     double gap = p.distance - p.reach - p.radii - p.claim;
     if (!(asked & OF_DISTANCE) && gap > 0) return make_verdict(gap, p.distance - p.radii + p.claim, 0);
-    if (a == 0 || b == 0) return measure_point(&p, asked, witness, &v) ? v : undecided;
-    if (a + b == 6) return asked == OF_SIGN ? separate_boxes(&p) : undecided;
+    if (a == OVOID_SWEPT_POINT || b == OVOID_SWEPT_POINT) return measure_point(&p, asked, witness, &v) ? v : undecided;
+    if (a == OVOID_SWEPT_BOX && b == OVOID_SWEPT_BOX) return asked == OF_SIGN ? separate_boxes(&p) : undecided;
+    if (!(has_half_axes(a) & has_half_axes(b))) return undecided;
     return measure_nearest(&p, asked, witness);
 }
 

@@ -1,7 +1,7 @@
 /**
  * @file swept.hpp
- * FCL's spheres, capsules and boxes as swept spheres (<ovoid/swept.h>), for <ovoid/fcl.hpp>: they are read from the
- * geometry and the transform in each call, so nothing of them is kept, looked up or prepared.
+ * FCL's spheres, capsules, boxes, cylinders and cones as swept spheres (<ovoid/swept.h>), for <ovoid/fcl.hpp>: they are
+ * read from the geometry and the transform in each call, so nothing of them is kept, looked up or prepared.
  */
 #ifndef OVOID_FCL_SWEPT_HPP
 #define OVOID_FCL_SWEPT_HPP
@@ -29,6 +29,18 @@ template <class S> double off_product(const ::fcl::Transform3<S> &t, int i, int 
     return std::fabs(m(0, i) * m(0, k) + m(1, i) * m(1, k) + m(2, i) * m(2, k) - (i == k ? 1 : 0));
 }
 
+/// A cylinder or a cone around its own z axis, but for its centre.
+template <class S, class Round>
+bool make_round(const Round &g, ovoid_swept_core core, const ::fcl::Transform3<S> &t, ovoid_swept_sphere &to) {
+    if (!(g.lz > 0 && g.radius > 0) || !(off_product<S>(t, 2, 2) <= swept_rounding)) return false;
+    to.radius = 0;
+    to.core = core;
+    to.half[0] = static_cast<double>(g.lz) / 2;
+    to.half[1] = static_cast<double>(g.radius);
+    to.axis[0] = get_column<S>(t, 2);
+    return true;
+}
+
 /// The geometry at its transform, of which no more is read than the body needs; false if it is none of these types, has
 /// a size that is not above 0, or is at a transform that is not rigid to a few roundings.
 template <class S>
@@ -36,13 +48,13 @@ OVOID_FCL_INLINE bool make_swept(const typed<S> &g, const ::fcl::Transform3<S> &
     switch (g.type) {
     case ::fcl::GEOM_SPHERE:
         to.radius = static_cast<double>(static_cast<const ::fcl::Sphere<S> *>(g.of)->radius);
-        to.dimension = 0;
+        to.core = OVOID_SWEPT_POINT;
         break;
     case ::fcl::GEOM_CAPSULE: {
         const auto *s = static_cast<const ::fcl::Capsule<S> *>(g.of);
         if (!(s->lz > 0) || !(off_product<S>(t, 2, 2) <= swept_rounding)) return false;
         to.radius = static_cast<double>(s->radius);
-        to.dimension = 1;
+        to.core = OVOID_SWEPT_SEGMENT;
         to.half[0] = static_cast<double>(s->lz) / 2;
         to.axis[0] = get_column<S>(t, 2);
         break;
@@ -53,13 +65,19 @@ OVOID_FCL_INLINE bool make_swept(const typed<S> &g, const ::fcl::Transform3<S> &
                            off_product<S>(t, 0, 1) + off_product<S>(t, 1, 2) + off_product<S>(t, 2, 0);
         if (!(side[0] > 0 && side[1] > 0 && side[2] > 0 && off <= swept_rounding)) return false;
         to.radius = 0;
-        to.dimension = 3;
+        to.core = OVOID_SWEPT_BOX;
         for (int k = 0; k < 3; k++) {
             to.half[k] = static_cast<double>(side[k]) / 2;
             to.axis[k] = get_column<S>(t, k);
         }
         break;
     }
+    case ::fcl::GEOM_CYLINDER:
+        if (!make_round<S>(*static_cast<const ::fcl::Cylinder<S> *>(g.of), OVOID_SWEPT_CYLINDER, t, to)) return false;
+        break;
+    case ::fcl::GEOM_CONE:
+        if (!make_round<S>(*static_cast<const ::fcl::Cone<S> *>(g.of), OVOID_SWEPT_CONE, t, to)) return false;
+        break;
     default: return false;
     }
     to.center = to_vec3<S>(t.translation());
@@ -75,7 +93,7 @@ template <class S> OVOID_FCL_INLINE bool collide_swept(contact_list<S> &to, cons
         return true;
     }
     // Of capsules and boxes a manifold may be wanted.
-    const bool is_single = to.room() == 1 || pair.a->dimension == 0 || pair.b->dimension == 0;
+    const bool is_single = to.room() == 1 || pair.a->core == OVOID_SWEPT_POINT || pair.b->core == OVOID_SWEPT_POINT;
     if (!is_single) return ovoid_swept_collide(pair).status == OVOID_SEPARATED;
     measured depth;
     depth.bracket = ovoid_swept_contact(pair, &depth.at);
