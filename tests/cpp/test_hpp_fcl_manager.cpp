@@ -272,6 +272,26 @@ void test_strange() {
     CHECK(sorted<double>(before.pairs) == sorted<double>(pairs));
 }
 
+/// An object that is moved by itself to where no other one is, is found there.
+void test_far() {
+    random_poses poses(16);
+    scene<double> objects(poses, 90);
+    ovoid::fcl::BroadPhaseManager<double> manager;
+    manager.registerObjects(objects.list());
+    for (std::size_t i = 0; i < 90; i += 11) {
+        CollisionObjectd *moved = objects.get(i);
+        CollisionObjectd probe(std::make_shared<Sphered>(0.5));
+        for (auto *o : {moved, &probe}) {
+            o->setTranslation(Vector3d(100 + 20 * static_cast<double>(i), 0, 0));
+            o->computeAABB();
+        }
+        manager.update(moved);
+        record<double> found;
+        manager.collide(&probe, &found, note<double>);
+        CHECK_EQ(found.pairs.size(), 1u);
+    }
+}
+
 /// Boxes side by side, whose faces are in one plane or off it by roundings: none of the pairs that meet is lost where
 /// boxes are compared in single precision.
 void test_touching() {
@@ -338,6 +358,7 @@ int main() {
     test_two<float>();
     test_stop();
     test_strange();
+    test_far();
     test_touching();
     test_shim();
     return check_end();
