@@ -3,6 +3,7 @@
 
 #include <limits.h>
 #include <math.h>
+#include <stdlib.h>
 
 static int is_length(double x) { return isfinite(x) && fabs(x) <= OVOID_LENGTH_MAX; }
 
@@ -59,14 +60,16 @@ body body_make(pool *p, const ovoid_shape *shape, const ovoid_pose *pose) {
     ovoid_allowance allowance = ovoid_shape_get_allowance(shape);
     b.inside = number_from(p, allowance.inside);
     b.axis = nvec_from(p, allowance.axis);
-    if (nvec_is_zero(b.axis))
-        b.outside = number_from(p, allowance.outside);
-    else
-        b.across = number_from(p, allowance.outside);
     ovoid_round round = ovoid_shape_get_round(shape);
     b.round = round.kind;
+    // What a true body's polyhedron leaves out is no part of its bounds.
+    if (!nvec_is_zero(b.axis))
+        b.across = number_from(p, allowance.outside);
+    else if (round.kind == OVOID_ROUND_NONE)
+        b.outside = number_from(p, allowance.outside);
     b.round_radius = number_from(p, round.radius);
     b.half_length = number_from(p, round.half_length);
+    b.half_axes = round.half_axes;
     return b;
 }
 
@@ -108,8 +111,28 @@ static nvec vertex_at(pool *p, const ovoid_polytope *polytope, uint32_t i) {
     return nvec_from(p, (ovoid_vec3){v[0], v[1], v[2]});
 }
 
+enum { GRID_STEPS = 23169, GRID_SIDE = 2 * GRID_STEPS + 1 };
+
+// The point of an ellipsoid that a proof's number names, by the operations in doubles that query.h defines it by.
+static ovoid_vec3 find_grid_point(ovoid_vec3 half, uint32_t place) {
+    int i = (int)(place / GRID_SIDE) - GRID_STEPS, j = (int)(place % GRID_SIDE) - GRID_STEPS;
+    int z = GRID_STEPS - abs(i) - abs(j), x = i, y = j;
+    if (z < 0) {
+        x = (i < 0 ? -1 : 1) * (GRID_STEPS - abs(j));
+        y = (j < 0 ? -1 : 1) * (GRID_STEPS - abs(i));
+    }
+    double l = sqrt((double)x * x + (double)y * y + (double)z * z);
+    return (ovoid_vec3){half.x * (x / l), half.y * (y / l), half.z * (z / l)};
+}
+
+static ovoid_vec3 move_by_origin(const body *b, ovoid_vec3 v) {
+    ovoid_vec3 origin = b->polytope.origin;
+    return (ovoid_vec3){v.x - origin.x, v.y - origin.y, v.z - origin.z};
+}
+
 // The point of a rim that a proof's number names, by the operations in doubles that query.h defines it by.
 static ovoid_vec3 find_rim_point(const body *b, uint32_t i) {
+    if (b->round == OVOID_ROUND_ELLIPSOID) return move_by_origin(b, find_grid_point(b->half_axes, i & 0x7fffffffu));
     ovoid_round round = ovoid_shape_get_round(b->shape);
     double t = (double)(i & 0xfffffff) / 0x1p28, part = round.radius / (1 + t * t);
     double v[2] = {(1 - t * t) * part, 2 * t * part};
@@ -119,13 +142,18 @@ static ovoid_vec3 find_rim_point(const body *b, uint32_t i) {
         v[1] = x;
     }
     double z = i & 0x40000000u ? round.half_length : -round.half_length;
-    ovoid_vec3 origin = b->polytope.origin;
-    return (ovoid_vec3){v[0] - origin.x, v[1] - origin.y, z - origin.z};
+    return move_by_origin(b, (ovoid_vec3){v[0], v[1], z});
 }
 
 int body_has_vertex(const body *b, uint32_t i) {
     if (i < b->polytope.vertex_count) return 1;
-    return i >> 31 && b->round != OVOID_ROUND_NONE && (b->round == OVOID_ROUND_CYLINDER || !(i & 0x40000000u));
+    if (!(i >> 31)) return 0;
+    switch (b->round) {
+    case OVOID_ROUND_CYLINDER: return 1;
+    case OVOID_ROUND_CONE: return !(i & 0x40000000u);
+    case OVOID_ROUND_ELLIPSOID: return (i & 0x7fffffffu) < (uint32_t)GRID_SIDE * GRID_SIDE;
+    default: return 0;
+    }
 }
 
 nvec body_vertex(pool *p, const body *b, uint32_t i) {
@@ -188,11 +216,19 @@ static num find_top(pool *p, const body *b, nvec direction, int side) {
     return num_add(p, num_add(p, at_position, nvec_dot(p, local, b->origin)), best);
 }
 
-// An upper bound of what a cylinder or cone around the origin of the user's frame reaches along the direction, or
-// against it, times n |direction|: with z along its axis and r across, h |z| + R r, or the larger of h z and R r - h z.
+// The squares of the parts of v times those of the half axes.
+static num find_scaled_square(pool *p, const body *b, nvec v) {
+    nvec half = nvec_from(p, b->half_axes);
+    return nvec_norm_squared(p, (nvec){num_mul(p, v.x, half.x), num_mul(p, v.y, half.y), num_mul(p, v.z, half.z)});
+}
+
+// An upper bound of what a round body around the origin of the user's frame reaches along the direction, or against
+// it, times n |direction|: with z along the axis and r across, of a cylinder h |z| + R r, of a cone the larger of h z
+// and R r - h z; of an ellipsoid the length of the direction times its half axes.
 static num find_round_top(pool *p, const body *b, nvec direction, int side) {
     enum { BITS = 240 };
     nvec local = body_rotate_back(p, b, direction);
+    if (b->round == OVOID_ROUND_ELLIPSOID) return num_root_above(p, find_scaled_square(p, b, local), BITS);
     num z = num_mul(p, b->half_length, side > 0 ? local.z : num_neg(p, local.z));
     num square = num_add(p, num_mul(p, local.x, local.x), num_mul(p, local.y, local.y));
     num rim = num_mul(p, b->round_radius, num_root_above(p, square, BITS));
@@ -201,12 +237,81 @@ static num find_round_top(pool *p, const body *b, nvec direction, int side) {
     return num_compare(p, base, z) > 0 ? base : z;
 }
 
+// ---- balls in ellipsoids
+//
+// The ball of radius r about c is in the ellipsoid if r^2 <= m (1 - sum c_i^2 / (a_i^2 - m)) for some m from 0 to the
+// least a_i^2 (S-lemma). m is sought in doubles, where the derivative's sum of a_i^2 c_i^2 / (a_i^2 - m)^2 becomes 1,
+// and any m is as true.
+
+static double compute_slope_sum(const double *a, const double *c, double m) {
+    double sum = 0;
+    for (int i = 0; i < 3; i++) {
+        double part = c[i] == 0 ? 0 : a[i] * c[i] / (a[i] * a[i] - m);
+        sum += part * part;
+    }
+    return sum;
+}
+
+static double find_multiplier(const double *a, const double *c) {
+    double low = 0, high = INFINITY;
+    for (int i = 0; i < 3; i++) high = fmin(high, a[i] * (a[i] - fabs(c[i])));
+    if (!(high > 0)) return 0;
+    if (compute_slope_sum(a, c, high) <= 1) return high * (1 - 0x1p-50);
+    for (int i = 0; i < 100; i++) {
+        double middle = low + (high - low) / 2;
+        *(compute_slope_sum(a, c, middle) < 1 ? &low : &high) = middle;
+    }
+    return low;
+}
+
+// The sum of v_i^2 / (a_i^2 - m) from above.
+static num find_quotients_above(pool *p, const body *b, nvec v, num m) {
+    const num part[3] = {v.x, v.y, v.z};
+    const double half[3] = {b->half_axes.x, b->half_axes.y, b->half_axes.z};
+    num sum = number_from_integer(p, 0);
+    for (int i = 0; i < 3; i++) {
+        num a = number_from(p, half[i]), below = num_sub(p, num_mul(p, a, a), m);
+        num least = num_quotient_below(p, num_neg(p, num_mul(p, part[i], part[i])), below, 240);
+        sum = num_sub(p, sum, least);
+    }
+    return sum;
+}
+
+// n times the distance of a point outside from the point of the surface on its line to the centre: with t^2 the sum of
+// (v_i / a_i)^2, |v| (t - 1) / t. local is nn v.
+static num find_way_out(pool *p, const body *b, nvec local, num nn) {
+    enum { BITS = 240 };
+    num zero = number_from_integer(p, 0), square = find_quotients_above(p, b, local, zero);
+    num t = num_root_above(p, square, BITS), beyond = num_sub(p, t, nn);
+    if (num_sign(beyond) <= 0) return zero;
+    num far = num_mul(p, num_root_above(p, nvec_norm_squared(p, local), BITS), beyond);
+    return num_neg(p, num_quotient_below(p, num_neg(p, far), num_mul(p, nn, b->n), BITS));
+}
+
+// local is nn v, v the ball's centre in the ellipsoid's frame.
+static num find_ellipsoid_room(pool *p, const body *b, nvec local) {
+    enum { BITS = 240 };
+    num nn = num_mul(p, b->n, b->n);
+    const num part[3] = {local.x, local.y, local.z};
+    const double half[3] = {b->half_axes.x, b->half_axes.y, b->half_axes.z};
+    double c[3];
+    for (int i = 0; i < 3; i++) c[i] = num_to_double(num_quotient_below(p, part[i], nn, 64));
+    double multiplier = find_multiplier(half, c);
+    num m = number_from(p, multiplier), rest = num_mul(p, nn, nn);
+    if (multiplier > 0) {
+        rest = num_sub(p, rest, find_quotients_above(p, b, local, m));
+        if (num_sign(rest) > 0) return num_quotient_below(p, num_root_below(p, num_mul(p, m, rest), BITS), b->n, BITS);
+    }
+    return num_neg(p, find_way_out(p, b, local, nn));
+}
+
 // n lengths along the axis, z, and across it, r. Inside: the nearest side. Outside: the point's z is cut off at the
 // ends, then its r at the side.
 num body_find_room(pool *p, const body *b, nvec point) {
     enum { BITS = 240 };
     nvec local = nvec_sub(p, point, nvec_scale(p, b->position, b->n));
     local = body_rotate_back(p, b, local);
+    if (b->round == OVOID_ROUND_ELLIPSOID) return find_ellipsoid_room(p, b, local);
     // M' (n x - n position) = n (n v): divided by n.
     num square = num_add(p, num_mul(p, local.x, local.x), num_mul(p, local.y, local.y)), nn = num_mul(p, b->n, b->n);
     num r = num_root_above(p, square, BITS), radius = num_mul(p, b->round_radius, nn),

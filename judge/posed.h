@@ -21,8 +21,9 @@ typedef struct body {
     nvec axis;  ///< of any length, in the shape's axes
     ovoid_round_kind round; ///< the true body is one of these: then its own support is used
     num round_radius, half_length;
-    double extent; ///< the largest |vertex|, in doubles
-    double reach;  ///< about the largest |position| + |origin| + |vertex|, in doubles: the scale of rounding
+    ovoid_vec3 half_axes; ///< of an ellipsoid
+    double extent;        ///< the largest |vertex|, in doubles
+    double reach;         ///< about the largest |position| + |origin| + |vertex|, in doubles: the scale of rounding
 } body;
 
 typedef struct posed {
@@ -60,18 +61,18 @@ nvec body_rotate_back(pool *p, const body *b, nvec v);
 /// n times the world point of a body-frame point, of a vertex.
 nvec body_point(pool *p, const body *b, nvec local);
 nvec body_vertex(pool *p, const body *b, uint32_t i);
-/// 1 if a proof may name that vertex: of the polyhedron, or a point of a true body's rim.
+/// 1 if a proof may name that vertex: of the polyhedron, or a point of a true body's rim or surface.
 int body_has_vertex(const body *b, uint32_t i);
 
 /// An upper bound of n `across` |direction x axis|: the length by which the true body exceeds the shape along the
-/// direction if its allowance is along an axis, times n |direction|. 0 of true cylinders and cones.
+/// direction if its allowance is along an axis, times n |direction|. 0 of true round bodies.
 num body_find_across(pool *p, const body *b, nvec direction);
 
-/// The largest (side 1) or smallest (side -1) n (direction . x) over the true cylinder or cone; else over all vertices,
+/// The largest (side 1) or smallest (side -1) n (direction . x) over the true round body; else over all vertices,
 /// and the excess of the true body across its axis.
 num body_support(pool *p, const body *b, nvec direction, int side);
 
-/// A lower bound of the largest ball's radius about n times a world point in a true cylinder or cone, times n; of a
+/// A lower bound of the largest ball's radius about n times a world point in a true round body, times n; of a
 /// point outside below zero, minus n times its distance, or less.
 num body_find_room(pool *p, const body *b, nvec point);
 

@@ -83,7 +83,7 @@ typedef enum ovoid_proof_kind {
 
 /**
  * A proof: plain data that ovoid_answer_verify, or any program with exact arithmetic, can check. It is also the warm
- * start of the pair's next query. Indices are vertices of ovoid_polytope, or points of rims. Rounding radii are
+ * start of the pair's next query. Indices are vertices of ovoid_polytope, or points of round bodies. Rounding radii are
  * subtracted from both bounds.
  *
  * Lower bound: for every unit n, d >= min over B of n.x - max over A of n.x - radii; normal + normal_low is that n
@@ -92,16 +92,20 @@ typedef enum ovoid_proof_kind {
  * gives that of B. HULL: four differences are the corners of a tetrahedron; of five or six, 0 and 1 are the tips of a
  * double pyramid over the closed ring 2, 3, ..., with triangles (0, r, next r) and (1, next r, r); upper is minus the
  * origin's distance to that surface, minus the radii; the weights give a common point of the bodies. BALLS, of pairs
- * with a true cylinder or cone (ovoid_round): the centre in such a body is inner_a or inner_b, that in another body is
- * its point of POINTS. The radius is that of the largest ball about the centre inside the body,
- * before rounding; it is zero for a point of POINTS; for a centre outside of its body it is below zero, minus the
- * distance.
+ * with a true cylinder, cone or ellipsoid (ovoid_round): the centre in such a body is inner_a or inner_b, that in
+ * another body is its point of POINTS. The radius is that of the largest ball about the centre inside the body, before
+ * rounding; it is zero for a point of POINTS; for a centre outside of its body it is below zero, minus the distance.
  *
  * Points of rims: with its highest bit set an index of a true cylinder or cone is a point of a rim. Bit 30 is 1 on the
  * rim of a cylinder's upper end, bits 29 and 28 are the quarter of the circle, and t = (the other 28 bits) / 2^28 is
  * the tangent of half the angle in it. In doubles, with part = radius / (1 + t t): ((1 - t t) part, 2 t part), turned
  * by 90 degrees for each quarter; z is -half_length or half_length; minus the origin of ovoid_polytope. The same in a
  * cover.
+ *
+ * Points of ellipsoids: of a true ellipsoid the other 31 bits are (i + 23169) 46339 + (j + 23169), with |i|, |j| <=
+ * 23169. With z = 23169 - |i| - |j|, (x, y) is (i, j) where z >= 0, else (23169 - |j|, 23169 - |i|) with the signs of i
+ * and j, + for 0. In doubles, with l = sqrt(x x + y y + z z): (a (x / l), b (y / l), c (z / l)), (a, b, c) the half
+ * axes; minus the origin of ovoid_polytope.
  */
 typedef struct ovoid_proof {
     ovoid_vec3 normal;     /**< world frame, from A to B */

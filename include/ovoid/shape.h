@@ -48,7 +48,8 @@ typedef struct ovoid_allowance {
 typedef enum ovoid_round_kind {
     OVOID_ROUND_NONE = 0, /**< nothing is known beside polyhedron, radius and allowance */
     OVOID_ROUND_CYLINDER, /**< a cylinder from z = -half_length to +half_length */
-    OVOID_ROUND_CONE      /**< a cone, its base at z = -half_length, its apex at +half_length */
+    OVOID_ROUND_CONE,     /**< a cone, its base at z = -half_length, its apex at +half_length */
+    OVOID_ROUND_ELLIPSOID /**< an ellipsoid around the origin, with half_axes along x, y and z */
 } ovoid_round_kind;
 
 /**
@@ -57,7 +58,8 @@ typedef enum ovoid_round_kind {
  */
 typedef struct ovoid_round {
     ovoid_round_kind kind;
-    double radius, half_length;
+    double radius, half_length; /**< of cylinders and cones, else 0 */
+    ovoid_vec3 half_axes;       /**< of ellipsoids, else 0 */
 } ovoid_round;
 
 /** Options of all functions that create a shape; all zero, or NULL, is the default. */
@@ -66,7 +68,8 @@ typedef struct ovoid_shape_options {
     double gap;                /**< relative volume gap of the ellipsoids; 0 means 1e-6 */
     ovoid_inner_method inner;  /**< which inner ellipsoid */
     ovoid_allowance allowance; /**< what the true body may differ by; zero: the shape is the body */
-    double tolerance; /**< of cylinders and cones: the most that `outside` may be, a length; 0 means radius / 200 */
+    double tolerance; /**< of cylinders, cones and ellipsoids: the most that `outside` may be, a length; 0 means
+                         radius / 200, of ellipsoids a 16th of the largest half axis */
     const ovoid_allocator *allocator; /**< NULL: malloc and free; copied into the shape */
 } ovoid_shape_options;
 
@@ -124,6 +127,17 @@ OVOID_API ovoid_shape *ovoid_shape_create_cylinder(double radius, double half_le
 /** The cone, apex at z = +half_length, base circle at z = -half_length: as ovoid_shape_create_cylinder. */
 OVOID_API ovoid_shape *ovoid_shape_create_cone(double radius, double half_length, const ovoid_shape_options *options,
                                                ovoid_error *error);
+
+/**
+ * The ellipsoid around the origin with half axes >= 0 along x, y and z, stored as an inscribed polyhedron with an
+ * allowance. Brackets are those of the true ellipsoid, as narrow as of polyhedra: distances, and depths up to the
+ * square of the least half axis over the largest; deeper ones to some 1e-8 of the size. The polyhedron has 4 n^2 + 2
+ * vertices with the fewest steps n, 2 to 64, that meet options->tolerance, 66 vertices by default; LIMIT if 64 do not.
+ * An ellipsoid whose least half axis is below a millionth of the largest is the polyhedron with its allowance. Errors:
+ * NOT_FINITE, RADIUS, RANGE, ARGUMENT (a negative half axis, the tolerance), MEMORY. Cost: linear in the vertices.
+ */
+OVOID_API ovoid_shape *ovoid_shape_create_ellipsoid(ovoid_vec3 half_axes, const ovoid_shape_options *options,
+                                                    ovoid_error *error);
 
 /** A regular polygon of `sides` >= 3 corners on a circle, extended along z. */
 typedef struct ovoid_prism {
@@ -185,8 +199,9 @@ OVOID_API double ovoid_shape_get_radius(const ovoid_shape *shape);
 /** The allowance. */
 OVOID_API ovoid_allowance ovoid_shape_get_allowance(const ovoid_shape *shape);
 /**
- * The true body, where it is a cylinder or a cone: of a shape that ovoid_shape_create_cylinder or _cone made with no
- * allowance in its options, of a copy of it, and of what was read from its file. Else the kind is OVOID_ROUND_NONE.
+ * The true body, where it is a cylinder, a cone or an ellipsoid: of a shape that ovoid_shape_create_cylinder, _cone or
+ * _ellipsoid made with no allowance in its options, of a copy of it, and of what was read from its file. Else the kind
+ * is OVOID_ROUND_NONE.
  */
 OVOID_API ovoid_round ovoid_shape_get_round(const ovoid_shape *shape);
 /** What the constructor did with the given points. */

@@ -109,6 +109,8 @@ static PyObject *get_round(PyObject *self, void *closure) {
     (void)closure;
     ovoid_round round = ovoid_shape_get_round(get(self));
     if (round.kind == OVOID_ROUND_NONE) Py_RETURN_NONE;
+    ovoid_vec3 half = round.half_axes;
+    if (round.kind == OVOID_ROUND_ELLIPSOID) return Py_BuildValue("(sddd)", "ellipsoid", half.x, half.y, half.z);
     const char *kind = round.kind == OVOID_ROUND_CONE ? "cone" : "cylinder";
     return Py_BuildValue("(sdd)", kind, round.radius, round.half_length);
 }
@@ -257,8 +259,8 @@ static PyGetSetDef fields[] = {
      "None: it may in all directions.",
      NULL},
     {"round", get_round, NULL,
-     "tuple[str, float, float] | None: The true body, 'cylinder' or 'cone', its radius and half length; None: not "
-     "known in closed form.",
+     "tuple[str, float, float] | tuple[str, float, float, float] | None: The true body, 'cylinder' or 'cone', its "
+     "radius and half length, or 'ellipsoid' and its half axes; None: not known in closed form.",
      NULL},
     FIELD_FACT(load_facts, shape_facts, UINT, "rank", rank, "0 a point, 1 a segment, 2 flat, 3 solid."),
     {"report", get_report, NULL, "dict[str, int]: What the constructor did with the points given, a dict.", NULL},
@@ -267,7 +269,7 @@ static PyGetSetDef fields[] = {
 static PyType_Slot slots[] = {
     {Py_tp_doc,
      "An immutable convex body, shared by any number of poses and threads.\n\nMade by Shape.from_points, hull_of, "
-     "from_faces, box, sphere, capsule, cylinder, cone, prism, pyramid, read and\nfrom_bytes. The unit of "
+     "from_faces, box, sphere, capsule, cylinder, cone, ellipsoid, prism, pyramid,\nread and from_bytes. The unit of "
      "length is the caller's and the same everywhere."},
     {Py_tp_dealloc, shape_dealloc},
     {Py_tp_repr, repr},

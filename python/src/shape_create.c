@@ -207,6 +207,23 @@ static PyObject *box(PyObject *type, PyObject *arguments, PyObject *keywords) {
     return shape_wrap(state, ovoid_shape_create_box(half, &options, &error), &error);
 }
 
+static PyObject *ellipsoid(PyObject *type, PyObject *arguments, PyObject *keywords) {
+    static char *names[] = {"half_axes", "tolerance", SHAPE_NAMES, NULL};
+    PyObject *sizes;
+    ovoid_vec3 half;
+    double tolerance = 0;
+    shape_keywords k = {0};
+    ovoid_shape_options options;
+    ovoid_error error;
+    module_state *state = state_of_type(type);
+    if (!arguments_read(arguments, keywords, "O|d" SHAPE_FORMAT ":ellipsoid", names, &sizes, &tolerance,
+                        SHAPE_TARGETS(k)) ||
+        make_options(state, &k, &options) || vec3_read(state, sizes, "half_axes", &half))
+        return NULL;
+    options.tolerance = tolerance;
+    return shape_wrap(state, ovoid_shape_create_ellipsoid(half, &options, &error), &error);
+}
+
 /// What round bodies are made of; a constructor takes some of it.
 typedef struct round_sizes {
     double radius, half_length, tolerance;
@@ -419,6 +436,10 @@ PyMethodDef shape_constructors[] = {
     {"cone", METHOD_KEYWORDS(cone), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
      "cone(radius: float, half_length: float, tolerance: float = 0, " SHAPE_SIGNATURE
      ") -> Shape\n--\n\nThe cone, apex at z = +half_length; as cylinder." SHAPE_DOC},
+    {"ellipsoid", METHOD_KEYWORDS(ellipsoid), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
+     "ellipsoid(half_axes: Numbers, tolerance: float = 0, " SHAPE_SIGNATURE
+     ") -> Shape\n--\n\nThe ellipsoid around the origin with half axes (a, b, c), held by a polyhedron with an "
+     "allowance of at most the\ntolerance, a length; 0: a 16th of the largest." SHAPE_DOC},
     {"prism", METHOD_KEYWORDS(prism), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
      "prism(radius: float, half_length: float, sides: int, " SHAPE_SIGNATURE
      ") -> Shape\n--\n\nA prism along z, inscribed in the cylinder." SHAPE_DOC},

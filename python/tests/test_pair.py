@@ -50,6 +50,18 @@ class Shapes(unittest.TestCase):
         self.assertEqual(len(ovoid.Shape.pyramid(1, 1, 5).vertices), 6)
         self.assertEqual(ovoid.Shape.box((1, 1, 1), allowance=(0.25, 0.125)).allowance, (0.25, 0.125))
 
+    def test_ellipsoid(self):
+        body = ovoid.Shape.ellipsoid((1, 0.5, 0.25))
+        self.assertEqual(body.round, ("ellipsoid", 1, 0.5, 0.25))
+        self.assertEqual(ovoid.Shape.from_bytes(body.to_bytes()).round, body.round)
+        self.assertEqual(len(ovoid.Shape.ellipsoid((1, 1, 1), 0.01).vertices), 402)
+        table = ovoid.Shape.box((2, 2, 0.25))
+        for gap, status in ((1e-7, "SEPARATED"), (-1e-7, "OVERLAPPING")):
+            answer = ovoid.depth(table, body, (0, 0, -0.25), (0.5, 0.2, 0.25 + gap))
+            self.assertEqual(answer.status.name, status)
+            self.assertLess(answer.upper - answer.lower, 1e-8)
+        self.assertIsNone(ovoid.Shape.ellipsoid((1, 1, 1), allowance=(0.1, 0)).round)
+
     def test_allowance_axis(self):
         table = ovoid.Shape.box((2, 2, 0.25))
         for post in (ovoid.Shape.cylinder(0.5, 1), ovoid.Shape.cone(0.5, 1)):

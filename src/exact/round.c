@@ -64,11 +64,13 @@ static void take_bounds(search *s, int is_round_a, vec3 x, vec3 n) {
     s->inner_b = c.b;
 }
 
+static int is_turned(const ovoid_shape *s) { return shape_is_round(s) && !shape_is_ellipsoid(s); }
+
 int round_take_point(search *s) {
     const pair_frame *f = s->frame;
-    if (f->b->vertex_count == 1 && shape_is_round(f->a)) {
+    if (f->b->vertex_count == 1 && is_turned(f->a)) {
         take_bounds(s, 1, frame_b(f, f->b->first), vec3_unit(find_point_normal(f->a, frame_b(f, f->b->first))));
-    } else if (f->a->vertex_count == 1 && shape_is_round(f->b)) {
+    } else if (f->a->vertex_count == 1 && is_turned(f->b)) {
         vec3 x = mat3_mul_transposed_vec3(f->rotation, vec3_sub(f->a->first, f->translation));
         take_bounds(s, 0, x, vec3_unit(mat3_mul_vec3(f->rotation, find_point_normal(f->b, x))));
     } else {

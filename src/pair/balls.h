@@ -1,4 +1,4 @@
-// Upper bounds from a ball in each body, of pairs with a true cylinder or cone.
+// Upper bounds from a ball in each body, of pairs with a true cylinder, cone or ellipsoid.
 #ifndef OVOID_PAIR_BALLS_H
 #define OVOID_PAIR_BALLS_H
 
@@ -15,8 +15,7 @@ typedef struct ball_centers {
     vec3 a, b;
 } ball_centers;
 
-/// The point of a true cylinder or cone that x becomes when it is cut off at the body, to rounding; x where it is
-/// inside.
+/// The point of a true body that x becomes when it is cut off at the body, to rounding; x where it is inside.
 vec3 balls_cut_off(const ovoid_shape *shape, vec3 x);
 
 /// The distance of the centres minus the radii of the balls, plus `error`; infinity if there are none.

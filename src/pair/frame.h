@@ -42,7 +42,7 @@ typedef struct pair_frame {
     double hidden;                     ///< the lengths that underflow and far origins can hide, whatever the size
     double lower_radii; ///< the sums of both shapes' lower_radius and of their upper_radius (block.h); they differ
     double upper_radii; ///< by the allowances
-    int is_true;        ///< 1: supports are those of true cylinders and cones, which have no allowance then (round.h)
+    int is_true;        ///< 1: supports are those of true round bodies, which have no allowance then (round.h)
     double beyond;      ///< how far these exceed the polyhedra's spheres and ellipsoids
     // By frame_relate: B in the frame of A.
     mat3 rotation;    ///< x_a_frame = rotation x_b + translation

@@ -1,7 +1,11 @@
-// Supports of cylinders and cones in closed form.
+// Supports of cylinders, cones and ellipsoids in closed form.
 #include "pair/round.h"
 
 round_end round_find_support(const ovoid_shape *s, vec3 n) {
+    if (shape_is_ellipsoid(s)) {
+        ellipsoid_end end = ellipsoid_find_support(s->round.half_axes, n);
+        return (round_end){end.value - vec3_dot(n, s->origin), ellipsoid_find_number(end.m)};
+    }
     double half = s->round.half_length, radius = s->round.radius, across = sqrt(n.x * n.x + n.y * n.y);
     double shift = vec3_dot(n, s->origin);
     if (s->round.kind == OVOID_ROUND_CYLINDER) {
@@ -14,11 +18,16 @@ round_end round_find_support(const ovoid_shape *s, vec3 n) {
     return (round_end){rim - shift, rim_find(n.x, n.y, across, 0)};
 }
 
+// How far the true body exceeds the polyhedron's sphere and outer ellipsoid. Those of an ellipsoid hold it.
+static double find_beyond(const ovoid_shape *s) {
+    return shape_is_round(s) && !shape_is_ellipsoid(s) ? nextafter(s->lower_radius - s->radius, INFINITY) : 0;
+}
+
 void frame_make_true(pair_frame *f) {
     double a = shape_is_round(f->a) ? f->a->radius : f->a->lower_radius;
     double b = shape_is_round(f->b) ? f->b->radius : f->b->lower_radius;
     f->is_true = 1;
-    f->beyond = nextafter(f->lower_radii - (a + b), INFINITY);
+    f->beyond = nextafter(find_beyond(f->a) + find_beyond(f->b), INFINITY);
     f->lower_radii = a + b;
     f->claim += ROUND_CLAIM * f->size;
 }

@@ -1,12 +1,14 @@
-// Supports of the true bodies of shapes that know their round form: cylinders and cones.
+// Supports of the true bodies of shapes that know their round form: cylinders, cones and ellipsoids.
 //
 // Along a unit n, with n_z along the axis and n_r = |n x axis|, a cylinder of radius R and half length h reaches
 // h |n_z| + R n_r from its centre, a cone max(h n_z, R n_r - h n_z). With u = 2^-53 either is off by less than
 // 12 u (h + R), beside what n itself is off by, of which frame.h speaks: no point of the round body is farther from the
-// origin of its frame than the vertices of its polyhedron. So ROUND_CLAIM and ROUND_CHECK are added to the frame's.
+// origin of its frame than the vertices of its polyhedron. An ellipsoid reaches |m| from its centre, m the normal times
+// the half axes, off by less than 4 u of the largest. So ROUND_CLAIM and ROUND_CHECK are added to the frame's.
 //
-// A search of true bodies is that of polyhedra with 2^30 corners on each rim (shape/rim.h): its points, hulls and
-// covers are of corners that are within `inside` of the body, and its gaps are those of the body itself.
+// A search of true bodies is that of polyhedra with 2^30 corners on each rim, 2^31 on an ellipsoid (shape/rim.h): its
+// points, hulls and covers are of corners that are within `inside` of the body, and its gaps are those of the body
+// itself.
 #ifndef OVOID_PAIR_ROUND_H
 #define OVOID_PAIR_ROUND_H
 
@@ -16,6 +18,9 @@
 #define ROUND_CHECK (32 * 0x1p-53)
 
 static inline int frame_has_round(const pair_frame *f) { return shape_is_round(f->a) | shape_is_round(f->b); }
+static inline int frame_has_ellipsoid(const pair_frame *f) {
+    return shape_is_ellipsoid(f->a) | shape_is_ellipsoid(f->b);
+}
 
 /// Sets the frame's lengths to those of true bodies, whose supports are then found and whose allowances are gone.
 void frame_make_true(pair_frame *frame);

@@ -5,6 +5,7 @@
 #include "base/environment.h"
 #include "base/error.h"
 #include "exact/boxes.h"
+#include "exact/cores.h"
 #include "exact/cover_memory.h"
 #include "exact/epa.h"
 #include "exact/gjk.h"
@@ -218,6 +219,7 @@ static void run_stages(search *s, double sphere_gap, const ovoid_proof *earlier,
 // GJK, then EPA where the cores touch or overlap and GJK cannot narrow the bracket. A depth query tries EPA first,
 // unless the cores are known to be apart.
 static void run_exact(search *s, simplex *start, ovoid_cover *cover) {
+    if (s->frame->is_true && frame_has_ellipsoid(s->frame) && cores_run(s)) return;
     int cores_apart = s->lower + s->frame->lower_radii > 0;
     if (s->goal.wants_depth && !cores_apart &&
         ((!s->frame->is_true && (boxes_take_depth(s, cover) || inside_take_depth(s, cover))) ||

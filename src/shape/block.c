@@ -115,7 +115,7 @@ void block_fill(ovoid_shape *shape, const ovoid_polytope *p, const closed_form *
 void block_set_radius(ovoid_shape *s, double radius, ovoid_allowance allowance) {
     s->radius = s->lower_radius = s->upper_radius = radius;
     s->allowance = allowance;
-    s->round = (ovoid_round){OVOID_ROUND_NONE, 0, 0};
+    s->round = (ovoid_round){.kind = OVOID_ROUND_NONE};
     s->span = s->extent;
     if (allowance.outside > 0) s->lower_radius = nextafter(radius + allowance.outside, INFINITY);
     // No point of the polyhedron is farther from a point of the true body than its own diameter and `outside`.

@@ -69,7 +69,7 @@ struct ovoid_shape {
     ovoid_fit outer_fit, inner_fit;
     ovoid_report report;
     ovoid_measures measures;
-    ovoid_round round; ///< of a kind only where the allowance is along z: then all that the true body is
+    ovoid_round round; ///< of a kind only where nothing but it is within the allowance
     ovoid_allocator allocator;
 };
 
@@ -107,8 +107,9 @@ void block_fill(ovoid_shape *shape, const ovoid_polytope *polytope, const closed
 /// else is then known about the true body.
 void block_set_radius(ovoid_shape *shape, double radius, ovoid_allowance allowance);
 
-/// 1 for a true cylinder or cone.
+/// 1 for a true cylinder, cone or ellipsoid; for the last.
 static inline int shape_is_round(const ovoid_shape *s) { return s->round.kind != OVOID_ROUND_NONE; }
+static inline int shape_is_ellipsoid(const ovoid_shape *s) { return s->round.kind == OVOID_ROUND_ELLIPSOID; }
 
 /// The largest width that the allowance adds to a bracket.
 static inline double shape_get_width(const ovoid_shape *s) { return s->lower_radius - s->upper_radius; }

@@ -1,6 +1,6 @@
 // The file of a shape (".ovoid"): version 1; 2 where it has an allowance; 3 with the triangles of its hull, for solids
 // of many vertices; 4 and 5 are 2 and 3 with the allowance's axis; 6 and 7 are 4 and 5 of cylinders and cones, with
-// their lengths. docs/polytope.md has the table.
+// their lengths; 8 is 3 of ellipsoids, with their half axes. docs/polytope.md has the table.
 //
 // A file holds what cannot be recomputed: the vertices, the fitted ellipsoids, the radius, the allowance, and the
 // report of the given points. Facets, adjacency, planes and measures depend on the vertices and the triangles alone,
@@ -33,7 +33,9 @@
 #define ALLOWANCE_SIZE 16
 #define AXIS_SIZE 24
 #define ROUND_SIZE 24
-#define VERSION_MOST 7
+#define HALF_AXES_SIZE 24
+#define VERSION_ELLIPSOID 8
+#define VERSION_MOST VERSION_ELLIPSOID
 #define CHECKSUM_SIZE 8
 static const uint8_t magic[8] = {0x89, 'O', 'V', 'O', 'I', 'D', '\n', 0x1a};
 
@@ -50,15 +52,17 @@ typedef struct layout {
     uint32_t triangle_count;                // in the file
 } layout;
 
-static int has_triangles(uint32_t version) { return version >= 3 && version % 2 == 1; }
-static int has_axis(uint32_t version) { return version >= 4; }
-static int has_round(uint32_t version) { return version >= 6; }
+static int has_half_axes(uint32_t version) { return version == VERSION_ELLIPSOID; }
+static int has_triangles(uint32_t version) { return (version >= 3 && version % 2 == 1) || has_half_axes(version); }
+static int has_axis(uint32_t version) { return version >= 4 && !has_half_axes(version); }
+static int has_round(uint32_t version) { return version >= 6 && !has_half_axes(version); }
 
 // By Euler's formula a solid of n vertices has 2 n - 4 triangles.
 static layout make_layout(uint32_t version, uint32_t vertex_count) {
     layout l = {.version = version, .vertices_at = HEADER_SIZE + (version > 1 ? ALLOWANCE_SIZE : 0)};
     if (has_axis(version)) l.vertices_at += AXIS_SIZE;
     if (has_round(version)) l.vertices_at += ROUND_SIZE;
+    if (has_half_axes(version)) l.vertices_at += HALF_AXES_SIZE;
     l.triangles_at = l.vertices_at + (size_t)vertex_count * 24;
     l.triangle_count = has_triangles(version) && vertex_count > 3 ? 2 * vertex_count - 4 : 0;
     l.size = l.triangles_at + (size_t)l.triangle_count * 12 + CHECKSUM_SIZE;
@@ -128,6 +132,7 @@ size_t shape_write_version(const ovoid_shape *shape, uint32_t version, void *buf
         put_double(&w, shape->round.radius);
         put_double(&w, shape->round.half_length);
     }
+    if (has_half_axes(version)) put_vec3(&w, shape->round.half_axes);
     const double *vertices = shape_vertices(shape);
     for (size_t i = 0; i < 3 * (size_t)shape->vertex_count; i++) put_double(&w, vertices[i]);
     const uint32_t *triangles = ovoid_shape_get_polytope(shape).triangles;
@@ -139,6 +144,7 @@ size_t shape_write_version(const ovoid_shape *shape, uint32_t version, void *buf
 // The proof of the triangles needs a point inside: the centre of an inner ellipsoid that is more than a point. The hull
 // of a body in closed form is known from its vertices.
 static uint32_t choose_version(const ovoid_shape *s) {
+    if (shape_is_ellipsoid(s)) return VERSION_ELLIPSOID;
     int is_large = s->rank == 3 && s->vertex_count >= SHAPE_TRIANGLES_LEAST && s->inner.q.xx != 0 &&
                    closed_form_find(shape_vertices(s), s->vertex_count).kind == FORM_NONE;
     if (shape_is_round(s)) return is_large ? 7 : 6;
@@ -286,7 +292,17 @@ static ovoid_code read_allowance(reader *r, content *c) {
     return has_axis(c->at.version) ? read_axis(r, c) : OVOID_OK;
 }
 
+static ovoid_code read_half_axes(reader *r, content *c) {
+    size_t start = r->at;
+    vec3 half = get_vec3(r);
+    double least = min2(half.x, min2(half.y, half.z));
+    if (!is_vec3(half) || !(least > 0)) return refuse(r, start, "a half axis is not a length above zero");
+    c->round = (ovoid_round){.kind = OVOID_ROUND_ELLIPSOID, .half_axes = half};
+    return OVOID_OK;
+}
+
 static ovoid_code read_round(reader *r, content *c) {
+    if (has_half_axes(c->at.version)) return read_half_axes(r, c);
     if (!has_round(c->at.version)) return OVOID_OK;
     size_t start = r->at;
     uint64_t kind = get_integer(r, 8);
@@ -294,7 +310,7 @@ static ovoid_code read_round(reader *r, content *c) {
     if (!(kind == OVOID_ROUND_CYLINDER || kind == OVOID_ROUND_CONE) || !(radius > 0 && is_length(radius)) ||
         !(half_length >= 0 && is_length(half_length)) || signbit(half_length))
         return refuse(r, start, "the true body is no cylinder or cone");
-    c->round = (ovoid_round){(ovoid_round_kind)kind, radius, half_length};
+    c->round = (ovoid_round){.kind = (ovoid_round_kind)kind, .radius = radius, .half_length = half_length};
     return OVOID_OK;
 }
 
@@ -361,7 +377,8 @@ static ovoid_code set_radius(const reader *r, const content *c, ovoid_shape *sha
     if (shape->allowance.inside != c->allowance.inside)
         return refuse(r, ALLOWANCE_AT + 8, "the allowance inside is larger than the body");
     if (c->round.kind == OVOID_ROUND_NONE || round_is_held(shape, &c->round)) return OVOID_OK;
-    return refuse(r, ALLOWANCE_AT + ALLOWANCE_SIZE + AXIS_SIZE, "the polyhedron is not inscribed in its true body");
+    return refuse(r, ALLOWANCE_AT + ALLOWANCE_SIZE + (has_axis(c->at.version) ? AXIS_SIZE : 0),
+                  "the polyhedron is not inscribed in its true body");
 }
 
 static ovoid_shape *make_shape(const reader *r, const content *c, hull *polytope) {

@@ -173,7 +173,8 @@ static ovoid_shape *create_round(const turned *t, const ovoid_shape_options *opt
     // An allowance given by the caller leaves the true body unknown.
     int is_known = !options || (!(options->allowance.outside > 0) && !(options->allowance.inside > 0));
     ovoid_round_kind kind = by.rings == 2 ? OVOID_ROUND_CYLINDER : OVOID_ROUND_CONE;
-    if (shape && is_known && shape_has_axis(shape)) shape->round = (ovoid_round){kind, by.radius, by.half_length + 0.0};
+    if (shape && is_known && shape_has_axis(shape))
+        shape->round = (ovoid_round){.kind = kind, .radius = by.radius, .half_length = by.half_length + 0.0};
     return shape;
 }
 

@@ -34,6 +34,7 @@ static int is_lifted(const ovoid_shape *s, const ovoid_round *round, uint32_t co
 }
 
 int round_is_held(const ovoid_shape *s, const ovoid_round *round) {
+    if (round->kind == OVOID_ROUND_ELLIPSOID) return ellipsoid_is_held(s, round->half_axes);
     uint32_t all = s->vertex_count, is_flat = !(round->half_length > 0);
     int is_cone = round->kind == OVOID_ROUND_CONE;
     uint32_t count = is_flat ? all : is_cone ? all - 1 : all / 2;
@@ -46,6 +47,7 @@ int round_is_held(const ovoid_shape *s, const ovoid_round *round) {
 }
 
 vec3 rim_compute_point(const ovoid_shape *s, uint32_t number) {
+    if (shape_is_ellipsoid(s)) return vec3_sub(ellipsoid_compute_point(s->round.half_axes, number), s->origin);
     double t = (number & (RIM_STEPS - 1)) * (1 / (double)RIM_STEPS), part = s->round.radius / (1 + t * t);
     double c = (1 - t * t) * part, d = 2 * t * part, half = s->round.half_length;
     uint32_t quarter = number >> 28 & 3;

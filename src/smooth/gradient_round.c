@@ -309,7 +309,7 @@ static vec3 find_start(const pair_frame *f, const ovoid_proof *proof, int is_swa
 void gradient_refine_round(const pair_frame *f, const ovoid_pair *pair, const ovoid_proof *proof, ovoid_gradient *out) {
     const ovoid_shape *shapes[2] = {f->a, f->b};
     for (int k = 0; k < 2; k++)
-        if (shapes[k]->has_allowance && !shape_is_round(shapes[k])) return;
+        if ((shapes[k]->has_allowance && !shape_is_round(shapes[k])) || shape_is_ellipsoid(shapes[k])) return;
     // The first body is round.
     int is_swapped = !shape_is_round(f->a);
     round_body bodies[2];

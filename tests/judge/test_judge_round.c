@@ -1,7 +1,7 @@
-// Pairs with true cylinders and cones before the exact judge and the check without a search. Truth: rational arithmetic
-// with the supports of the round bodies, their roots rounded up. A lower bound that is raised by more than its rounding
-// is refused by both; near bodies that are apart, no direction in reach has a larger gap than the answer's, to the
-// query's tolerance; and a shape that was written to a file and read gives the same answer.
+// Pairs with true cylinders, cones and ellipsoids before the exact judge and the check without a search. Truth:
+// rational arithmetic with the supports of the round bodies, their roots rounded up. A lower bound that is raised by
+// more than its rounding is refused by both; near bodies that are apart, no direction in reach has a larger gap than
+// the answer's, to the query's tolerance; and a shape that was written to a file and read gives the same answer.
 #include "check.h"
 #include "judge.h"
 #include "options.h"
@@ -20,7 +20,16 @@ static ovoid_quat random_turn(uint64_t *s) {
     return random_quat(s);
 }
 
+static ovoid_shape *make_ellipsoid(uint64_t *s) {
+    ovoid_vec3 half = {random_uniform(s, 0.1, 1), random_uniform(s, 0.1, 1), random_uniform(s, 0.1, 1)};
+    ovoid_shape_options o = {.radius = random_next(s) % 4 ? 0 : 0.125};
+    if (random_next(s) % 8 == 0) half.y = half.x;
+    if (random_next(s) % 8 == 0) half.z = half.x;
+    return ovoid_shape_create_ellipsoid(half, &o, NULL);
+}
+
 static ovoid_shape *make_round(uint64_t *s) {
+    if (random_next(s) % 3 == 0) return make_ellipsoid(s);
     double radius = random_uniform(s, 0.1, 1), half = random_next(s) % 8 ? random_uniform(s, 0.05, 1) : 0;
     // 3 to 7, 16 and 32 sides.
     uint64_t sides = random_next(s) % 4;
@@ -123,6 +132,9 @@ static double find_support(const ovoid_shape *shape, const ovoid_pose *pose, ovo
     double along = round.half_length * m.z, rim = round.radius * sqrt(m.x * m.x + m.y * m.y), top = -INFINITY;
     if (round.kind == OVOID_ROUND_CYLINDER) top = fabs(along) + rim;
     if (round.kind == OVOID_ROUND_CONE) top = fmax(along, rim - along);
+    ovoid_vec3 half = round.half_axes;
+    if (round.kind == OVOID_ROUND_ELLIPSOID)
+        top = sqrt(half.x * m.x * half.x * m.x + half.y * m.y * half.y * m.y + half.z * m.z * half.z * m.z);
     ovoid_polytope polytope = ovoid_shape_get_polytope(shape);
     ovoid_vec3 o = polytope.origin;
     for (uint32_t i = 0; i < polytope.vertex_count && round.kind == OVOID_ROUND_NONE; i++) {
@@ -161,7 +173,7 @@ static void check_file(const ovoid_pair *p, const ovoid_answer *x) {
     ovoid_shape *again = ovoid_shape_read(bytes, size, NULL, NULL);
     if (!CHECK(again != NULL)) return;
     ovoid_round a = ovoid_shape_get_round(p->shape_a), b = ovoid_shape_get_round(again);
-    CHECK(a.kind == b.kind && !memcmp(&a.radius, &b.radius, 16));
+    CHECK(a.kind == b.kind && !memcmp(&a.radius, &b.radius, sizeof a - offsetof(ovoid_round, radius)));
     q.shape_a = again;
     ovoid_answer y = ovoid_distance(&q, NULL, NULL);
     CHECK(!memcmp(&x->lower, &y.lower, sizeof y.lower) && !memcmp(&x->upper, &y.upper, sizeof y.upper));

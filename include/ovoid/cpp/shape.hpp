@@ -157,6 +157,16 @@ class shape : public detail::owner<shape_view, ovoid_shape, ovoid_shape_destroy>
         if (tolerance != 0) o.tolerance = tolerance;
         return made([&](ovoid_error *e) { return ovoid_shape_create_cone(radius, half_length, &o, e); });
     }
+    /**
+     * The ellipsoid around the origin with half axes along x, y and z, represented by a polyhedron with an allowance of
+     * at most the tolerance; 0: a 16th of the largest half axis.
+     */
+    static shape ellipsoid(const vec3 &half_axes, double tolerance = 0,
+                           const ovoid_shape_options &options = shape_options()) {
+        ovoid_shape_options o = options;
+        if (tolerance != 0) o.tolerance = tolerance;
+        return made([&](ovoid_error *e) { return ovoid_shape_create_ellipsoid(half_axes, &o, e); });
+    }
     /** A prism of n >= 3 sides along z, inscribed in the cylinder: exactly this polyhedron, without an allowance. */
     static shape prism(double radius, double half_length, std::uint32_t sides,
                        const ovoid_shape_options &options = shape_options()) {

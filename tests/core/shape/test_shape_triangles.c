@@ -505,7 +505,7 @@ static void check_headers(void) {
         check_refused(&f, "solid", 12);
     }
     forgery f = forge(s);
-    f.bytes[8] = 8;
+    f.bytes[8] = 9;
     check_refused(&f, "version", 8);
     f = forge(s);
     f.bytes[8] = 2;
