@@ -202,6 +202,7 @@ OVOID_API ovoid_named_shape ovoid_shapes_get(const ovoid_shapes *shapes, size_t 
  *     "sphere": radius
  *     "capsule": {"radius", "length"}, the length of its segment
  *     "cylinder" or "cone": {"radius", "length", "sides"}, 32 sides by default
+ *     "ellipsoid": {"half_axes": [a, b, c]}, and "tolerance"
  *     "points": [[x, y, z], ...]
  *     "compound": [part, ...], each like an object, without a name and not a compound itself
  *

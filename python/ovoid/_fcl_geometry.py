@@ -11,9 +11,8 @@ import numpy.typing as npt
 from . import Pose, Shape, Solid
 from ._fcl_data import NODE_TYPE, OBJECT_TYPE, Array
 
-# How far a cylinder's prism and a cone's pyramid may be from it, in radii; the rows of an ellipsoid's vertices.
+# How far a cylinder's prism and a cone's pyramid may be from it, in radii.
 _ROUND_TOLERANCE = 1e-4
-_ELLIPSOID_ROWS = 48
 
 
 def to_vector(numbers: Any) -> Array:
@@ -152,7 +151,7 @@ class Sphere(CollisionGeometry):
 
 
 class Ellipsoid(CollisionGeometry):
-    """An ellipsoid by its half axes; an inscribed polyhedron with an allowance of half a thousandth of the largest."""
+    """An ellipsoid by its half axes."""
 
     _node_type = NODE_TYPE.GEOM_ELLIPSOID
 
@@ -161,16 +160,7 @@ class Ellipsoid(CollisionGeometry):
         self.radii = np.array([a, b, c], dtype=float)
 
     def _make(self) -> Shape:
-        step = math.pi / _ELLIPSOID_ROWS
-        points = []
-        for row in range(_ELLIPSOID_ROWS + 1):
-            ring = math.sin(row * step)
-            count = max(1, math.ceil(2 * _ELLIPSOID_ROWS * ring - 1e-9))
-            angles = 2 * math.pi * np.arange(count) / count
-            points.append(np.stack([ring * np.cos(angles), ring * np.sin(angles), np.full(count, math.cos(row * step))], axis=1))
-        # Every point of the unit sphere is within half the diagonal of a cell of a vertex.
-        outside = (1 - math.cos(step / 2 * math.sqrt(2) * (1 + 1e-6))) * float(max(self.radii))
-        return Shape.from_points(np.concatenate(points) * self.radii, allowance=(outside, 0))
+        return Shape.ellipsoid(self.radii)
 
     def _support(self, n: Array) -> Array:
         scaled = self.radii * n

@@ -1,8 +1,8 @@
 /**
  * @file body.hpp
  * FCL's geometries as bodies of ovoid, for <ovoid/fcl.hpp>. Box, Sphere, Capsule, Convex and TriangleP are shapes
- * without an allowance; Cylinder, Cone and Ellipsoid are inscribed polyhedra with an allowance; a BVHModel is the
- * surface of its triangles.
+ * without an allowance; Cylinder, Cone and Ellipsoid are the true bodies, stored as inscribed polyhedra; a BVHModel is
+ * the surface of its triangles.
  */
 #ifndef OVOID_FCL_BODY_HPP
 #define OVOID_FCL_BODY_HPP
@@ -27,8 +27,6 @@ namespace detail {
 
 /// How far the prism of a cylinder and the pyramid of a cone may be from it, as a part of the radius.
 constexpr double round_tolerance = 1e-4;
-/// The rows of vertices from one pole of an ellipsoid to the other.
-constexpr int ellipsoid_rows = 48;
 
 struct shape_deleter {
     void operator()(ovoid_shape *shape) const { ovoid_shape_destroy(shape); }
@@ -127,26 +125,6 @@ class body {
     mutable box_tree tree_;
 };
 
-/// A polyhedron inscribed in the ellipsoid: rows of vertices at equal angles of the unit sphere, scaled. Every point of
-/// the sphere is within half the diagonal of a cell of a vertex, so the ball of radius cos(that angle) is inside.
-inline ovoid_shape *make_ellipsoid(const ovoid_vec3 &radii) {
-    const double step = 3.14159265358979323846 / ellipsoid_rows;
-    std::vector<double> xyz;
-    for (int i = 0; i <= ellipsoid_rows; i++) {
-        const double ring = std::sin(i * step);
-        const int count = std::max(1, static_cast<int>(std::ceil(2 * ellipsoid_rows * ring - 1e-9)));
-        for (int k = 0; k < count; k++) {
-            const double angle = 2 * 3.14159265358979323846 * k / count;
-            xyz.insert(xyz.end(), {radii.x * ring * std::cos(angle), radii.y * ring * std::sin(angle),
-                                   radii.z * std::cos(i * step)});
-        }
-    }
-    ovoid_shape_options options{};
-    const double reach = step / 2 * 1.41421356237309515 * (1 + 1e-6);
-    options.allowance.outside = (1 - std::cos(reach)) * std::max(radii.x, std::max(radii.y, radii.z));
-    return ovoid_shape_create_from_points(xyz.data(), xyz.size() / 3, &options, nullptr);
-}
-
 /// The hull of points of FCL.
 template <class S> ovoid_shape *make_hull(const ::fcl::Vector3<S> *points, std::size_t count) {
     std::vector<double> xyz;
@@ -186,7 +164,8 @@ template <class S> std::shared_ptr<const body> make_body(const geometry<S> *g) {
     case ::fcl::GEOM_SPHERE:
         return hold(ovoid_shape_create_sphere(static_cast<const ::fcl::Sphere<S> *>(g)->radius, nullptr, nullptr));
     case ::fcl::GEOM_ELLIPSOID:
-        return hold(make_ellipsoid(to_vec3<S>(static_cast<const ::fcl::Ellipsoid<S> *>(g)->radii)));
+        return hold(ovoid_shape_create_ellipsoid(to_vec3<S>(static_cast<const ::fcl::Ellipsoid<S> *>(g)->radii),
+                                                 nullptr, nullptr));
     case ::fcl::GEOM_CAPSULE: {
         const auto *s = static_cast<const ::fcl::Capsule<S> *>(g);
         return hold(ovoid_shape_create_capsule(s->radius, static_cast<double>(s->lz) / 2, nullptr, nullptr));

@@ -18,9 +18,9 @@ static ovoid_code fail_syntax(const scene_reader *r, const json_error_t *why) {
 // ---- objects
 
 static ovoid_code read_object(scene_reader *r, json_t *object) {
-    static const char *const words[] = {"name", "pose",   "radius",   "allowance", "scale",   "unit",
-                                        "mesh", "box",    "parts",    "sphere",    "capsule", "cylinder",
-                                        "cone", "points", "compound", "solid",     "hull",    NULL};
+    static const char *const words[] = {"name",     "pose",  "radius", "allowance", "scale",    "unit", "mesh",
+                                        "box",      "parts", "sphere", "capsule",   "cylinder", "cone", "points",
+                                        "compound", "solid", "hull",   "ellipsoid", NULL};
     scene_entry *entry = &r->scene->entries[r->index];
     r->name = NULL;
     if (!json_is_object(object)) return scene_fail(r, OVOID_ERROR_FORMAT, NULL, "must be a JSON object");

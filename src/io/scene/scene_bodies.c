@@ -115,6 +115,24 @@ static ovoid_shape *make_round(scene_reader *r, const geometry *g) {
     return name_failure(r, g, shape, &why);
 }
 
+// Makes an ellipsoid: {"half_axes", "tolerance"}.
+static ovoid_shape *make_ellipsoid(scene_reader *r, const geometry *g) {
+    static const char *const words[] = {"half_axes", "tolerance", NULL};
+    const char *unknown;
+    double a[3], tolerance;
+    if (!json_is_object(g->value) || !scene_has_only(g->value, words, &unknown) ||
+        !scene_read_numbers(json_object_get(g->value, "half_axes"), a, 3)) {
+        scene_fail_member(r, OVOID_ERROR_FORMAT, g->kind,
+                          "must be {\"half_axes\", \"tolerance\"}, the first three lengths");
+        return NULL;
+    }
+    if (read_size(r, g->value, g->kind, "tolerance", 0, &tolerance)) return NULL;
+    ovoid_shape_options options = g->options;
+    options.tolerance = tolerance;
+    ovoid_error why = {OVOID_OK, -1, ""};
+    return name_failure(r, g, ovoid_shape_create_ellipsoid((ovoid_vec3){a[0], a[1], a[2]}, &options, &why), &why);
+}
+
 static ovoid_shape *make_points(scene_reader *r, const geometry *g) {
     size_t count = json_array_size(g->value);
     double *xyz = malloc((3 * count + 1) * sizeof *xyz);
@@ -141,6 +159,7 @@ static ovoid_shape *make_shape(scene_reader *r, const geometry *g) {
     if (strcmp(g->kind, "box") == 0) return make_box(r, g);
     if (strcmp(g->kind, "sphere") == 0) return make_sphere(r, g);
     if (strcmp(g->kind, "points") == 0) return make_points(r, g);
+    if (strcmp(g->kind, "ellipsoid") == 0) return make_ellipsoid(r, g);
     return make_round(r, g);
 }
 
@@ -201,8 +220,9 @@ static ovoid_code add_part(scene_reader *r, part_list *list, const ovoid_shape *
 
 // Reads a part: one shape, or all parts of a mesh.
 static ovoid_code read_part(scene_reader *r, json_t *object, part_list *list) {
-    static const char *const words[] = {"pose", "radius", "allowance", "scale",    "unit", "mesh",   "parts", "hull",
-                                        "box",  "sphere", "capsule",   "cylinder", "cone", "points", NULL};
+    static const char *const words[] = {"pose",  "radius",    "allowance", "scale",  "unit",    "mesh",
+                                        "parts", "hull",      "box",       "sphere", "capsule", "cylinder",
+                                        "cone",  "ellipsoid", "points",    NULL};
     const char *unknown;
     ovoid_pose pose;
     size_t index;
@@ -241,7 +261,8 @@ static ovoid_code make_compound(scene_reader *r, const geometry *g, scene_body *
 
 // Finds the one member that names the geometry.
 static ovoid_code find_geometry(scene_reader *r, json_t *object, geometry *g) {
-    static const char *const kinds[] = {"mesh", "box", "sphere", "capsule", "cylinder", "cone", "points", "compound"};
+    static const char *const kinds[] = {"mesh", "box",       "sphere", "capsule", "cylinder",
+                                        "cone", "ellipsoid", "points", "compound"};
     *g = (geometry){.kind = NULL};
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         json_t *value = json_object_get(object, kinds[i]);
@@ -249,10 +270,11 @@ static ovoid_code find_geometry(scene_reader *r, json_t *object, geometry *g) {
         if (value) *g = (geometry){.kind = kinds[i], .value = value};
     }
     if (g->kind) return OVOID_OK;
-    return scene_fail(r, OVOID_ERROR_FORMAT, NULL,
-                      r->part == NO_PART
-                          ? "no geometry: one of mesh, box, sphere, capsule, cylinder, cone, points, compound"
-                          : "no geometry: one of mesh, box, sphere, capsule, cylinder, cone, points");
+    return scene_fail(
+        r, OVOID_ERROR_FORMAT, NULL,
+        r->part == NO_PART
+            ? "no geometry: one of mesh, box, sphere, capsule, cylinder, cone, ellipsoid, points, compound"
+            : "no geometry: one of mesh, box, sphere, capsule, cylinder, cone, ellipsoid, points");
 }
 
 // Reads "scale" times "unit", of meshes and points.
