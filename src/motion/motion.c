@@ -258,7 +258,7 @@ ovoid_pose ovoid_moving_shape_compute_pose(const ovoid_moving_shape *moving, dou
     ENVIRONMENT_RETURN(ovoid_pose, time, compute_moving_pose(moving, time));
 }
 
-// The cylinder about the axis that holds all vertices and what stands out across the allowance's axis. Axis and pivot
+// The cylinder about the axis that holds all vertices and what stands out of them and turns with them. Axis and pivot
 // are rounded, each by two or three rotations of 42 u: 512 u of all lengths, and the axis' error times the arm.
 static void find_cylinder(motion_body *b) {
     const ovoid_shape *shape = b->moving->shape;
@@ -293,8 +293,10 @@ int motion_body_make(const ovoid_moving_shape *moving, double time, motion_body 
         pivot = mat3_mul_transposed_vec3(part, vec3_sub(pivot, at));
     }
     b->pivot = vec3_sub(pivot, shape->origin);
-    b->across = shape_has_axis(shape) ? shape->allowance.outside : 0;
-    b->radius = shape_has_axis(shape) ? shape->radius : shape->lower_radius;
+    // What stands out of the vertices is a part of the body where its support is known with it (motion_gap.c).
+    int is_part = shape_has_axis(shape) || shape_is_round(shape);
+    b->across = is_part ? shape->allowance.outside : 0;
+    b->radius = is_part ? shape->radius : shape->lower_radius;
     b->reach =
         (shape->extent + b->across + norm_above(shape->origin) + 2 * norm_above(at) + norm_above(p->inner.position)) *
         (1 + 256 * ROUNDING);

@@ -57,7 +57,7 @@ typedef struct motion_body {
     motion_piece piece;
     int has_part;
     double radius;          ///< what the body stands out of its vertices in all directions, however it turns
-    double across;          ///< and across the axis of its allowance, which turns with it
+    double across;          ///< and across the axis of its allowance, or as an ellipsoid, which turns with it
     double reach;           ///< no vertex, and nothing across, is farther from the local frame's origin, or the pivot
     vec3 pivot;             ///< from the origin of the shape's body frame, along its axes
     double low, high, wide; ///< a cylinder about the axis through the pivot that holds these

@@ -21,7 +21,9 @@ static ovoid_quat random_turn(uint64_t *s) {
 }
 
 static ovoid_shape *make_ellipsoid(uint64_t *s) {
-    ovoid_vec3 half = {random_uniform(s, 0.1, 1), random_uniform(s, 0.1, 1), random_uniform(s, 0.1, 1)};
+    double least = random_next(s) % 2 ? -2 : -7;
+    ovoid_vec3 half = {exp(random_uniform(s, least, 0)), exp(random_uniform(s, least, 0)),
+                       exp(random_uniform(s, least, 0))};
     ovoid_shape_options o = {.radius = random_next(s) % 4 ? 0 : 0.125};
     if (random_next(s) % 8 == 0) half.y = half.x;
     if (random_next(s) % 8 == 0) half.z = half.x;

@@ -1,6 +1,6 @@
-// A true cylinder or cone has one answer, whoever is asked: a pair, a gap along a direction, a body among bodies, a
-// world, a motion, a cast, a robot's state, its path and what verifies it. Truth: the support in closed form of a body
-// that hangs above a plate by a hundredth of its allowance, leaning any way, and slides along it.
+// A true cylinder, cone or ellipsoid has one answer, whoever is asked: a pair, a gap along a direction, a body among
+// bodies, a world, a motion, a cast, a robot's state, its path and what verifies it. Truth: the support in closed form
+// of a body that hangs above a plate by a hundredth of its allowance, leaning any way, and slides along it.
 #include "check.h"
 
 #include "linear/mat3.h"
@@ -20,14 +20,19 @@ typedef struct hanging {
     double gap;
 } hanging;
 
-static hanging make_hanging(uint64_t *s, int is_cone, double gap) {
+static hanging make_hanging(uint64_t *s, ovoid_round_kind kind, double gap) {
+    int is_cone = kind == OVOID_ROUND_CONE, is_ellipsoid = kind == OVOID_ROUND_ELLIPSOID;
     double radius = random_uniform(s, 0.2, 0.5), half = random_uniform(s, 0.1, 0.5);
     ovoid_quat turn = random_quat(s);
     vec3 down = mat3_mul_transposed_vec3(quat_to_mat3(turn), (vec3){0, 0, -1});
     double across = radius * sqrt(down.x * down.x + down.y * down.y);
     double reach = is_cone ? fmax(half * down.z, across - half * down.z) : half * fabs(down.z) + across;
+    vec3 axes = {radius, half, 0.3};
+    if (is_ellipsoid) reach = vec3_norm((vec3){axes.x * down.x, axes.y * down.y, axes.z * down.z});
     hanging h = {.gap = gap, .at = {{0, 0.1, reach + gap}, turn}, .under = {{0, 0, -0.5}, {1, 0, 0, 0}}};
-    h.body = (is_cone ? ovoid_shape_create_cone : ovoid_shape_create_cylinder)(radius, half, NULL, &error);
+    h.body = is_ellipsoid ? ovoid_shape_create_ellipsoid(axes, NULL, &error)
+             : is_cone    ? ovoid_shape_create_cone(radius, half, NULL, &error)
+                          : ovoid_shape_create_cylinder(radius, half, NULL, &error);
     h.plate = ovoid_shape_create_box((ovoid_vec3){3, 3, 0.5}, NULL, &error);
     if (!h.body || !h.plate) exit(1);
     return h;
@@ -161,7 +166,7 @@ int main(void) {
     uint64_t s = 31;
     for (int i = 0; i < 200; i++) {
         check_seed = s;
-        hanging h = make_hanging(&s, i & 1, i & 2 ? 1e-5 : -1e-5);
+        hanging h = make_hanging(&s, (ovoid_round_kind)(1 + i % 3), i & 1 ? 1e-5 : -1e-5);
         check_pair(&h);
         check_world(&h);
         check_motions(&h);
