@@ -69,7 +69,7 @@ typedef struct ovoid_shape_options {
     ovoid_inner_method inner;  /**< which inner ellipsoid */
     ovoid_allowance allowance; /**< what the true body may differ by; zero: the shape is the body */
     double tolerance; /**< of cylinders, cones and ellipsoids: the most that `outside` may be, a length; 0 means
-                         radius / 200, of ellipsoids a 16th of the largest half axis */
+                         radius / 200, of ellipsoids a 13th of the largest half axis */
     const ovoid_allocator *allocator; /**< NULL: malloc and free; copied into the shape */
 } ovoid_shape_options;
 
@@ -132,7 +132,7 @@ OVOID_API ovoid_shape *ovoid_shape_create_cone(double radius, double half_length
  * The ellipsoid around the origin with half axes >= 0 along x, y and z, stored as an inscribed polyhedron with an
  * allowance. Brackets are those of the true ellipsoid, as narrow as of polyhedra: distances, and depths up to the
  * square of the least half axis over the largest; deeper ones to some 1e-8 of the size. The polyhedron has 4 n^2 + 2
- * vertices with the fewest steps n, 2 to 64, that meet options->tolerance, 66 vertices by default; LIMIT if 64 do not.
+ * vertices with the fewest steps n, 2 to 64, that meet options->tolerance, 38 by default; LIMIT if 64 do not.
  * An ellipsoid whose least half axis is below a millionth of the largest is the polyhedron with its allowance. Errors:
  * NOT_FINITE, RADIUS, RANGE, ARGUMENT (a negative half axis, the tolerance), MEMORY. Cost: linear in the vertices.
  */

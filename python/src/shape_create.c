@@ -439,7 +439,7 @@ PyMethodDef shape_constructors[] = {
     {"ellipsoid", METHOD_KEYWORDS(ellipsoid), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
      "ellipsoid(half_axes: Numbers, tolerance: float = 0, " SHAPE_SIGNATURE
      ") -> Shape\n--\n\nThe ellipsoid around the origin with half axes (a, b, c), held by a polyhedron with an "
-     "allowance of at most the\ntolerance, a length; 0: a 16th of the largest." SHAPE_DOC},
+     "allowance of at most the\ntolerance, a length; 0: a 13th of the largest." SHAPE_DOC},
     {"prism", METHOD_KEYWORDS(prism), METH_VARARGS | METH_KEYWORDS | METH_CLASS,
      "prism(radius: float, half_length: float, sides: int, " SHAPE_SIGNATURE
      ") -> Shape\n--\n\nA prism along z, inscribed in the cylinder." SHAPE_DOC},

@@ -1,13 +1,14 @@
-// Ellipsoids of boxes, regular prisms and regular pyramids. Stretching keeps the order of volumes, and the extremal
-// ellipsoids are unique, so they have the symmetries of the body (F. John, Extremum problems with inequalities as
-// subsidiary conditions, 1948; O. Gueler, F. Guertuna, Symmetry of convex sets and its applications to the extremal
-// ellipsoids of convex bodies, 2012): those of a regular polygon's prism are around its axis, as of a cylinder, and
-// stretched balls. Diagonals of Q, and the centre if it is not the origin:
+// Ellipsoids of boxes, regular prisms, regular pyramids and the polyhedra of ellipsoids. Stretching keeps the order of
+// volumes, and the extremal ellipsoids are unique, so they have the symmetries of the body (F. John, Extremum problems
+// with inequalities as subsidiary conditions, 1948; O. Gueler, F. Guertuna, Symmetry of convex sets and its
+// applications to the extremal ellipsoids of convex bodies, 2012): those of a regular polygon's prism are around its
+// axis, as of a cylinder, and stretched balls. Diagonals of Q, and the centre if it is not the origin:
 //
 //     body                        outer                               inner
 //     box of half sizes h         3 h_x^2, 3 h_y^2, 3 h_z^2           h_x^2, h_y^2, h_z^2
 //     prism, radius R, apothem r  3/2 R^2, 3/2 R^2, 3 h^2             r^2, r^2, h^2
 //     pyramid, z = -h/2           9/8 R^2, 9/8 R^2, 9/4 h^2           1/2 r^2, 1/2 r^2, 1/4 h^2
+//     ellipsoid's polyhedron      a_x^2, a_y^2, a_z^2                 those times the square of its ball's radius
 //
 // At a prism's corner the terms of the outer one are 2/3 and 1/3; at a pyramid's ring they are 8/9 and 1/9, at its apex
 // 0 and 1. A pyramid's inner one with the half axis b along z touches the base if its centre is b above it, and the
@@ -46,14 +47,23 @@ static upright make_turned(const regular_solid *s, double across, double along) 
     return (upright){{across, across, h * h * along}, s->is_prism ? 0 : -h / 2, error};
 }
 
+// The ball of n steps is off by 16 n u, its square by twice that (polytope/ellipsoid_grid.h).
+static upright make_scaled(const ellipsoid_grid *g, double ball) {
+    upright e = make_box(g->half, ball * ball);
+    e.error = g->steps * (16 * 0x1p-53);
+    return e;
+}
+
 static upright make_outer(const closed_form *form) {
     const regular_solid *s = &form->solid;
+    if (form->kind == FORM_ELLIPSOID) return make_scaled(&form->grid, 1);
     if (form->kind == FORM_BOX) return make_box(form->half, 3);
     return make_turned(s, s->radius_squared * (s->is_prism ? 1.5 : 1.125), s->is_prism ? 3 : 2.25);
 }
 
 static upright make_inner(const closed_form *form) {
     const regular_solid *s = &form->solid;
+    if (form->kind == FORM_ELLIPSOID) return make_scaled(&form->grid, form->grid.ball);
     if (form->kind == FORM_BOX) return make_box(form->half, 1);
     return make_turned(s, s->apothem_squared * (s->is_prism ? 1 : 0.5), s->is_prism ? 1 : 0.25);
 }
@@ -93,7 +103,11 @@ int closed_fit_is_enclosed(const closed_form *form, const ovoid_ellipsoid *ellip
         return c.z == 0 && is_square_within(q->xx, form->half.x) && is_square_within(q->yy, form->half.y) &&
                is_square_within(q->zz, form->half.z);
     upright e = make_inner(form);
-    double across = e.square.x * (1 - 6 * e.error), length = form->solid.half_length * (form->solid.is_prism ? 1 : 0.5);
+    double part = 1 - 6 * e.error;
+    if (form->kind == FORM_ELLIPSOID)
+        return c.z == 0 && q->xx > 0 && q->xx <= e.square.x * part && q->yy > 0 && q->yy <= e.square.y * part &&
+               q->zz > 0 && q->zz <= e.square.z * part;
+    double across = e.square.x * part, length = form->solid.half_length * (form->solid.is_prism ? 1 : 0.5);
     return c.z == e.z && q->xx > 0 && q->xx <= across && q->yy > 0 && q->yy <= across &&
            is_square_within(q->zz, length);
 }

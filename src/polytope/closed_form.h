@@ -1,17 +1,19 @@
-// Bodies whose hull, measures and ellipsoids are written down in place of being searched for: boxes, regular prisms and
-// regular pyramids. They are recognised by their vertices.
+// Bodies whose hull, measures and ellipsoids are written down in place of being searched for: boxes, regular prisms,
+// regular pyramids and the polyhedra of ellipsoids. They are recognised by their vertices.
 #ifndef OVOID_POLYTOPE_CLOSED_FORM_H
 #define OVOID_POLYTOPE_CLOSED_FORM_H
 
 #include "ovoid/polytope.h"
+#include "polytope/ellipsoid_grid.h"
 #include "polytope/regular_solid.h"
 
-typedef enum form_kind { FORM_NONE, FORM_BOX, FORM_REGULAR } form_kind;
+typedef enum form_kind { FORM_NONE, FORM_BOX, FORM_REGULAR, FORM_ELLIPSOID } form_kind;
 
 typedef struct closed_form {
     form_kind kind;
     ovoid_vec3 half;     ///< of a box (centered_box.h)
     regular_solid solid; ///< of a prism or pyramid
+    ellipsoid_grid grid; ///< of an ellipsoid
 } closed_form;
 
 /// The form of vertices; FORM_NONE for most. Cost: a few tests for most bodies, else linear.

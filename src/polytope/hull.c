@@ -273,13 +273,31 @@ static void fill_regular(hull *polytope) {
     regular_solid_fill_planes(s, polytope->vertices, polytope->planes);
 }
 
+static void fill_ellipsoid(hull *polytope) {
+    const ellipsoid_grid *g = &polytope->form.grid;
+    ellipsoid_grid_fill_triangles(g, polytope->triangles, polytope->triangle_facets);
+    ellipsoid_grid_fill_neighbors(g, polytope->triangles, polytope->neighbor_starts, polytope->neighbors);
+    ellipsoid_grid_fill_planes(g, polytope->triangles, polytope->vertices, polytope->planes);
+}
+
+static void count_closed(hull *polytope) {
+    const closed_form *form = &polytope->form;
+    if (form->kind == FORM_BOX) {
+        polytope->triangle_count = BOX_TRIANGLES;
+        polytope->facet_count = BOX_FACETS;
+    } else if (form->kind == FORM_ELLIPSOID) {
+        polytope->triangle_count = polytope->facet_count = ellipsoid_grid_count_triangles(form->grid.steps);
+    } else {
+        polytope->triangle_count = regular_solid_count_triangles(&form->solid);
+        polytope->facet_count = regular_solid_count_facets(&form->solid);
+    }
+}
+
 static ovoid_code create_closed(const builder *b, size_t count, const closed_form *form) {
     hull *polytope = b->hull;
-    int is_box = form->kind == FORM_BOX;
     polytope->form = *form;
     polytope->vertex_count = (uint32_t)count;
-    polytope->triangle_count = is_box ? BOX_TRIANGLES : regular_solid_count_triangles(&form->solid);
-    polytope->facet_count = is_box ? BOX_FACETS : regular_solid_count_facets(&form->solid);
+    count_closed(polytope);
     polytope->rank = 3;
     polytope->report = (ovoid_report){.points = count, .vertices = count, .rank = 3};
     if (!allocate(polytope, b->allocator)) {
@@ -288,8 +306,10 @@ static ovoid_code create_closed(const builder *b, size_t count, const closed_for
     }
     // + 0.0 makes every zero a positive one.
     for (size_t i = 0; i < 3 * count; i++) polytope->vertices[i] = b->xyz[i] + 0.0;
-    if (is_box)
+    if (form->kind == FORM_BOX)
         fill_box(polytope);
+    else if (form->kind == FORM_ELLIPSOID)
+        fill_ellipsoid(polytope);
     else
         fill_regular(polytope);
     return OVOID_OK;

@@ -2,9 +2,9 @@
 #ifndef OVOID_POLYTOPE_HULL_H
 #define OVOID_POLYTOPE_HULL_H
 
+#include "linear/vec3.h"
 #include "ovoid/polytope.h"
 #include "polytope/closed_form.h"
-#include "polytope/surface_claim.h"
 
 /// A hull. The arrays belong to it; they are those of ovoid_polytope.
 typedef struct hull {
@@ -22,6 +22,22 @@ typedef struct hull {
 /// Errors: EMPTY, LIMIT, NOT_FINITE and RANGE (place: the point), MEMORY, HULL; then *polytope needs no destroying.
 /// Cost: n log n for points in random order.
 ovoid_code hull_create(xyz_points given, const ovoid_allocator *allocator, hull *polytope, ovoid_error *error);
+
+/// A surface that is claimed to be the hull of points of full dimension, each of them extreme.
+typedef struct surface_claim {
+    const double *xyz; ///< the points
+    size_t count;
+    const uint32_t *triangles; ///< three points each, counter-clockwise from outside
+    uint32_t triangle_count;
+    vec3 inside; ///< a point of the interior
+} surface_claim;
+
+/// Why a claim does not hold.
+typedef struct surface_flaw {
+    const char *what;
+    uint32_t index; ///< of the triangle, or of the vertex
+    int is_vertex;
+} surface_flaw;
 
 /// The hull of vertices whose surface is claimed: the claim is proven, then facets, planes and adjacency are computed
 /// from it. With the triangles of hull_create and its vertices the result is that hull, bit for bit, at a fraction of

@@ -2,8 +2,8 @@
 #ifndef OVOID_POLYTOPE_SURFACE_PROOF_H
 #define OVOID_POLYTOPE_SURFACE_PROOF_H
 
+#include "polytope/hull.h"
 #include "polytope/quickhull.h"
-#include "polytope/surface_claim.h"
 
 /// The claimed surface, proven to be the hull of the points, with each of these extreme. p: the claim's points, taken
 /// as distinct; the proof shows that they are. MEMORY, or HULL and *flaw filled; then *s needs no destroying. s->state

@@ -1,33 +1,16 @@
-// Ellipsoids: their points, and their polyhedron as a shape.
-//
-// The polyhedron of n steps is the hull of the grid's points. Scaling by the half axes maps hulls to hulls, and so do
-// the ellipsoids of smallest and largest volume: those of the unit sphere's polyhedron, which has the symmetry of a
-// cube, are balls, the outer one the sphere itself. Its triangles are the grid's, and the ball of radius 1 - 1 / n^2 is
-// in it: the largest triangles, in the middle of the octahedron's faces, have corners that are less than sqrt(2) / n
-// from the normal of their plane. (test_shape_ellipsoid.c measures every n.) So the ellipsoid exceeds its polyhedron by
-// at most a / n^2, a the largest half axis.
+// Ellipsoids: their numbered points, and their polyhedron as a shape (polytope/ellipsoid_grid.h). The polyhedron holds
+// a ball in units of the half axes, so that no point of the ellipsoid is farther from it than the largest half axis
+// times what the ball leaves of the unit sphere.
 #include "shape/ellipsoid.h"
 
 #include "base/allocator.h"
-#include "base/arena.h"
 #include "base/environment.h"
 #include "base/error.h"
+#include "polytope/ellipsoid_grid.h"
 #include "shape/create.h"
 #include "shape/rim.h"
 
-#include <string.h>
-
-enum { STEPS_LEAST = 2, STEPS_DEFAULT = 4, STEPS_MOST = 64 };
-
-// The least half axis of a true ellipsoid, as a part of the largest, and the largest one's least length: squares and
-// their quotients stay normal numbers.
-#define FLATTEST 1e-6
-#define LEAST_LENGTH 1e-60
-
-static vec3 find_grid_point(vec3 half, int x, int y, int z) {
-    double length = sqrt((double)(x * x + y * y + z * z));
-    return (vec3){half.x * (x / length), half.y * (y / length), half.z * (z / length)};
-}
+enum { STEPS_DEFAULT = 3 };
 
 uint32_t ellipsoid_find_number(vec3 m) {
     const double steps = ELLIPSOID_STEPS;
@@ -51,175 +34,54 @@ vec3 ellipsoid_compute_point(vec3 half, uint32_t number) {
         x = x < 0 ? along - steps : steps - along;
         y = y < 0 ? across - steps : steps - across;
     }
-    return find_grid_point(half, x, y, z);
-}
-
-// ---- the polyhedron
-//
-// Its vertices are in rings from the upper tip down; ring k has the height z = n - k and m = min(k, 2 n - k) vertices
-// in each quadrant, counter-clockwise from x = m, y = 0; one if m = 0.
-
-static uint32_t get_ring(uint32_t n, uint32_t k) { return k < n ? k : 2 * n - k; }
-static uint32_t count_vertices(uint32_t n) { return 4 * n * n + 2; }
-static uint32_t count_ring(uint32_t m) { return m ? 4 * m : 1; }
-
-// The first vertex of ring k.
-static uint32_t find_ring(uint32_t n, uint32_t k) {
-    uint32_t m = get_ring(n, k);
-    if (k <= n) return k ? 1 + 2 * k * (k - 1) : 0;
-    return count_vertices(n) - (1 + 2 * m * (m + 1));
-}
-
-// Vertex i of ring k. + 0.0 makes every zero a positive one.
-static vec3 find_vertex(vec3 half, uint32_t n, uint32_t k, uint32_t i) {
-    int m = (int)get_ring(n, k), s = m ? (int)i % m : 0, x = m - s, y = s;
-    for (int quarter = m ? (int)i / m : 0; quarter > 0; quarter--) {
-        int turned = -y;
-        y = x;
-        x = turned;
-    }
-    return vec3_clear_signs(find_grid_point(half, x, y, (int)n - (int)k));
-}
-
-static void fill_vertices(vec3 half, uint32_t n, double *xyz) {
-    for (uint32_t k = 0; k <= 2 * n; k++)
-        for (uint32_t i = 0; i < count_ring(get_ring(n, k)); i++, xyz += 3) {
-            vec3 v = find_vertex(half, n, k, i);
-            xyz[0] = v.x, xyz[1] = v.y, xyz[2] = v.z;
-        }
-}
-
-static uint32_t *put_triangle(uint32_t *to, uint32_t a, uint32_t b, uint32_t c) {
-    to[0] = a, to[1] = b, to[2] = c;
-    return to + 3;
-}
-
-// Between a ring of m and one of m + 1 vertices a quadrant, from their first vertices; counter-clockwise from outside
-// where the wide one is below.
-static uint32_t *put_band(uint32_t *to, uint32_t narrow, uint32_t wide, uint32_t m, int is_upper) {
-    uint32_t around = 4 * (m + 1), within = count_ring(m);
-    for (uint32_t quarter = 0; quarter < 4; quarter++)
-        for (uint32_t s = 0; s <= m; s++) {
-            uint32_t w = wide + quarter * (m + 1) + s, next = wide + (quarter * (m + 1) + s + 1) % around;
-            uint32_t v = narrow + (quarter * m + s) % within;
-            to = put_triangle(to, v, is_upper ? w : next, is_upper ? next : w);
-            if (s == m) continue;
-            uint32_t beside = narrow + (quarter * m + s + 1) % within;
-            to = put_triangle(to, next, is_upper ? beside : v, is_upper ? v : beside);
-        }
-    return to;
-}
-
-static void fill_triangles(uint32_t n, uint32_t *to) {
-    for (uint32_t k = 0; k < n; k++) to = put_band(to, find_ring(n, k), find_ring(n, k + 1), k, 1);
-    for (uint32_t k = n; k < 2 * n; k++) to = put_band(to, find_ring(n, k + 1), find_ring(n, k), 2 * n - k - 1, 0);
+    return ellipsoid_grid_get_point(half, x, y, z);
 }
 
 // ---- the shape
 
-static double find_outside(vec3 half, uint32_t n) { return vec3_max_abs(half) / ((double)n * n); }
+// How far the ellipsoid may be outside of its polyhedron.
+static double find_outside(const ellipsoid_grid *g) {
+    return vec3_max_abs(g->half) * ((1 - g->ball) + g->steps * (32 * 0x1p-53));
+}
+
 static double find_inside(vec3 half) { return vec3_max_abs(half) * (8 * 0x1p-53); }
 
 int ellipsoid_is_held(const ovoid_shape *s, vec3 half) {
-    uint32_t n = STEPS_LEAST;
-    while (count_vertices(n) < s->vertex_count && n < STEPS_MOST) n++;
-    vec3 axis = s->allowance.axis, origin = s->origin;
-    if (count_vertices(n) != s->vertex_count || vec3_max_abs(origin) > 0 || vec3_max_abs(axis) > 0) return 0;
-    if (s->allowance.outside != find_outside(half, n) || s->allowance.inside != find_inside(half)) return 0;
-    const double *at = shape_vertices(s);
-    for (uint32_t k = 0; k <= 2 * n; k++)
-        for (uint32_t i = 0; i < count_ring(get_ring(n, k)); i++, at += 3) {
-            vec3 v = find_vertex(half, n, k, i);
-            if (v.x != at[0] || v.y != at[1] || v.z != at[2]) return 0;
-        }
-    return 1;
+    ellipsoid_grid grid;
+    if (!ellipsoid_grid_find(shape_vertices(s), s->vertex_count, &grid)) return 0;
+    vec3 off = vec3_sub(grid.half, half), axis = s->allowance.axis;
+    return !(vec3_max_abs(off) > 0) && !(vec3_max_abs(s->origin) > 0) && !(vec3_max_abs(axis) > 0) &&
+           s->allowance.outside == find_outside(&grid) && s->allowance.inside == find_inside(half);
 }
 
-// The fewest steps that meet the tolerance, or more than STEPS_MOST.
+// The fewest steps that meet the tolerance, or more than there may be.
 static uint32_t find_steps(vec3 half, double tolerance) {
     if (!(tolerance > 0)) return STEPS_DEFAULT;
-    uint32_t n = STEPS_LEAST;
-    while (n <= STEPS_MOST && find_outside(half, n) > tolerance) n++;
+    uint32_t n = GRID_STEPS_LEAST;
+    while (n <= GRID_STEPS_MOST && vec3_max_abs(half) / ((double)n * n) > tolerance) n++;
     return n;
 }
 
-static ovoid_fit make_fit(vec3 half, double scale, double gap) {
-    vec3 a = vec3_scale(half, scale);
-    ovoid_fit fit = {.volume = 4.1887902047863905 * a.x * a.y * a.z, .gap = gap, .converged = gap <= 1e-6};
-    fit.ellipsoid.q = (sym3){a.x * a.x, 0, 0, a.y * a.y, 0, a.z * a.z};
-    return fit;
-}
-
-// The outer ellipsoid is the body's, enlarged by more than the roundings of vertices and proof; no ellipsoid in the
-// polyhedron is larger than the body.
-static void set_fits(ovoid_shape *shape, vec3 half, uint32_t n) {
-    double ball = 1 - 1 / ((double)n * n);
-    ovoid_fit outer = make_fit(half, 1 + 0x1p-40, 0x1p-38), inner = make_fit(half, ball, 1 / (ball * ball * ball) - 1);
-    shape_set_fits(shape, &outer, &inner);
-}
-
-// The vertices and triangles of a polyhedron.
-typedef struct grid {
-    vec3 half;
-    uint32_t steps;
-    double *xyz;
-    uint32_t *triangles;
-} grid;
-
-static ovoid_shape *create_solid(const grid *g, const ovoid_shape_options *o, const ovoid_allocator *work,
-                                 ovoid_error *error) {
-    surface_claim claim = {g->xyz, count_vertices(g->steps), g->triangles, 8 * g->steps * g->steps, {0, 0, 0}};
-    surface_flaw flaw;
-    hull polytope;
-    ovoid_code code = hull_create_proven(&claim, work, &polytope, &flaw);
-    if (code != OVOID_OK) {
-        error_write(error, code, -1, "the polyhedron of an ellipsoid has no hull: %s", flaw.what);
-        return NULL;
-    }
-    ovoid_shape *shape = shape_create_block(&polytope, o->allocator, work, error);
-    if (shape) {
-        block_set_radius(shape, o->radius, o->allowance);
-        shape->report = polytope.report;
-        set_fits(shape, g->half, g->steps);
-    }
-    hull_destroy(&polytope, work);
-    return shape;
-}
-
-static int is_known(const ovoid_shape_options *given) {
-    return !given || (!(given->allowance.outside > 0) && !(given->allowance.inside > 0));
-}
-
-static ovoid_shape *create_from_grid(grid *g, const ovoid_shape_options *given, ovoid_error *error) {
+static ovoid_shape *create_from_grid(vec3 half, uint32_t n, const ovoid_shape_options *given, ovoid_error *error) {
     ovoid_shape_options o;
     if (shape_options_make(given, &o, error) != OVOID_OK) return NULL;
+    ellipsoid_grid grid = {half, n, 1 - 1 / ((double)n * n)};
+    // A flat or tiny one has no closed form, and no more than its polyhedron is known.
+    int is_known = ellipsoid_grid_make(half, n, &grid) && !(o.allowance.outside > 0) && !(o.allowance.inside > 0);
     o.allowance.axis = (vec3){0, 0, 0};
-    o.allowance.outside += find_outside(g->half, g->steps);
-    o.allowance.inside += find_inside(g->half);
-    _Alignas(64) char buffer[SHAPE_WORK_SIZE];
+    o.allowance.outside += find_outside(&grid);
+    o.allowance.inside += find_inside(half);
     ovoid_allocator allocator = allocator_make(o.allocator);
-    arena a;
-    ovoid_allocator work = arena_make(&a, &allocator, buffer, sizeof buffer);
-    size_t count = count_vertices(g->steps), triangles = 8 * (size_t)g->steps * g->steps;
-    g->xyz = allocator_allocate(&work, count, 3 * sizeof *g->xyz);
-    g->triangles = allocator_allocate(&work, triangles, 3 * sizeof *g->triangles);
-    double most = vec3_max_abs(g->half), least = min2(g->half.x, min2(g->half.y, g->half.z));
-    ovoid_shape *shape = NULL;
-    if (!g->xyz || !g->triangles) {
+    size_t count = ellipsoid_grid_count_vertices(n);
+    double *xyz = allocator_allocate(&allocator, count, 3 * sizeof *xyz);
+    if (!xyz) {
         error_write(error, OVOID_ERROR_MEMORY, -1, "no memory for an ellipsoid of %zu vertices", count);
-    } else {
-        fill_vertices(g->half, g->steps, g->xyz);
-        fill_triangles(g->steps, g->triangles);
-        int is_solid = least >= FLATTEST * most && most >= LEAST_LENGTH;
-        if (is_solid)
-            shape = create_solid(g, &o, &work, error);
-        else
-            shape = shape_create_from_points((xyz_points){g->xyz, count}, &o, error);
-        if (shape && is_solid && is_known(given))
-            shape->round = (ovoid_round){.kind = OVOID_ROUND_ELLIPSOID, .half_axes = g->half};
+        return NULL;
     }
-    allocator_release(&work, g->triangles);
-    allocator_release(&work, g->xyz);
+    ellipsoid_grid_fill_vertices(half, n, xyz);
+    ovoid_shape *shape = shape_create_from_points((xyz_points){xyz, count}, &o, error);
+    allocator_release(&allocator, xyz);
+    if (shape && is_known) shape->round = (ovoid_round){.kind = OVOID_ROUND_ELLIPSOID, .half_axes = half};
     return shape;
 }
 
@@ -238,10 +100,10 @@ static ovoid_shape *create_ellipsoid(vec3 half, const ovoid_shape_options *optio
         error_write(error, OVOID_ERROR_ARGUMENT, -1, "the tolerance %g is not a length >= 0", tolerance);
         return NULL;
     }
-    grid g = {.half = vec3_clear_signs(half), .steps = find_steps(half, tolerance)};
-    if (g.steps <= STEPS_MOST) return create_from_grid(&g, options, error);
+    uint32_t steps = find_steps(half, tolerance);
+    if (steps <= GRID_STEPS_MOST) return create_from_grid(vec3_clear_signs(half), steps, options, error);
     error_write(error, OVOID_ERROR_LIMIT, -1, "a tolerance of %g at a half axis of %g takes more than %d steps",
-                tolerance, vec3_max_abs(half), (int)STEPS_MOST);
+                tolerance, vec3_max_abs(half), (int)GRID_STEPS_MOST);
     return NULL;
 }
 

@@ -1,13 +1,9 @@
-// Points of an ellipsoid on a grid: the vertices of its polyhedron, and the points that proofs name.
+// Points of an ellipsoid that proofs name, and its support.
 //
-// A grid of n steps has the points (x, y, z) of integers with |x| + |y| + |z| = n, brought to the unit sphere and
-// scaled by the half axes: those of an octahedron's faces, each divided into n^2 triangles. In doubles they are a (x /
-// l) with l = sqrt(x x + y y + z z), within 4 u a of the ellipsoid for the largest half axis a, u = 2^-53.
-//
-// Proofs name points of the grid of ELLIPSOID_STEPS steps. A number is RIM_POINT + (i + steps) side + (j + steps) with
-// |i|, |j| <= steps: where z = steps - |i| - |j| is not below zero the point is (i, j, z), else (steps - |j|, steps -
-// |i|, z) with the signs of i and j (0 counts as positive). Neighbours are less than 1.1e-4 apart on the unit sphere,
-// and so their hull is within 2e-9 a of the ellipsoid.
+// They are those of the grid of ELLIPSOID_STEPS steps (polytope/ellipsoid_grid.h). A number is RIM_POINT + (i + steps)
+// side + (j + steps) with |i|, |j| <= steps: where z = steps - |i| - |j| is not below zero the point is (i, j, z), else
+// (steps - |j|, steps - |i|, z) with the signs of i and j (0 counts as positive). Neighbours are less than 1.1e-4 apart
+// on the unit sphere, and so their hull is within 2e-9 a of the ellipsoid.
 #ifndef OVOID_SHAPE_ELLIPSOID_H
 #define OVOID_SHAPE_ELLIPSOID_H
 

@@ -1,6 +1,6 @@
 // The file of a shape (".ovoid"): version 1; 2 where it has an allowance; 3 with the triangles of its hull, for solids
 // of many vertices; 4 and 5 are 2 and 3 with the allowance's axis; 6 and 7 are 4 and 5 of cylinders and cones, with
-// their lengths; 8 is 3 of ellipsoids, with their half axes. docs/polytope.md has the table.
+// their lengths; 8 is 2 of ellipsoids, with their half axes. docs/polytope.md has the table.
 //
 // A file holds what cannot be recomputed: the vertices, the fitted ellipsoids, the radius, the allowance, and the
 // report of the given points. Facets, adjacency, planes and measures depend on the vertices and the triangles alone,
@@ -53,7 +53,7 @@ typedef struct layout {
 } layout;
 
 static int has_half_axes(uint32_t version) { return version == VERSION_ELLIPSOID; }
-static int has_triangles(uint32_t version) { return (version >= 3 && version % 2 == 1) || has_half_axes(version); }
+static int has_triangles(uint32_t version) { return version >= 3 && version % 2 == 1; }
 static int has_axis(uint32_t version) { return version >= 4 && !has_half_axes(version); }
 static int has_round(uint32_t version) { return version >= 6 && !has_half_axes(version); }
 

@@ -159,7 +159,7 @@ class shape : public detail::owner<shape_view, ovoid_shape, ovoid_shape_destroy>
     }
     /**
      * The ellipsoid around the origin with half axes along x, y and z, represented by a polyhedron with an allowance of
-     * at most the tolerance; 0: a 16th of the largest half axis.
+     * at most the tolerance; 0: a 13th of the largest half axis.
      */
     static shape ellipsoid(const vec3 &half_axes, double tolerance = 0,
                            const ovoid_shape_options &options = shape_options()) {
