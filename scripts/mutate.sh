@@ -24,7 +24,7 @@ tests_of() {
     query="test_query test_query_warm test_query_near test_simd_small_gjk test_judge_verify test_query_surface test_query_simplex test_judge test_query_trials:--rounds:5 test_query_trials_known test_query_trials:--family:near-coplanar:--trial:9537145888130744208"
     query="$query test_query_batch test_judge_capacity test_game_hulls test_query_refine test_query_altered"
     case $1 in
-    allowance) echo "test_allowance test_allowance_axis test_judge_allowance test_judge_round test_shape_rim test_robot_round" ;;
+    allowance) echo "test_allowance test_allowance_axis test_judge_allowance test_shape_ellipsoid test_judge_round test_shape_rim test_robot_round" ;;
     query) echo "$query" ;;
     prepared) echo "test_prepared test_environment" ;;
     depth_memory) echo "test_query_memory test_query_surface" ;;
@@ -34,7 +34,7 @@ tests_of() {
     swept) echo "test_query_swept" ;;
     exact) echo "test_linear test_hull $query" ;;
     hull) echo "test_linear test_hull_sort test_hull test_measures test_shape $query" ;;
-    shape) echo "test_centered_box test_regular_solid test_measures test_shape test_shape_triangles test_shape_file test_shape_rim $query" ;;
+    shape) echo "test_centered_box test_regular_solid test_measures test_shape test_shape_triangles test_shape_file test_shape_rim test_shape_ellipsoid $query" ;;
     ellipsoid) echo "test_ellipsoid_quick test_ellipsoid_contain test_ellipsoid_overlap test_ellipsoid_gap test_ellipsoid_exact test_ellipsoid_nearest test_ellipsoid_outer test_ellipsoid_inner $query" ;;
     simd) echo "test_simd $query" ;;
     environment) echo "test_environment $query" ;;

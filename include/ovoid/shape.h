@@ -133,7 +133,7 @@ OVOID_API ovoid_shape *ovoid_shape_create_cone(double radius, double half_length
  * allowance. Brackets are those of the true ellipsoid, as narrow as of polyhedra: distances, and depths up to the
  * square of the least half axis over the largest; deeper ones to some 1e-8 of the size. The polyhedron has 4 n^2 + 2
  * vertices with the fewest steps n, 2 to 64, that meet options->tolerance, 38 by default; LIMIT if 64 do not.
- * An ellipsoid whose least half axis is below a millionth of the largest is the polyhedron with its allowance. Errors:
+ * An ellipsoid whose least half axis is below 2^-20 of the largest is the polyhedron with its allowance. Errors:
  * NOT_FINITE, RADIUS, RANGE, ARGUMENT (a negative half axis, the tolerance), MEMORY. Cost: linear in the vertices.
  */
 OVOID_API ovoid_shape *ovoid_shape_create_ellipsoid(ovoid_vec3 half_axes, const ovoid_shape_options *options,
