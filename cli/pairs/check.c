@@ -269,7 +269,8 @@ const cli_command command_check = {
         "                  \"pose\": {\"xyz\": [0, 0, 0.3], \"rpy\": [0, 0, 1.57]}},\n"
         "                 {\"name\": \"table\", \"box\": [0.8, 1.2, 0.04]}],\n"
         "     \"ignore\": [[\"arm\", \"table\"]]}\n\n"
-        "Bodies: mesh, box, sphere, capsule, cylinder, cone, points; compound, a list of these, or a mesh with "
+        "Bodies: mesh, box, sphere, capsule, cylinder, cone, ellipsoid, points; compound, a list of these, or a mesh "
+        "with "
         "\"parts\": true, whose objects are the parts. A closed mesh that is not convex is the solid that its "
         "triangles enclose, an open one its surface; the depth of solids is a bracket that is true, but wide. Poses: "
         "xyz, with rpy or quat_wxyz.",

@@ -136,7 +136,13 @@ static int is_answered(cores *c, vec3 n, double gap) {
 }
 
 int cores_run(search *s) {
-    cores c = {.s = s, .radius_a = find_radius(s->frame->a), .radius_b = find_radius(s->frame->b)};
+    // The places, most of the struct, are not set: nothing reads past their count.
+    cores c;
+    c.s = s;
+    c.radius_a = find_radius(s->frame->a);
+    c.radius_b = find_radius(s->frame->b);
+    c.points.count = 0;
+    c.count = 0;
     double gap = probe(&c, find_first_normal(s)), least = INFINITY, best = -INFINITY;
     push(&c);
     while (c.count <= CORES_STEPS && s->iterations < s->goal.iterations) {

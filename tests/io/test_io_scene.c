@@ -54,6 +54,23 @@ static void check_unit(void) {
     ovoid_scene_destroy(scene);
 }
 
+// An ellipsoid is the true body, with its tolerance.
+static void check_ellipsoid(void) {
+    ovoid_error error = {OVOID_OK, -1, ""};
+    ovoid_scene *scene = ovoid_scene_read(
+        file_write_text("egg.json", "{\"objects\": [{\"name\": \"egg\", \"ellipsoid\": "
+                                    "{\"half_axes\": [1, 2, 3], \"tolerance\": 0.12}, \"radius\": 0.5}]}"),
+        NULL, &error);
+    if (!CHECK(scene != NULL)) return;
+    const ovoid_shape *egg = ovoid_scene_get(scene, 0).shape;
+    ovoid_round round = ovoid_shape_get_round(egg);
+    CHECK_EQ(round.kind, OVOID_ROUND_ELLIPSOID);
+    CHECK(round.half_axes.x == 1 && round.half_axes.y == 2 && round.half_axes.z == 3);
+    CHECK_EQ(ovoid_shape_get_polytope(egg).vertex_count, 102);
+    CHECK_EQ(ovoid_shape_get_radius(egg), 0.5);
+    ovoid_scene_destroy(scene);
+}
+
 static void check_good(void) {
     file_write_text("tetra.obj", tetrahedron);
     ovoid_error error = {OVOID_OK, -1, ""};
@@ -292,6 +309,9 @@ static const bad_input bad_scenes[] = {
      "\"axis\" of an allowance must be"},
     {"axes.json", OBJECT("\"sphere\": 1, \"allowance\": {\"outside\": 1, \"axis\": 3}"), 3,
      "\"axis\" of an allowance must be"},
+    {"egg.json", OBJECT("\"ellipsoid\": [1, 2, 3]"), 4, "\"ellipsoid\" must be"},
+    {"egg_two.json", OBJECT("\"ellipsoid\": {\"half_axes\": [1, 2]}"), 4, "\"ellipsoid\" must be"},
+    {"egg_sign.json", OBJECT("\"ellipsoid\": {\"half_axes\": [1, 2, -3]}"), 4, "\"ellipsoid\" the half axis"},
     {"sides.json", OBJECT("\"cylinder\": {\"radius\": 1, \"length\": 1, \"sides\": 2}"), 4,
      "\"cylinder\" needs a whole number of sides"},
     {"half_sides.json", OBJECT("\"cone\": {\"radius\": 1, \"length\": 1, \"sides\": 3.5}"), 4,
@@ -471,6 +491,7 @@ static void check_boxes(void) {
 
 int main(void) {
     check_unit();
+    check_ellipsoid();
     check_boxes();
     check_axes();
     check_good();
