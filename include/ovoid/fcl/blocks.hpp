@@ -199,7 +199,9 @@ class block_tree {
     /// The lanes after lane i.
     static std::uint32_t above(std::size_t i) { return every << i << 1 & every; }
 
+    /// Of most scenes most boxes are those of the last time. A box and its lane that nothing has set are both zero.
     void set_leaf(std::size_t place, const ovoid_box &box) {
+        if (std::memcmp(&leaves_[place], &box, sizeof box) == 0) return;
         leaves_[place] = box;
         blocks_[place / block_size].set(place % block_size, round_out(box));
     }
