@@ -469,7 +469,24 @@ static void test_motions() {
     CHECK_NEAR(ovoid::fcl::collide<double>(&mx, &my, request, result), 0.4, 1e-6);
 }
 
+/// A capsule that lies on a box has a contact at each end where more than one is wanted.
+static void test_lying() {
+    const Boxd box(4, 4, 1);
+    const Capsuled pill(0.3, 0.8);
+    Transform3d lying = Transform3d::Identity();
+    lying.linear() = Eigen::AngleAxisd(std::acos(-1.0) / 2, Vector3d::UnitY()).toRotationMatrix();
+    lying.translation() = Vector3d(0.1, 0.2, 0.79);
+    for (const std::size_t most : {std::size_t{1}, std::size_t{4}}) {
+        CollisionResultd result;
+        const CollisionRequestd request(most, true);
+        CHECK_EQ(ovoid::fcl::collide<double>(&box, Transform3d::Identity(), &pill, lying, request, result),
+                 most > 1 ? 2u : 1u);
+        CHECK_NEAR(result.getContact(0).penetration_depth, 0.01, 1e-9);
+    }
+}
+
 int main() {
+    test_lying();
     std::cerr.rdbuf(nullptr); // FCL's warnings
     test_shapes();
     test_beside_fcl();
