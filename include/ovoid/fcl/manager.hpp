@@ -1,8 +1,8 @@
 /**
  * @file manager.hpp
  * A broad-phase manager with the interface of FCL's, for <ovoid/fcl.hpp>. A tree of boxes is built over all objects by
- * halving them along the longest axis of their centres, down to blocks of sixteen; objects that are registered after that
- * are kept in a list beside it until they are a sixteenth of all, or until the next setup() or update(). An update
+ * halving them along the longest axis of their centres, down to blocks of sixteen; objects that are registered after
+ * that are kept in a list beside it until they are a sixteenth of all, or until the next setup() or update(). An update
  * refits the tree, and builds it anew where its boxes have grown by a fifth.
  */
 #ifndef OVOID_FCL_MANAGER_HPP
