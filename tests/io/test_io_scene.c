@@ -311,7 +311,7 @@ static const bad_input bad_scenes[] = {
      "\"axis\" of an allowance must be"},
     {"egg.json", OBJECT("\"ellipsoid\": [1, 2, 3]"), 4, "\"ellipsoid\" must be"},
     {"egg_two.json", OBJECT("\"ellipsoid\": {\"half_axes\": [1, 2]}"), 4, "\"ellipsoid\" must be"},
-    {"egg_sign.json", OBJECT("\"ellipsoid\": {\"half_axes\": [1, 2, -3]}"), 4, "\"ellipsoid\" the half axis"},
+    {"egg_sign.json", OBJECT("\"ellipsoid\": {\"half_axes\": [1, 2, -3]}"), 4, "\"ellipsoid\" must be"},
     {"sides.json", OBJECT("\"cylinder\": {\"radius\": 1, \"length\": 1, \"sides\": 2}"), 4,
      "\"cylinder\" needs a whole number of sides"},
     {"half_sides.json", OBJECT("\"cone\": {\"radius\": 1, \"length\": 1, \"sides\": 3.5}"), 4,

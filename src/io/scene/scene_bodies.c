@@ -121,9 +121,9 @@ static ovoid_shape *make_ellipsoid(scene_reader *r, const geometry *g) {
     const char *unknown;
     double a[3], tolerance;
     if (!json_is_object(g->value) || !scene_has_only(g->value, words, &unknown) ||
-        !scene_read_numbers(json_object_get(g->value, "half_axes"), a, 3)) {
+        !scene_read_numbers(json_object_get(g->value, "half_axes"), a, 3) || !(a[0] >= 0 && a[1] >= 0 && a[2] >= 0)) {
         scene_fail_member(r, OVOID_ERROR_FORMAT, g->kind,
-                          "must be {\"half_axes\", \"tolerance\"}, the first three lengths");
+                          "must be {\"half_axes\", \"tolerance\"}, with three half axes >= 0");
         return NULL;
     }
     if (read_size(r, g->value, g->kind, "tolerance", 0, &tolerance)) return NULL;
