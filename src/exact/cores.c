@@ -11,6 +11,7 @@
 
 #include "pair/balls.h"
 #include "pair/stages.h"
+#include "simd/corner.h"
 
 enum { CORES_STEPS = 64 };
 
@@ -29,6 +30,7 @@ typedef struct cores {
     simplex points; ///< of differences of the cores; their numbers are places in `all`
     core_points all[CORES_STEPS + 1];
     uint32_t count;
+    int is_weighted; ///< the weights are those of the points
 } cores;
 
 static double find_radius(const ovoid_shape *s) {
@@ -77,6 +79,38 @@ static void push(cores *c) {
     c->points.p[c->points.count++] = (difference){w, i, i};
 }
 
+// The step to the newest point by the kernel of gjk.c. 0 where it leaves that to the robust one.
+static int step(cores *c, vec3 *n, double *distance) {
+    simplex *points = &c->points;
+    int last = points->count - 1, kept = 0;
+    if (last < 1) return 0;
+    corner_lanes old;
+    for (int i = 0; i < 4; i++) {
+        vec3 w = points->p[i < last ? i : 0].w;
+        old.x[i] = w.x, old.y[i] = w.y, old.z[i] = w.z;
+    }
+    difference newest = points->p[last];
+    corner_step next = simd_step_from_corner(&old, (1u << last) - 1, newest.w);
+    if (next.is_inside || next.is_sliver || !(next.square > 1e-200 && next.square < 1e200)) return 0;
+    for (int i = 0; i < last; i++)
+        if (next.kept >> i & 1) points->p[kept++] = points->p[i];
+    points->p[kept++] = newest;
+    points->count = kept;
+    *n = vec3_scale((vec3){next.x, next.y, next.z}, 1 / sqrt(next.square));
+    *distance = vec3_dot(*n, newest.w);
+    return 1;
+}
+
+// The unit direction of the simplex's nearest point and its distance; the simplex is reduced to the face that holds it.
+static vec3 reduce(cores *c, double *distance) {
+    vec3 n;
+    c->is_weighted = !step(c, &n, distance);
+    if (!c->is_weighted) return n;
+    n = simplex_reduce(&c->points);
+    *distance = vec3_norm(simplex_compute_point(&c->points));
+    return n;
+}
+
 static vec3 find_first_normal(const search *s) {
     if (s->lower > -INFINITY) return s->normal;
     const pair_frame *f = s->frame;
@@ -90,6 +124,7 @@ static vec3 find_first_normal(const search *s) {
 static void take_balls(cores *c) {
     search *s = c->s;
     const pair_frame *f = s->frame;
+    if (!c->is_weighted) simplex_compute_weights(&c->points);
     ovoid_proof p = {.kind = OVOID_PROOF_BALLS, .count = (uint32_t)c->points.count};
     evidence found = {.count = c->points.count};
     double sum = 0;
@@ -146,8 +181,8 @@ int cores_run(search *s) {
     double gap = probe(&c, find_first_normal(s)), least = INFINITY, best = -INFINITY;
     push(&c);
     while (c.count <= CORES_STEPS && s->iterations < s->goal.iterations) {
-        vec3 n = simplex_reduce(&c.points);
-        double distance = vec3_norm(simplex_compute_point(&c.points));
+        double distance;
+        vec3 n = reduce(&c, &distance);
         // The cores overlap: of a yes or no the balls about a common point tell.
         if (!(vec3_norm_squared(n) > 0.5)) break;
         gap = probe(&c, n);
@@ -159,6 +194,7 @@ int cores_run(search *s) {
         push(&c);
     }
     (void)simplex_reduce(&c.points);
+    c.is_weighted = 1;
     take_balls(&c);
     return search_is_done(s);
 }
