@@ -17,7 +17,7 @@
 extern "C" {
 #endif
 
-/** What the ball is swept over. The cores' axes and lengths are below. */
+/** What the ball is swept over. */
 typedef enum ovoid_swept_core {
     OVOID_SWEPT_POINT = 0,
     OVOID_SWEPT_SEGMENT = 1,  /**< along axis[0], half[0] to either side */
@@ -43,16 +43,18 @@ typedef struct ovoid_swept_pair {
 
 /**
  * Do the bodies have a common point? SEPARATED and OVERLAPPING are proven, with a bracket of the signed distance around
- * which no more is known than its sign. Undecided: bodies that touch or nearly touch, to a part in 1e10 of the sizes
- * for two boxes and to rounding for others; numbers that are not finite, or not between 1e-50 and 1e50. Cost: 10 to 60
- * ns.
+ * which no more is known than its sign. Undecided: two boxes that touch or nearly touch, to a part in 1e10 of the size,
+ * or one of which has a radius; a cylinder or a cone beside another core than a point; a sign that rounding leaves
+ * open; numbers that are not finite, a radius below 0, sizes and distances that are not between 1e-50 and 1e50. Spheres
+ * around the bodies that are apart decide in any case but the last. Cost: 10 to 60 ns.
  */
 OVOID_API ovoid_verdict ovoid_swept_collide(ovoid_swept_pair pair);
 
 /**
  * The signed distance, as ovoid_depth has it, to a part in 1e12 of the sizes, with its points and normal. Undecided:
- * two boxes; a segment that enters a box; segments that cross; numbers as above. witness: written unless undecided; may
- * be NULL. Cost: 10 to 60 ns.
+ * two boxes; a cylinder or a cone beside another core than a point; a segment that enters a box; segments that cross; a
+ * point that is on another core, or near the axis in a cylinder or a cone, to a part in 1e6 of the size; numbers as
+ * above. witness: written unless undecided; may be NULL. Cost: 10 to 60 ns.
  */
 OVOID_API ovoid_verdict ovoid_swept_depth(ovoid_swept_pair pair, ovoid_witness *witness);
 

@@ -35,17 +35,14 @@ struct float_box {
     float low[3], high[3];
 };
 /// A box rounded outward. Each number is off by a rounding of the product, of the sum and of the conversion, together
-/// less than it is moved. An end that is NaN, or beyond the floats on its own side, becomes infinite. No branches.
+/// less than it is moved. An end beyond the floats becomes infinite, and one that is infinite NaN, which is beyond
+/// nothing.
 inline float_box round_out(const ovoid_box &b) {
-    // Upper ends are rounded as their opposites are.
-    const double ends[6] = {b.min.x, b.min.y, b.min.z, -b.max.x, -b.max.y, -b.max.z};
-    float rounded[6];
-    for (int i = 0; i < 6; i++) {
-        double low = ends[i] - (std::fabs(ends[i]) * 0x1p-22 + 0x1p-140);
-        low = low > -0x1p127 ? low : -std::numeric_limits<double>::infinity();
-        rounded[i] = static_cast<float>(low < 0x1p127 ? low : 0x1p127);
-    }
-    return {{rounded[0], rounded[1], rounded[2]}, {-rounded[3], -rounded[4], -rounded[5]}};
+    static_assert(std::numeric_limits<float>::is_iec559, "conversions beyond the floats are infinite");
+    const auto round_down = [](double x) { return static_cast<float>(x - (std::fabs(x) * 0x1p-22 + 0x1p-140)); };
+    const auto round_up = [](double x) { return static_cast<float>(x + (std::fabs(x) * 0x1p-22 + 0x1p-140)); };
+    return {{round_down(b.min.x), round_down(b.min.y), round_down(b.min.z)},
+            {round_up(b.max.x), round_up(b.max.y), round_up(b.max.z)}};
 }
 
 /// The boxes of a block, coordinate by coordinate.
@@ -199,9 +196,7 @@ class block_tree {
     /// The lanes after lane i.
     static std::uint32_t above(std::size_t i) { return every << i << 1 & every; }
 
-    /// Of most scenes most boxes are those of the last time. A box and its lane that nothing has set are both zero.
     void set_leaf(std::size_t place, const ovoid_box &box) {
-        if (std::memcmp(&leaves_[place], &box, sizeof box) == 0) return;
         leaves_[place] = box;
         blocks_[place / block_size].set(place % block_size, round_out(box));
     }
