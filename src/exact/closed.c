@@ -1,4 +1,4 @@
-// Placed pairs by the closed forms of exact/nearest.h.
+// Placed pairs by the closed forms of linear/nearest.h.
 //
 // Of bodies whose cores overlap the radii alone prove the overlap. The normal is then that of the face which the core
 // is the least behind; of a point in a box that is the depth, for which another proof is needed (exact/inside.h).

@@ -5,8 +5,8 @@
 #ifndef OVOID_EXACT_CLOSED_H
 #define OVOID_EXACT_CLOSED_H
 
-#include "exact/nearest.h"
 #include "exact/small.h"
+#include "linear/nearest.h"
 
 /// 1 for a point, a segment, or a body of eight vertices, which may be a box.
 static inline int closed_may_take(const ovoid_shape *s) {

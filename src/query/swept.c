@@ -1,6 +1,6 @@
 // Queries of swept spheres (ovoid/swept.h): closed forms without shapes, frames and proofs. Of a point and another core
 // the point's coordinates along the other one's axes, cut off at its ends, of a cylinder and a cone in the plane of
-// axis and point; of segments, and of a box and a segment, the nearest points of exact/nearest.h; of two boxes the
+// axis and point; of segments, and of a box and a segment, the nearest points of linear/nearest.h; of two boxes the
 // separating axes.
 //
 // Errors, in parts u s, u = 2^-53, s the sum of both bodies' reaches and radii and of the distance of the centres. The
@@ -21,7 +21,7 @@
 #include "ovoid/swept.h"
 #include "base/compiler.h"
 #include "base/environment.h"
-#include "exact/nearest.h"
+#include "linear/nearest.h"
 #include "pair/reject.h"
 
 #define SAT_DOUBT 0x1p-34

@@ -15,7 +15,7 @@
 // Where many points are nearest, as of parallel segments or of a segment along a face, those in the middle are taken.
 //
 // The normal of cores that overlap is that of the face which the core is the least behind.
-#include "exact/nearest.h"
+#include "linear/nearest.h"
 
 static double clamp(double t) { return max2(-1, min2(1, t)); }
 

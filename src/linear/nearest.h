@@ -1,7 +1,7 @@
 // The nearest points of two cores, each a point, a segment or a box, in closed form: the set of all c + sum t_i g_i,
 // |t_i| <= 1, of zero, one or three half axes g_i at right angles, in the world's axes. At most one of them is a box.
-#ifndef OVOID_EXACT_NEAREST_H
-#define OVOID_EXACT_NEAREST_H
+#ifndef OVOID_LINEAR_NEAREST_H
+#define OVOID_LINEAR_NEAREST_H
 
 #include "linear/vec3.h"
 
