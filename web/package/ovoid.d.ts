@@ -52,6 +52,8 @@ export declare class Shape {
   /** The true cylinder, its bracket wider by `tolerance` at most (radius / 200). */
   static cylinder(radius: number, halfLength: number, options?: ShapeOptions & { tolerance?: number }): Shape;
   static cone(radius: number, halfLength: number, options?: ShapeOptions & { tolerance?: number }): Shape;
+  /** The true ellipsoid around the origin, with half axes along x, y, z. */
+  static ellipsoid(halfAxes: Vector, options?: ShapeOptions & { tolerance?: number }): Shape;
   static prism(radius: number, halfLength: number, sides: number, options?: ShapeOptions): Shape;
   static pyramid(radius: number, halfLength: number, sides: number, options?: ShapeOptions): Shape;
   /** From the bytes of an .ovoid file, all of them checked. */

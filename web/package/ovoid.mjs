@@ -41,7 +41,7 @@ function toNumbers(points) {
 
 const SHAPE = new Set(['radius', 'gap', 'inner', 'allowance']), ROUND = new Set([...SHAPE, 'tolerance']), ALLOWANCE = new Set(['outside', 'inside', 'axis']);
 const BOX = new Set(['half', 'size']);
-const KINDS = ['box', 'sphere', 'capsule', 'cylinder', 'cone', 'prism', 'pyramid'];
+const KINDS = ['box', 'sphere', 'capsule', 'cylinder', 'cone', 'prism', 'pyramid', 'ellipsoid'], TRUE = new Set(['cylinder', 'cone', 'ellipsoid']);
 
 function bindShapes(core) {
   const { memory, calls } = core;
@@ -79,7 +79,7 @@ function bindShapes(core) {
 
     static #create(kind, options, ...numbers) {
       for (const x of numbers) if (typeof x !== 'number') throw new TypeError(`${kind}: numbers are needed`);
-      return Shape.#make(options, [...numbers, 0, 0].slice(0, 3), () => calls.shape_create(KINDS.indexOf(kind)), kind === 'cylinder' || kind === 'cone' ? ROUND : SHAPE);
+      return Shape.#make(options, [...numbers, 0, 0, 0].slice(0, 4), () => calls.shape_create(KINDS.indexOf(kind)), TRUE.has(kind) ? ROUND : SHAPE);
     }
 
     // Half sizes, or { half }, or { size }.
@@ -100,6 +100,9 @@ function bindShapes(core) {
     }
     static cone(radius, halfLength, options) {
       return Shape.#create('cone', options, radius, halfLength, options?.tolerance ?? 0);
+    }
+    static ellipsoid(halfAxes, options) {
+      return Shape.#create('ellipsoid', options, ...toVector(halfAxes, 'half axes'), options?.tolerance ?? 0);
     }
     static prism(radius, halfLength, sides, options) {
       return Shape.#create('prism', options, radius, halfLength, sides);

@@ -15,12 +15,13 @@ ovoid_shape *EXPORT(shape_from_points)(const double *xyz, size_t count) {
     return ovoid_shape_create_from_points(xyz, count, &options, &exchange_error);
 }
 
-/// Numbers from 8 on: of a box the half sizes, else radius, half length, tolerance or sides.
+/// Numbers from 8 on: of a box the half sizes, of an ellipsoid the half axes and the tolerance, else radius, half length,
+/// tolerance or sides.
 ovoid_shape *EXPORT(shape_create)(int kind) {
     ovoid_shape_options options = read_shape_options();
     const double *x = exchange + 8;
     ovoid_error *e = &exchange_error;
-    options.tolerance = kind == 3 || kind == 4 ? x[2] : 0;
+    options.tolerance = kind == 7 ? x[3] : kind == 3 || kind == 4 ? x[2] : 0;
     uint32_t sides = x[2] >= 0 && x[2] <= 1e6 ? (uint32_t)x[2] : 0;
     switch (kind) {
     case 0: return ovoid_shape_create_box((ovoid_vec3){x[0], x[1], x[2]}, &options, e);
@@ -29,7 +30,8 @@ ovoid_shape *EXPORT(shape_create)(int kind) {
     case 3: return ovoid_shape_create_cylinder(x[0], x[1], &options, e);
     case 4: return ovoid_shape_create_cone(x[0], x[1], &options, e);
     case 5: return ovoid_shape_create_prism(&(ovoid_prism){x[0], x[1], sides}, &options, e);
-    default: return ovoid_shape_create_pyramid(&(ovoid_prism){x[0], x[1], sides}, &options, e);
+    case 6: return ovoid_shape_create_pyramid(&(ovoid_prism){x[0], x[1], sides}, &options, e);
+    default: return ovoid_shape_create_ellipsoid((ovoid_vec3){x[0], x[1], x[2]}, &options, e);
     }
 }
 

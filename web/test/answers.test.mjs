@@ -155,9 +155,21 @@ test('known shapes', () => {
   assert.equal(box.triangles.length, 36);
   assert.equal(box.vertices.length, 24);
   assert.deepEqual(Shape.fromBytes(box.toBytes()).toBytes(), box.toBytes());
-  for (const [shape, rank] of [[Shape.sphere(1), 0], [Shape.capsule(1, 2), 1], [Shape.cylinder(1, 2), 3], [Shape.cone(1, 2), 3], [Shape.prism(1, 2, 5), 3], [Shape.pyramid(1, 2, 5), 3]])
+  for (const [shape, rank] of [[Shape.sphere(1), 0], [Shape.capsule(1, 2), 1], [Shape.cylinder(1, 2), 3], [Shape.cone(1, 2), 3], [Shape.prism(1, 2, 5), 3], [Shape.pyramid(1, 2, 5), 3], [Shape.ellipsoid([1, 2, 3]), 3]])
     assert.equal(shape.description.rank, rank);
   assert.equal(Shape.fromPoints(new Float64Array([0, 0, 0, 1, 0, 0, 0, 1, 0])).description.rank, 2);
+});
+
+test('round bodies are the true ones', () => {
+  const ball = Shape.sphere(0.5), at = { xyz: [0, 4, 0] };
+  for (const [shape, gap] of [[Shape.cylinder(2, 1), 1.5], [Shape.ellipsoid([1, 2, 3]), 1.5], [Shape.ellipsoid([1, 2, 3], { tolerance: 0.01 }), 1.5]]) {
+    const { lower, upper } = ovoid.distance(shape, ball, null, at);
+    assert.ok(lower <= gap && gap <= upper && upper - lower < 1e-8, `${lower} ${upper}`);
+  }
+  const { lower, upper } = ovoid.depth(Shape.ellipsoid([1, 2, 3]), Shape.ellipsoid([1, 2, 3]), null, { xyz: [1.9, 0, 0] });
+  assert.ok(lower <= -0.1 && -0.1 <= upper && upper - lower < 1e-7, `${lower} ${upper}`);
+  assert.throws(() => Shape.ellipsoid([1, -2, 3]), /ovoid|half axis|range/i);
+  assert.throws(() => Shape.ellipsoid([1, 2]), TypeError);
 });
 
 test('known distances; a warm start', () => {
