@@ -15,8 +15,8 @@ ovoid_shape *EXPORT(shape_from_points)(const double *xyz, size_t count) {
     return ovoid_shape_create_from_points(xyz, count, &options, &exchange_error);
 }
 
-/// Numbers from 8 on: of a box the half sizes, of an ellipsoid the half axes and the tolerance, else radius, half length,
-/// tolerance or sides.
+/// Numbers from 8 on: of a box the half sizes, of an ellipsoid the half axes and the tolerance, else radius, half
+/// length, tolerance or sides.
 ovoid_shape *EXPORT(shape_create)(int kind) {
     ovoid_shape_options options = read_shape_options();
     const double *x = exchange + 8;
