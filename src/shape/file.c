@@ -154,7 +154,7 @@ static uint32_t choose_version(const ovoid_shape *s) {
 
 size_t ovoid_shape_write(const ovoid_shape *shape, void *buffer, size_t capacity) {
     OVOID_ASSERT(shape);
-    return shape_write_version(shape, choose_version(shape), buffer, capacity);
+    ENVIRONMENT_RETURN(size_t, shape, shape_write_version(shape, choose_version(shape), buffer, capacity));
 }
 
 // ---- reading ----
