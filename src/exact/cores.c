@@ -178,14 +178,15 @@ int cores_run(search *s) {
     c.radius_b = find_radius(s->frame->b);
     c.points.count = 0;
     c.count = 0;
-    double gap = probe(&c, find_first_normal(s)), least = INFINITY, best = -INFINITY;
+    double least = INFINITY, best = -INFINITY;
+    (void)probe(&c, find_first_normal(s));
     push(&c);
     while (c.count <= CORES_STEPS && s->iterations < s->goal.iterations) {
         double distance;
         vec3 n = reduce(&c, &distance);
         // The cores overlap: of a yes or no the balls about a common point tell.
         if (!(vec3_norm_squared(n) > 0.5)) break;
-        gap = probe(&c, n);
+        double gap = probe(&c, n);
         s->iterations++;
         if (seems_done(&c, distance) && is_answered(&c, n, gap)) return 1;
         if (!(distance < least || gap > best)) break;

@@ -27,8 +27,8 @@ typedef struct ellipsoid_grid {
 /// The point of the grid with |x| + |y| + |z| = its steps.
 ovoid_vec3 ellipsoid_grid_get_point(ovoid_vec3 half, int x, int y, int z);
 
-/// 1 if half axes and steps are those of such a body. Cost: linear in a sixth of the vertices.
-int ellipsoid_grid_make(ovoid_vec3 half, uint32_t steps, ellipsoid_grid *grid);
+/// 1 if half axes and n steps are those of such a body. Cost: linear in a sixth of the vertices.
+int ellipsoid_grid_make(ovoid_vec3 half, uint32_t n, ellipsoid_grid *grid);
 
 static inline uint32_t ellipsoid_grid_count_vertices(uint32_t steps) { return 4 * steps * steps + 2; }
 static inline uint32_t ellipsoid_grid_count_triangles(uint32_t steps) { return 8 * steps * steps; }
@@ -37,7 +37,7 @@ static inline uint32_t ellipsoid_grid_count_triangles(uint32_t steps) { return 8
 int ellipsoid_grid_find(const double *vertices, size_t count, ellipsoid_grid *grid);
 
 /// Its parts, each triangle a facet, as in regular_solid.h. Any half axes have vertices.
-void ellipsoid_grid_fill_vertices(ovoid_vec3 half, uint32_t steps, double *vertices);
+void ellipsoid_grid_fill_vertices(ovoid_vec3 half, uint32_t n, double *xyz);
 void ellipsoid_grid_fill_triangles(const ellipsoid_grid *grid, uint32_t *triangles, uint32_t *facets);
 void ellipsoid_grid_fill_neighbors(const ellipsoid_grid *grid, const uint32_t *triangles, uint32_t *starts,
                                    uint32_t *neighbors);
