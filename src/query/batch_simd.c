@@ -520,7 +520,8 @@ static int end_early(batch_state *c, group_lane at, int is_closed) {
 }
 
 // Answers those of the lanes `open` that have a closed form, and searches the small ones from the line of centres where
-// a distance is asked for, which needs no ellipsoids, unless the inner ones decide it. The mask of both.
+// a distance is asked for, which needs no ellipsoids, unless the inner ones decide it. Those that are small alone, but
+// too large for lanes, are left to be queried alone. The mask of all these.
 static unsigned add_small(batch_state *c, const lane_group *e, unsigned open) {
     unsigned small = 0, searched = 0;
     int is_distance = c->goal.far == INFINITY;
@@ -529,8 +530,12 @@ static unsigned add_small(batch_state *c, const lane_group *e, unsigned open) {
         const ovoid_shape *a = get_a(e, k)->shape, *b = get_b(e, k)->shape;
         double sphere_gap = e->lanes->lower.lane[k];
         int is_closed = closed_fits(a, b);
-        if (!is_closed && !(is_distance && small_fits(&c->goal, a, b, sphere_gap))) continue;
+        if (!is_closed && !(is_distance && small_takes(&c->goal, a, b, sphere_gap))) continue;
         small |= 1u << k;
+        if (!is_closed && !small_fits(&c->goal, a, b, sphere_gap)) {
+            leave_alone(c, e->index[k]);
+            continue;
+        }
         int is_early = is_closed || small_tries_inner(sphere_gap, e->lanes->reach.lane[k]);
         if (is_early && end_early(c, (group_lane){e, k}, is_closed)) continue;
         searched |= 1u << k;
