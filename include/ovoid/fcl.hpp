@@ -162,6 +162,7 @@ OVOID_FCL_APART std::size_t collide_others(contact_list<S> &to, const posed<S> &
 template <class S>
 std::size_t collide(const posed<S> &a, const posed<S> &b, const ::fcl::CollisionRequest<S> &request,
                     ::fcl::CollisionResult<S> &result) {
+    // request.isSatisfied(result), which is a call of libfcl.
     const std::size_t before = result.numContacts();
     if (!request.enable_cost && before > 0 && request.num_max_contacts <= before) return before;
     ovoid_swept_sphere swept[2];

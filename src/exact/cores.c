@@ -50,15 +50,10 @@ static double find_end(const ovoid_shape *s, double radius, vec3 n, vec3 *point,
         *point = vec3_sub(vec3_add_scaled(on, n, -radius), s->origin);
         return end.value - vec3_dot(n, s->origin);
     }
-    if (shape_is_round(s)) {
-        round_end end = round_find_support(s, n);
-        *point = shape_get_vertex(s, end.vertex);
-        return end.value;
-    }
-    simd_extreme x = shape_find_extreme(s, n);
-    *point = (vec3){x.x, x.y, x.z};
-    *vertex = x.index;
-    return x.value;
+    true_end end = round_find_end(s, n);
+    *point = end.point;
+    if (!shape_is_round(s)) *vertex = end.vertex;
+    return end.value;
 }
 
 // Measures the gap along the unit n and returns it, with the cores' points as a new entry.

@@ -32,14 +32,7 @@ void frame_make_true(pair_frame *f) {
     f->claim += ROUND_CLAIM * f->size;
 }
 
-// One body's support along n, in its body frame, and its vertex.
-typedef struct true_end {
-    double value;
-    vec3 point;
-    uint32_t vertex;
-} true_end;
-
-static true_end find_end(const ovoid_shape *s, vec3 n) {
+true_end round_find_end(const ovoid_shape *s, vec3 n) {
     if (shape_is_round(s)) {
         round_end end = round_find_support(s, n);
         return (true_end){end.value, shape_get_vertex(s, end.vertex), end.vertex};
@@ -49,7 +42,7 @@ static true_end find_end(const ovoid_shape *s, vec3 n) {
 }
 
 frame_support round_find_ends(const pair_frame *f, vec3 n) {
-    true_end a = find_end(f->a, n), b = find_end(f->b, vec3_neg(mat3_mul_transposed_vec3(f->rotation, n)));
+    true_end a = round_find_end(f->a, n), b = round_find_end(f->b, vec3_neg(mat3_mul_transposed_vec3(f->rotation, n)));
     double gap = (vec3_dot(n, f->translation) - b.value) - a.value;
     return (frame_support){a.vertex, b.vertex, gap, vec3_sub(frame_b(f, b.point), a.point)};
 }

@@ -33,6 +33,14 @@ typedef struct round_end {
 } round_end;
 round_end round_find_support(const ovoid_shape *shape, vec3 n);
 
+/// The support along n of a true body or a polyhedron, in the body frame, with its point and vertex.
+typedef struct true_end {
+    double value;
+    vec3 point;
+    uint32_t vertex;
+} true_end;
+true_end round_find_end(const ovoid_shape *shape, vec3 n);
+
 /// frame_find_support of true bodies.
 frame_support round_find_ends(const pair_frame *frame, vec3 n);
 

@@ -16,6 +16,12 @@ typedef struct closed_form {
     ellipsoid_grid grid; ///< of an ellipsoid
 } closed_form;
 
+/// Writes a triangle of a form, and returns the place of the next one.
+static inline uint32_t *closed_form_put_triangle(uint32_t *to, uint32_t a, uint32_t b, uint32_t c) {
+    to[0] = a, to[1] = b, to[2] = c;
+    return to + 3;
+}
+
 /// The form of vertices; FORM_NONE for most. Cost: a few tests for most bodies, else linear.
 closed_form closed_form_find(const double *vertices, size_t count);
 

@@ -11,8 +11,7 @@
 #include "polytope/ellipsoid_grid.h"
 
 #include "linear/vec3.h"
-
-#include <string.h>
+#include "polytope/closed_form.h"
 
 vec3 ellipsoid_grid_get_point(vec3 half, int x, int y, int z) {
     double length = sqrt((double)(x * x + y * y + z * z));
@@ -99,12 +98,7 @@ int ellipsoid_grid_find(const double *v, size_t count, ellipsoid_grid *grid) {
     return ellipsoid_grid_make(half, n, grid);
 }
 
-// ---- triangles and adjacency
-
-static uint32_t *put_triangle(uint32_t *to, uint32_t a, uint32_t b, uint32_t c) {
-    to[0] = a, to[1] = b, to[2] = c;
-    return to + 3;
-}
+// ---- triangles
 
 // Between a ring of m and one of m + 1 vertices a quarter, from their first vertices; counter-clockwise from outside
 // where the wide one is below.
@@ -114,10 +108,10 @@ static uint32_t *put_band(uint32_t *to, uint32_t narrow, uint32_t wide, uint32_t
         for (uint32_t s = 0; s <= m; s++) {
             uint32_t w = wide + quarter * (m + 1) + s, next = wide + (quarter * (m + 1) + s + 1) % around;
             uint32_t v = narrow + (quarter * m + s) % within;
-            to = put_triangle(to, v, is_upper ? w : next, is_upper ? next : w);
+            to = closed_form_put_triangle(to, v, is_upper ? w : next, is_upper ? next : w);
             if (s == m) continue;
             uint32_t beside = narrow + (quarter * m + s + 1) % within;
-            to = put_triangle(to, next, is_upper ? beside : v, is_upper ? v : beside);
+            to = closed_form_put_triangle(to, next, is_upper ? beside : v, is_upper ? v : beside);
         }
     return to;
 }
@@ -127,31 +121,6 @@ void ellipsoid_grid_fill_triangles(const ellipsoid_grid *grid, uint32_t *triangl
     for (uint32_t k = 0; k < n; k++) to = put_band(to, find_ring(n, k), find_ring(n, k + 1), k, 1);
     for (uint32_t k = n; k < 2 * n; k++) to = put_band(to, find_ring(n, k + 1), find_ring(n, k), 2 * n - k - 1, 0);
     for (uint32_t i = 0; i < ellipsoid_grid_count_triangles(n); i++) facets[i] = i;
-}
-
-static void sort(uint32_t *first, const uint32_t *end) {
-    for (uint32_t *at = first; at < end; at++)
-        for (uint32_t *to = at; to > first && to[-1] > to[0]; to--) {
-            uint32_t other = to[-1];
-            to[-1] = to[0];
-            to[0] = other;
-        }
-}
-
-// Each edge is in two triangles, once in either direction.
-void ellipsoid_grid_fill_neighbors(const ellipsoid_grid *grid, const uint32_t *triangles, uint32_t *starts,
-                                   uint32_t *neighbors) {
-    uint32_t count = ellipsoid_grid_count_vertices(grid->steps),
-             corners = 3 * ellipsoid_grid_count_triangles(grid->steps);
-    memset(starts, 0, ((size_t)count + 1) * sizeof *starts);
-    for (uint32_t i = 0; i < corners; i++) starts[triangles[i] + 1]++;
-    for (uint32_t v = 0; v < count; v++) starts[v + 1] += starts[v];
-    for (uint32_t i = 0; i < corners; i += 3)
-        for (uint32_t k = 0; k < 3; k++) neighbors[starts[triangles[i + k]]++] = triangles[i + (k == 2 ? 0 : k + 1)];
-    // Each start has moved to the next one's place.
-    for (uint32_t v = count; v > 0; v--) starts[v] = starts[v - 1];
-    starts[0] = 0;
-    for (uint32_t v = 0; v < count; v++) sort(neighbors + starts[v], neighbors + starts[v + 1]);
 }
 
 // ---- planes and measures

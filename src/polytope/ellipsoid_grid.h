@@ -39,8 +39,6 @@ int ellipsoid_grid_find(const double *vertices, size_t count, ellipsoid_grid *gr
 /// Its parts, each triangle a facet, as in regular_solid.h. Any half axes have vertices.
 void ellipsoid_grid_fill_vertices(ovoid_vec3 half, uint32_t n, double *xyz);
 void ellipsoid_grid_fill_triangles(const ellipsoid_grid *grid, uint32_t *triangles, uint32_t *facets);
-void ellipsoid_grid_fill_neighbors(const ellipsoid_grid *grid, const uint32_t *triangles, uint32_t *starts,
-                                   uint32_t *neighbors);
 void ellipsoid_grid_fill_planes(const ellipsoid_grid *grid, const uint32_t *triangles, const double *vertices,
                                 ovoid_plane *planes);
 

@@ -273,11 +273,25 @@ static void fill_regular(hull *polytope) {
     regular_solid_fill_planes(s, polytope->vertices, polytope->planes);
 }
 
-static void fill_ellipsoid(hull *polytope) {
+static int fill_ellipsoid(hull *polytope, const ovoid_allocator *allocator) {
     const ellipsoid_grid *g = &polytope->form.grid;
     ellipsoid_grid_fill_triangles(g, polytope->triangles, polytope->triangle_facets);
-    ellipsoid_grid_fill_neighbors(g, polytope->triangles, polytope->neighbor_starts, polytope->neighbors);
     ellipsoid_grid_fill_planes(g, polytope->triangles, polytope->vertices, polytope->planes);
+    const surface s = {.triangles = polytope->triangles, .triangle_count = polytope->triangle_count};
+    return neighbors_compute(&s, polytope->neighbor_starts, polytope->neighbors, allocator);
+}
+
+// 0 if there is no memory.
+static int fill_closed(const builder *b) {
+    hull *polytope = b->hull;
+    // + 0.0 makes every zero a positive one.
+    for (size_t i = 0; i < 3 * (size_t)polytope->vertex_count; i++) polytope->vertices[i] = b->xyz[i] + 0.0;
+    if (polytope->form.kind == FORM_ELLIPSOID) return fill_ellipsoid(polytope, b->allocator);
+    if (polytope->form.kind == FORM_BOX)
+        fill_box(polytope);
+    else
+        fill_regular(polytope);
+    return 1;
 }
 
 static void count_closed(hull *polytope) {
@@ -300,18 +314,10 @@ static ovoid_code create_closed(const builder *b, size_t count, const closed_for
     count_closed(polytope);
     polytope->rank = 3;
     polytope->report = (ovoid_report){.points = count, .vertices = count, .rank = 3};
-    if (!allocate(polytope, b->allocator)) {
+    if (!allocate(polytope, b->allocator) || !fill_closed(b)) {
         hull_destroy(polytope, b->allocator);
         return error_set(b->error, OVOID_ERROR_MEMORY, -1, "no memory for a hull of %zu vertices", count);
     }
-    // + 0.0 makes every zero a positive one.
-    for (size_t i = 0; i < 3 * count; i++) polytope->vertices[i] = b->xyz[i] + 0.0;
-    if (form->kind == FORM_BOX)
-        fill_box(polytope);
-    else if (form->kind == FORM_ELLIPSOID)
-        fill_ellipsoid(polytope);
-    else
-        fill_regular(polytope);
     return OVOID_OK;
 }
 

@@ -21,6 +21,7 @@
 #include "polytope/regular_solid.h"
 
 #include "linear/vec3.h"
+#include "polytope/closed_form.h"
 
 #define RING_ERROR (96 * 0x1p-53)
 
@@ -87,17 +88,13 @@ static uint32_t get_corner(const regular_solid *s, uint32_t place) {
     return place == 0 ? 0 : place % 2 ? (place + 1) / 2 : s->sides - place / 2;
 }
 
-static uint32_t *put_triangle(uint32_t *to, uint32_t a, uint32_t b, uint32_t c) {
-    to[0] = a, to[1] = b, to[2] = c;
-    return to + 3;
-}
-
 // The triangles of an end whose first corner is `first`, counter-clockwise as seen from above, or from below.
 static uint32_t *fill_end(const regular_solid *s, uint32_t first, int is_above, uint32_t *to) {
     uint32_t a = first, b = first + 1;
     for (uint32_t place = 2; place < s->sides; place++) {
         uint32_t c = first + get_corner(s, place);
-        to = (place % 2 == 0) == is_above ? put_triangle(to, a, b, c) : put_triangle(to, a, c, b);
+        to = (place % 2 == 0) == is_above ? closed_form_put_triangle(to, a, b, c)
+                                          : closed_form_put_triangle(to, a, c, b);
         a = b, b = c;
     }
     return to;
@@ -107,8 +104,8 @@ void regular_solid_fill_triangles(const regular_solid *s, uint32_t *triangles, u
     uint32_t n = s->sides, each = 1 + (uint32_t)s->is_prism, at = 0;
     for (uint32_t i = 0; i < n; i++) {
         uint32_t next = regular_solid_get_next(s, i), above = regular_solid_get_above(s, next);
-        triangles = put_triangle(triangles, i, next, above);
-        if (s->is_prism) triangles = put_triangle(triangles, i, above, n + i);
+        triangles = closed_form_put_triangle(triangles, i, next, above);
+        if (s->is_prism) triangles = closed_form_put_triangle(triangles, i, above, n + i);
     }
     triangles = fill_end(s, 0, 0, triangles);
     if (s->is_prism) (void)fill_end(s, n, 1, triangles);

@@ -93,7 +93,7 @@ static void write_points(const group_work *w, unsigned k, const query_goal *goal
     *to = (ovoid_witness){vec3_add(origin, points.a), vec3_add(origin, points.b), normal};
 }
 
-// The same for a proof.
+// Ends a lane at the nearest points, for a verdict, the points and a proof.
 static void end_with_corners(const group_work *w, unsigned k, const query_goal *goal) {
     const ovoid_posed_shape *a = get_a(w->e, k);
     pair_frame f;
@@ -199,7 +199,8 @@ static int is_apart(const group_work *w, unsigned k, const small_gjk_result *r) 
 // Fewer lanes are searched one by one, each in less time than the steps of eight take.
 enum { FEW = 4 };
 
-// The same of each lane by itself. What ended apart or inside is answered; the others are as after run_rounds.
+// The searches of the lanes at work, each by itself. What ended apart or inside is answered; the others are left as
+// run_rounds leaves them.
 static gjk8_ends run_each(group_work *w) {
     gjk8 *g = &w->gjk.search;
     gjk8_ends all = {0, 0, 0, 0};

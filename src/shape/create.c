@@ -16,6 +16,12 @@
 
 #include <string.h>
 
+int shape_tolerance_is_length(double tolerance, ovoid_error *error) {
+    if (tolerance >= 0) return 1;
+    error_write(error, OVOID_ERROR_ARGUMENT, -1, "the tolerance %g is not a length >= 0", tolerance);
+    return 0;
+}
+
 int allowance_is_normal(const ovoid_allowance *allowance) {
     if (!(vec3_max_abs(allowance->axis) > 0)) return 1;
     return allowance->outside > 0 && fabs(vec3_norm_squared(allowance->axis) - 1) <= 8 * 0x1p-53;

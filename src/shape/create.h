@@ -11,6 +11,9 @@ enum { SHAPE_WORK_SIZE = 16 * 1024 };
 /// The options with their defaults; NULL allowed. Errors: RADIUS, RANGE, ARGUMENT.
 ovoid_code shape_options_make(const ovoid_shape_options *given, ovoid_shape_options *options, ovoid_error *error);
 
+/// 1 if a tolerance of round bodies is a length >= 0, else an error.
+int shape_tolerance_is_length(double tolerance, ovoid_error *error);
+
 /// 1 if the allowance's axis is zero, or has length 1 and belongs to an `outside` above zero.
 int allowance_is_normal(const ovoid_allowance *allowance);
 

@@ -96,10 +96,7 @@ static ovoid_shape *create_ellipsoid(vec3 half, const ovoid_shape_options *optio
             return NULL;
         }
     double tolerance = options ? options->tolerance : 0;
-    if (!(tolerance >= 0)) {
-        error_write(error, OVOID_ERROR_ARGUMENT, -1, "the tolerance %g is not a length >= 0", tolerance);
-        return NULL;
-    }
+    if (!shape_tolerance_is_length(tolerance, error)) return NULL;
     uint32_t steps = find_steps(half, tolerance);
     if (steps <= GRID_STEPS_MOST) return create_from_grid(vec3_clear_signs(half), steps, options, error);
     error_write(error, OVOID_ERROR_LIMIT, -1, "a tolerance of %g at a half axis of %g takes more than %d steps",

@@ -155,10 +155,7 @@ static ovoid_shape *create_round(const turned *t, const ovoid_shape_options *opt
     if (options) o = *options;
     double tolerance = o.tolerance;
     if (!is_length(by.radius, "radius", error)) return NULL;
-    if (!(tolerance >= 0)) {
-        error_write(error, OVOID_ERROR_ARGUMENT, -1, "the tolerance %g is not a length >= 0", tolerance);
-        return NULL;
-    }
+    if (!shape_tolerance_is_length(tolerance, error)) return NULL;
     by.sides = by.radius > 0 ? find_sides(tolerance > 0 ? tolerance / by.radius : 0.005) : 3;
     if (by.sides > SIDES_MAX) {
         error_write(error, OVOID_ERROR_LIMIT, -1, "a tolerance of %g at a radius of %g takes more than %d sides",

@@ -9,7 +9,7 @@
 
 #define SMALL_GJK_INLINE LANES_INLINE
 
-// Up to 32 points four lanes are as quick as eight, and quicker where they are few.
+// Eight lanes are asked for more than 32 points alone (kernels.c).
 #if LANES == 8
 #define SMALL_GJK_CLASSES(DO) DO(6) DO(8)
 #else
