@@ -346,11 +346,13 @@ static void find_side(refinement *r, const fine_simplex *on, dd3 normal) {
 
 // --- the stage
 
-// 1 if something is left to find: the sign near contact, or a bracket that rounding kept a little too wide.
+// 1 if something is left to find: the sign near contact, or a bracket that rounding kept a little too wide. Near
+// contact one of the bounds is near zero; slivers may have left the other one far off.
 static int is_wanted(const search *s) {
     if (search_is_done(s) || s->limit == OVOID_LIMIT_ITERATIONS) return 0;
     if (s->upper < 0 && s->kind != OVOID_PROOF_POINTS) return 0;
-    return s->upper - s->lower <= 0x1p-10 * s->frame->size + 64 * s->frame->hidden;
+    double near = fmin(fabs(s->lower), fabs(s->upper));
+    return fmin(near, s->upper - s->lower) <= 0x1p-10 * s->frame->size + 64 * s->frame->hidden;
 }
 
 // The double search's points, and the support along its direction.

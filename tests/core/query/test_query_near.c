@@ -196,6 +196,43 @@ static void check_pair(uint64_t *s, int kind, ovoid_proof foreign[4]) {
     ovoid_shape_destroy((ovoid_shape *)p.shape_b);
 }
 
+/// Rocks that touch along slivers: the last simplex of a search with a cap leaves an upper bound of 1e-3 of the size.
+static void check_slivers(void) {
+    static const double of_a[] = {
+        0x1.c71dbbf01e85fp-3,  -0x1.5a282b466f717p-1, -0x1.67af82de5b387p-1, 0x1.c71dbbf01e861p-3,
+        -0x1.5a282b466f718p-1, -0x1.67af82de5b392p-1, -0x1.7c2de35edc116p-1, 0x1.1f9ccb54cc21ap-2,
+        -0x1.3754f24078abep-1, -0x1.7c2de35edc119p-1, 0x1.1f9ccb54cc205p-2,  -0x1.3754f24078ac7p-1,
+        0x1.ef013f46b4e3bp-1,  0x1.30478205d4671p-3,  -0x1.a9b957dc1a9ecp-3, 0x1.ef013f46b4e36p-1,
+        0x1.30478205d4663p-3,  -0x1.a9b957dc1a9ddp-3, -0x1.b5c712090362bp-3, -0x1.7f080c327a4bbp-1,
+        -0x1.41a40f3ce1d84p-1, -0x1.80da76b1c29c5p-1, -0x1.29697cb12468cp-1, -0x1.3fdcb590b625bp-2,
+        -0x1.80da76b1c29bcp-1, -0x1.29697cb12468bp-1, -0x1.3fdcb590b625p-2,  0x1.16c973dd48a87p-1,
+        -0x1.2ec3bba64c423p-2, -0x1.91e08da657562p-1, -0x1.8c292ba2b393dp-4, 0x1.f40995b58af74p-1,
+        -0x1.89068a0d75a8bp-3, -0x1.8c292ba2b3953p-4, 0x1.f40995b58af6ap-1,  -0x1.89068a0d75a88p-3};
+    static const double of_b[] = {
+        -0x1.0ee8423690db6p-1, 0x1.3f83be368193dp-1,  -0x1.26630db06666cp-1, -0x1.0ee8423690dbap-1,
+        0x1.3f83be3681949p-1,  -0x1.26630db066658p-1, 0x1.11771d3e79769p-2,  0x1.90108634ed6c7p-2,
+        -0x1.c309ba0f04a53p-1, 0x1.11771d3e7975p-2,   0x1.90108634ed6e5p-2,  -0x1.c309ba0f04a54p-1,
+        -0x1.4a23dc48f8104p-5, 0x1.6b6a3ec06cdbcp-1,  0x1.6810fbdb55119p-1,  -0x1.4a23dc48f80a6p-5,
+        0x1.6b6a3ec06cdb7p-1,  0x1.6810fbdb55118p-1,  0x1.d30b43dd6db24p-1,  -0x1.0eecbdd473ebap-7,
+        -0x1.a3811e11f365cp-2, 0x1.d30b43dd6db16p-1,  -0x1.0eecbdd4740ap-7,  -0x1.a3811e11f365ep-2};
+    ovoid_shape *a = ovoid_shape_create_from_points(of_a, sizeof of_a / sizeof of_a[0] / 3, NULL, NULL),
+                *b = ovoid_shape_create_from_points(of_b, sizeof of_b / sizeof of_b[0] / 3, NULL, NULL);
+    const ovoid_pair p = {a,
+                          b,
+                          {{-0x1.d810ee9fccc02p+0, -0x1.378c1527ba562p+1, -0x1.95d689132efa9p+1},
+                           {-0x1.51f4ceffa3dd6p+0, 0x1.02d7fa3a48b79p-1, 0x1.6fa14e669a934p-1, 0x1.22974c66c3d2dp-3}},
+                          {{-0x1.e1a2f89637a17p-1, -0x1.a6cf18fdf966dp+0, -0x1.45f0f7e8b7229p+1},
+                           {0x1.7a7f29af2da79p-6, 0x1.54e50b7ee0e45p+0, -0x1.a16c6722f659ep+0, 0x1.85df82a3d64ccp-1}}};
+    const ovoid_options capped = {.cap = margin};
+    ovoid_answer x = ovoid_distance(&p, &capped, NULL);
+    CHECK(x.status != OVOID_UNDECIDED);
+    CHECK_EQ(ovoid_collide(&p, NULL, NULL).status, x.status);
+    CHECK(x.upper - x.lower < 1e-15);
+    CHECK_EQ(ovoid_answer_verify(&p, &x, &(ovoid_answer_basis){.options = &capped}, NULL), OVOID_OK);
+    ovoid_shape_destroy(a);
+    ovoid_shape_destroy(b);
+}
+
 /// Calls of one iteration that go on from one another: none loses a sign that the query alone has with as few. (Which
 /// of the brackets is narrower is open: one iteration from a good simplex may lead to a worse one.)
 static void check_few_iterations(uint64_t *s) {
@@ -250,6 +287,7 @@ int main(int count, char **arguments) {
     ovoid_proof foreign[4] = {{.count = 0}};
     for (uint64_t i = 0; i < pairs; i++) check_pair(&s, (int)(i % KINDS), foreign);
     for (int i = 0; i < 200; i++) check_few_iterations(&s);
+    check_slivers();
     check_sizes(&s);
     printf("%ld warm queries; %ld of them decided what the query alone does not\n", asked, decided_by_proof);
     return check_end();
