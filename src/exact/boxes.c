@@ -20,9 +20,11 @@
 // as that of who checks, confirms them.
 #include "exact/boxes.h"
 
+#include "exact/closed.h"
 #include "exact/cover_memory.h"
 #include "pair/cover.h"
 #include "simd/box_axes.h"
+#include "simd/box_separation.h"
 
 #include <string.h>
 
@@ -97,6 +99,46 @@ static int find_foot(const pair_frame *f, const box_axes_query *q, uint32_t pair
     vec3 off = vec3_neg(foot);
     for (int k = 0; k < 3; k++) off = vec3_add_scaled(off, found->p[k].w, found->weight[k]);
     return vec3_norm(off) <= f->claim;
+}
+
+// ---- boxes that an axis separates
+
+// The unit vectors of a box's edges in the world, by rows; turned: room for them.
+static inline const double *turn_edges(const parallelepiped *box, const mat3 *turn, mat3 *turned) {
+    if (box->is_upright) return &turn->r0.x;
+    vec3 x = mat3_mul_vec3(*turn, box->unit[0]), y = mat3_mul_vec3(*turn, box->unit[1]),
+         z = mat3_mul_vec3(*turn, box->unit[2]);
+    *turned = (mat3){{x.x, y.x, z.x}, {x.y, y.y, z.y}, {x.z, y.z, z.z}};
+    return &turned->r0.x;
+}
+
+// What the gap of boxes is off beyond that of a box and a segment (docs/error-analysis.md).
+#define BOXES_CLAIM (16 * 0x1p-53)
+
+int boxes_separate(const placed_query *query, small_end *end) {
+    const pair_frame *f = query->frame;
+    const parallelepiped *box_a = &f->a->box, *box_b = &f->b->box;
+    mat3 turned_a, turned_b;
+    box_separation found;
+    if (!closed_is_moderate(f)) return 0;
+    const box_separation_query q = {turn_edges(box_a, &f->world, &turned_a),
+                                    turn_edges(box_b, &f->world_b, &turned_b),
+                                    box_a->half,
+                                    box_b->half,
+                                    frame_world_difference(f, box_a->center, box_b->center),
+                                    query->goal->far + f->lower_radii};
+    if (!box_separation_find(&q, &found)) return 0;
+    double claim = reject_get_claim(f);
+    end->lower = found.gap - f->lower_radii - (claim + BOXES_CLAIM * f->size);
+    if (!(end->lower > query->goal->far)) return 0;
+    uint32_t a = box_a->corner[found.high_a], b = box_b->corner[found.low_b];
+    vec3 w = frame_world_difference(f, vec3_at(shape_vertices(f->a), a), vec3_at(shape_vertices(f->b), b));
+    end->upper = vec3_norm(w) - f->upper_radii + claim;
+    end->normal = vec3_clear_signs(found.n);
+    small_end_set_corner(end, &(difference){w, a, b});
+    end->stage = OVOID_STAGE_SUPPORT;
+    end->iterations = 0;
+    return 1;
 }
 
 // ---- the cover

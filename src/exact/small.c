@@ -1,6 +1,7 @@
 // From a pair in the world to the kernel of small bodies, and from its corners to bounds.
 #include "exact/small.h"
 
+#include "exact/boxes.h"
 #include "exact/kept.h"
 #include "pair/hull.h"
 #include "pair/inner.h"
@@ -17,6 +18,16 @@ static void clear_points(simplex *points) {
         points->p[i].a = points->p[i].b = 0;
         points->weight[i] = 0;
     }
+}
+
+void small_end_set_corner(small_end *end, const difference *corner) {
+    clear_points(&end->points);
+    end->points.p[0] = *corner;
+    end->points.weight[0] = 1;
+    end->points.count = 1;
+    end->kind = OVOID_PROOF_POINTS;
+    end->inner = (vec3){0, 0, 0};
+    end->has_witness = 0;
 }
 
 static void get_corners(const small_gjk_result *r, simplex *points) {
@@ -101,16 +112,16 @@ int small_finish(const pair_frame *f, const query_goal *goal, const small_gjk_re
     end->lower = r->gap * scale - f->lower_radii - claim;
     end->iterations = r->iterations;
     end->stage = r->iterations > 0 ? OVOID_STAGE_GJK : OVOID_STAGE_SUPPORT;
+    if (r->end == SMALL_GJK_APART) {
+        const difference corner = get_corner(r, 0);
+        small_end_set_corner(end, &corner);
+        end->upper = vec3_norm(corner.w) - f->upper_radii + claim;
+        return query_goal_is_met(goal, end->lower, end->upper);
+    }
     clear_points(&end->points);
     end->inner = (vec3){0, 0, 0};
     end->has_witness = 0;
-    if (r->end == SMALL_GJK_APART) {
-        end->points.p[0] = get_corner(r, 0);
-        end->points.weight[0] = 1;
-        end->points.count = 1;
-        end->kind = OVOID_PROOF_POINTS;
-        end->upper = vec3_norm(end->points.p[0].w) - f->upper_radii + claim;
-    } else if (r->end == SMALL_GJK_KEPT) {
+    if (r->end == SMALL_GJK_KEPT) {
         get_kept_corners(r, &end->points);
         end->kind = OVOID_PROOF_POINTS;
         end->upper = r->distance - f->upper_radii + claim;
@@ -121,11 +132,19 @@ int small_finish(const pair_frame *f, const query_goal *goal, const small_gjk_re
     return query_goal_is_met(goal, end->lower, end->upper);
 }
 
+// 1 for a yes or no of boxes whose spheres do not overlap so far that an axis is unlikely to separate them.
+static int tries_axes(const placed_query *q) {
+    const pair_frame *f = q->frame;
+    return q->goal->far < INFINITY && boxes_are_right(f->a, f->b) &&
+           !small_tries_inner(q->sphere_gap, f->a->reach + f->b->reach);
+}
+
 int small_run(const placed_query *q, small_end *end) {
     const pair_frame *f = q->frame;
     small_gjk_result r;
     if (!has_line(f)) return 0;
     if (small_tries_inner(q->sphere_gap, f->a->reach + f->b->reach) && small_run_inner(q, end)) return 1;
+    if (tries_axes(q) && boxes_separate(q, end)) return 1;
     small_gjk_query gjk = small_make_query(f, q->goal);
     simd_run_small_gjk(&gjk, &r);
     return small_finish(q->frame, q->goal, &r, end);

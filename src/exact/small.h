@@ -29,6 +29,9 @@ typedef struct small_end {
     uint32_t iterations;
 } small_end;
 
+/// Sets one difference as the proof of the upper bound.
+void small_end_set_corner(small_end *end, const difference *corner);
+
 /// A query whose pair is placed in the world, once the enclosing spheres have left it open.
 typedef struct placed_query {
     const pair_frame *frame; ///< as frame_place makes it

@@ -77,11 +77,21 @@ static int is_right(const parallelepiped *p, double extent) {
     return 1;
 }
 
+static void set_units(parallelepiped *p) {
+    for (int k = 0; k < 3; k++) {
+        p->half[k] = vec3_norm(p->axis[k]);
+        p->unit[k] = vec3_scale(p->axis[k], 1 / p->half[k]);
+    }
+}
+
 parallelepiped parallelepiped_make_centered(vec3 half) {
     return (parallelepiped){.axis = {{half.x, 0, 0}, {0, half.y, 0}, {0, 0, half.z}},
                             .corner = {0, 1, 2, 3, 4, 5, 6, 7},
                             .is_present = 1,
-                            .is_right = 1};
+                            .is_right = 1,
+                            .is_upright = 1,
+                            .half = {half.x, half.y, half.z},
+                            .unit = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 }
 
 parallelepiped parallelepiped_find(const double *vertices, uint32_t count, double extent) {
@@ -97,6 +107,7 @@ parallelepiped parallelepiped_find(const double *vertices, uint32_t count, doubl
                 for (int axis = 0; axis < 3; axis++) p.axis[axis] = compute_mean(vertices, &p, axis);
                 if (!is_exact(vertices, &p, CORNER_FLATNESS * extent)) return none;
                 p.is_right = is_right(&p, extent);
+                if (p.is_right) set_units(&p);
                 return p;
             }
     return none;

@@ -10,6 +10,7 @@
 
 #include "simd/kernels/areas.h"
 #include "simd/kernels/box_axes.h"
+#include "simd/kernels/box_separation.h"
 #include "simd/kernels/epa8.h"
 #include "simd/kernels/pair8.h"
 
@@ -20,6 +21,10 @@
 LANES_TARGET void areas_compute_avx2(const simd_triangles *triangles, vec3 *areas) { run_areas(triangles, areas); }
 
 LANES_TARGET int box_axes_find_avx2(const box_axes_query *query, box_axes *out) { return run_axes(query, out); }
+
+LANES_TARGET int box_separation_find_avx2(const box_separation_query *query, box_separation *out) {
+    return run_separation(query, out);
+}
 
 LANES_TARGET epa8_end epa8_grow_avx2(epa8 *s, const epa8_query *query) { return run_grow(s, query); }
 

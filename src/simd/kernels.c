@@ -28,6 +28,8 @@ static areas_function *const areas_of[SIMD_ISA_COUNT] =
     KERNELS(areas_compute_scalar, areas_compute_avx2, areas_compute_avx2);
 static box_axes_function *const box_axes_of[SIMD_ISA_COUNT] =
     KERNELS(box_axes_find_scalar, box_axes_find_avx2, box_axes_find_avx512);
+static box_separation_function *const box_separation_of[SIMD_ISA_COUNT] =
+    KERNELS(box_separation_find_scalar, box_separation_find_avx2, box_separation_find_avx2);
 static epa8_function *const epa8_of[SIMD_ISA_COUNT] = KERNELS(epa8_grow_scalar, epa8_grow_avx2, epa8_grow_avx512);
 static const group_gjk_kernels *const group_gjk_of[SIMD_ISA_COUNT] =
     KERNELS(&group_gjk_scalar, &group_gjk_avx2, &group_gjk_avx512);
@@ -52,6 +54,9 @@ static inline simd_isa find_isa_of(size_t pairs) {
 // The kernels of the widest instruction set of this machine.
 void areas_compute(const simd_triangles *triangles, vec3 *areas) { areas_of[find_widest()](triangles, areas); }
 int box_axes_find(const box_axes_query *query, box_axes *out) { return box_axes_of[find_widest()](query, out); }
+int box_separation_find(const box_separation_query *query, box_separation *out) {
+    return box_separation_of[find_widest()](query, out);
+}
 epa8_end epa8_grow(epa8 *s, const epa8_query *query) { return epa8_of[find_widest()](s, query); }
 const group_gjk_kernels *group_gjk_get_kernels(size_t pairs) { return group_gjk_of[find_isa_of(pairs)]; }
 const pair8_kernels *pair8_get_kernels(size_t pairs) { return pair8_of[find_isa_of(pairs)]; }
@@ -78,6 +83,7 @@ void simd_find_kept(const small_gjk_query *query, const small_gjk_kept *kept, sm
 
 // The kernels of one instruction set, for tests: NULL where this machine or build lacks it.
 areas_function *areas_get(simd_isa isa) { return has(isa) ? areas_of[isa] : NULL; }
+box_separation_function *box_separation_get(simd_isa isa) { return has(isa) ? box_separation_of[isa] : NULL; }
 box_axes_function *box_axes_get(simd_isa isa) { return has(isa) ? box_axes_of[isa] : NULL; }
 epa8_function *epa8_get(simd_isa isa) { return has(isa) ? epa8_of[isa] : NULL; }
 const group_gjk_kernels *group_gjk_get_kernels_of(simd_isa isa) { return has(isa) ? group_gjk_of[isa] : NULL; }

@@ -5,12 +5,14 @@
 
 #include "simd/areas.h"
 #include "simd/box_axes.h"
+#include "simd/box_separation.h"
 #include "simd/epa8.h"
 #include "simd/group_gjk.h"
 #include "simd/patch.h"
 #include "simd/solid8.h"
 
 areas_function areas_compute_scalar, areas_compute_avx2;
+box_separation_function box_separation_find_scalar, box_separation_find_avx2;
 box_axes_function box_axes_find_scalar, box_axes_find_avx2, box_axes_find_avx512;
 epa8_function epa8_grow_scalar, epa8_grow_avx2, epa8_grow_avx512;
 extern const group_gjk_kernels group_gjk_scalar, group_gjk_avx2, group_gjk_avx512;

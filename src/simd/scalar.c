@@ -8,6 +8,7 @@
 
 #include "simd/kernels/areas.h"
 #include "simd/kernels/box_axes.h"
+#include "simd/kernels/box_separation.h"
 #include "simd/kernels/epa8.h"
 #include "simd/kernels/pair8.h"
 
@@ -21,6 +22,10 @@ const uint8_t box_axes_second[BOX_AXES] = {1, 2, 3, 4, 5, 2, 3, 4, 5, 3, 4, 5, 4
 void areas_compute_scalar(const simd_triangles *triangles, vec3 *areas) { run_areas(triangles, areas); }
 
 int box_axes_find_scalar(const box_axes_query *query, box_axes *out) { return run_axes(query, out); }
+
+int box_separation_find_scalar(const box_separation_query *query, box_separation *out) {
+    return run_separation(query, out);
+}
 
 epa8_end epa8_grow_scalar(epa8 *s, const epa8_query *query) { return run_grow(s, query); }
 

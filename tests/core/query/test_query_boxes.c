@@ -2,6 +2,8 @@
 // of the 64 differences of corners that has all others behind it, in long double, shares nothing with the planes of
 // pairs of edges; tolerance 1e-12 of a size of about 5, some thousand roundings. Covers are put before
 // ovoid_answer_verify. What is not for this way is answered by EPA, which takes iterations.
+#include "linear/pose.h"
+#include "linear/rotation.h"
 #include "ovoid/ovoid.h"
 #include "shape/parallelepiped.h"
 
@@ -163,8 +165,64 @@ static void test_shapes(void) {
     CHECK(found > 190);
 }
 
+/// What is asked of boxes that are nearly apart, and how many of them took no iteration.
+typedef struct counts {
+    int separated, others, without_search;
+} counts;
+
+/// A yes or no, or a margin: the sign of the distance, a bracket around it, a proof that holds.
+static void check_sign(const ovoid_pair *p, double margin, counts *all) {
+    ovoid_answer truth = ovoid_distance(p, NULL, NULL),
+                 x = margin > 0 ? ovoid_within(p, margin, NULL, NULL) : ovoid_collide(p, NULL, NULL);
+    ovoid_error error = {0};
+    if (!CHECK(ovoid_answer_verify(p, &x, NULL, &error) == OVOID_OK)) puts(error.message);
+    CHECK_EQ(x.status, truth.status);
+    CHECK(x.lower <= truth.upper);
+    CHECK(x.upper >= truth.lower);
+    // A bracket around the margin may be as wide as the tolerance.
+    if (margin > 0 && fabs(truth.lower - margin) > 1e-8) CHECK_EQ(x.lower > margin, truth.lower > margin);
+    all->separated += truth.lower > margin;
+    all->others += !(truth.lower > margin);
+    all->without_search += truth.lower > margin && x.iterations == 0 && x.stage == OVOID_STAGE_SUPPORT;
+}
+
+/// Boxes of any place in their frames, with radii too, at gaps of 10 % to 1e-9 of the size, and as deep.
+static void test_signs(void) {
+    uint64_t s = 21;
+    counts signs = {0, 0, 0}, margins = {0, 0, 0};
+    for (int i = 0; i < 4000; i++) {
+        ovoid_vec3 half = {random_uniform(&s, 0.2, 1), random_uniform(&s, 0.2, 1), random_uniform(&s, 0.2, 1)};
+        const ovoid_shape_options round = {.radius = i % 3 ? 0 : 0.1};
+        ovoid_shape *a = ovoid_shape_create_box(half, &round, NULL), *b = a;
+        if (i % 2) {
+            // Right angles in any frame, away from its origin.
+            mat3 m = quat_to_mat3(random_quat(&s));
+            ovoid_vec3 axis[3] = {mat3_mul_vec3(m, (vec3){half.x, 0, 0}), mat3_mul_vec3(m, (vec3){0, half.z, 0}),
+                                  mat3_mul_vec3(m, (vec3){0, 0, 0.7})};
+            b = make_slanted(axis, (ovoid_vec3){random_normal(&s), 0.3, -0.2}, 0);
+        }
+        ovoid_pair p = {a, b, {{random_normal(&s), 0, 0}, random_quat(&s)}, {{0, 0, 0}, random_quat(&s)}};
+        p.pose_b.position = (ovoid_vec3){3 * random_normal(&s), 3 * random_normal(&s), 3 * random_normal(&s)};
+        ovoid_answer x = ovoid_depth(&p, NULL, NULL, NULL);
+        double gap = pow(10, random_uniform(&s, -9, -1)) * (random_next(&s) % 3 ? 1 : -1);
+        double by = 0.5 * (x.lower + x.upper) - gap, margin = gap > 0 ? gap * random_uniform(&s, 0.5, 1.5) : 0.1;
+        p.pose_b.position = vec3_add_scaled(p.pose_b.position, x.normal, -by);
+        check_sign(&p, 0, &signs);
+        check_sign(&p, margin, &margins);
+        if (b != a) ovoid_shape_destroy(b);
+        ovoid_shape_destroy(a);
+    }
+    CHECK(signs.separated > 2000);
+    CHECK(signs.others > 1000);
+    CHECK(signs.without_search > signs.separated * 3 / 10);
+    CHECK(margins.without_search > margins.separated * 3 / 10);
+    printf("%d of %d apart, %d of %d beyond a margin without a search\n", signs.without_search, signs.separated,
+           margins.without_search, margins.separated);
+}
+
 int main(void) {
     test_random();
+    test_signs();
     test_aligned();
     test_shapes();
     return check_end();
