@@ -169,7 +169,7 @@ ovoid_shape *shape_create_block(const hull *polytope, const ovoid_allocator *all
     ovoid_polytope p = hull_get_polytope(polytope);
     support_table support;
     simd_cell *cells;
-    ovoid_code code = support_table_create((xyz_points){p.vertices, p.vertex_count}, work, &support, &cells);
+    ovoid_code code = support_table_create(&p, work, &support, &cells);
     if (code != OVOID_OK) {
         error_write(error, code, -1, "no memory for the table of supports of %u vertices", p.vertex_count);
         return NULL;
