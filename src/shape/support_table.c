@@ -63,7 +63,7 @@ typedef struct products {
 typedef struct builder {
     const ovoid_polytope *polytope;
     support_table *table;
-    simd_cell *cells;
+    support_block *blocks;
     uint32_t capacity;           ///< the largest number of cells
     uint32_t used, divided_most; ///< cells in use; from divided_most on no cell is divided further
     sym3 inverse;
@@ -204,24 +204,18 @@ static int reserve(builder *b, uint32_t blocks, uint32_t *at) {
     return 1;
 }
 
-/// Fills a block's entries and clears what follows them, padding too, so that equal shapes are equal blocks.
-static void fill_block(const builder *b, simd_cell *cell, uint32_t first) {
-    memset((char *)cell + offsetof(simd_cell, count), 0, sizeof *cell - offsetof(simd_cell, count));
-    for (uint32_t i = 0; i < SIMD_CELL; i++) {
-        uint32_t v = b->list[first + i < b->count ? first + i : first];
-        vec3 p = vec3_at(b->polytope->vertices, v);
-        cell->x[i] = p.x, cell->y[i] = p.y, cell->z[i] = p.z;
-        cell->index[i] = v;
-    }
+static void fill_block(const builder *b, support_block *block, uint32_t first) {
+    *block = (support_block){.count = 0};
+    for (uint32_t i = 0; i < SIMD_CELL; i++) block->index[i] = b->list[first + i < b->count ? first + i : first];
 }
 
 static int fill_list(builder *b, uint32_t at) {
     uint32_t more = (b->count + SIMD_CELL - 1) / SIMD_CELL - 1, next = 0;
     if (more && !reserve(b, more, &next)) return 0;
-    fill_block(b, &b->cells[at], 0);
-    b->cells[at].count = b->count;
-    b->cells[at].next = next;
-    for (uint32_t i = 0; i < more; i++) fill_block(b, &b->cells[next + i], (i + 1) * SIMD_CELL);
+    fill_block(b, &b->blocks[at], 0);
+    b->blocks[at].count = b->count;
+    b->blocks[at].next = next;
+    for (uint32_t i = 0; i < more; i++) fill_block(b, &b->blocks[next + i], (i + 1) * SIMD_CELL);
     return 1;
 }
 
@@ -233,8 +227,7 @@ static int fill_cell(builder *b, const square *s, uint32_t at, uint32_t *near, i
     find_list(b, s, *near);
     if (b->count <= SIMD_CELL || nested == NESTED_MOST || b->used > b->divided_most) return fill_list(b, at);
     if (!reserve(b, 4, &next)) return 0;
-    memset(&b->cells[at], 0, sizeof b->cells[at]);
-    b->cells[at].next = next;
+    b->blocks[at] = (support_block){.next = next};
     uint32_t inside = *near;
     for (uint32_t i = 0; i < 4; i++) {
         square inner = quarter(s, i);
@@ -305,9 +298,9 @@ static int has_edges(const ovoid_polytope *p) {
 
 static int make_room(builder *b, const ovoid_allocator *allocator) {
     uint32_t count = b->polytope->vertex_count;
-    b->cells = allocator_allocate(allocator, b->capacity, sizeof *b->cells);
+    b->blocks = allocator_allocate(allocator, b->capacity, sizeof *b->blocks);
     b->vertices = allocator_allocate(allocator, count, sizeof *b->vertices + 3 * sizeof *b->met);
-    if (!b->vertices || !b->cells) return 0;
+    if (!b->vertices || !b->blocks) return 0;
     b->met = (uint32_t *)(b->vertices + count);
     b->list = b->met + count;
     b->scratch = b->list + count;
@@ -327,10 +320,10 @@ static void find_margin(builder *b, double size) {
 }
 
 ovoid_code support_table_create(const ovoid_polytope *p, const ovoid_allocator *allocator, support_table *table,
-                                simd_cell **cells) {
+                                support_block **blocks) {
     uint32_t count = p->vertex_count;
     *table = (support_table){.k = 0};
-    *cells = NULL;
+    *blocks = NULL;
     if (count < SUPPORT_TABLE_LEAST || !has_edges(p)) return OVOID_OK;
     double size = compute_extent(p->vertices, count);
     if (!(size > 1e-90 && size < 1e90)) return OVOID_OK;
@@ -346,11 +339,28 @@ ovoid_code support_table_create(const ovoid_polytope *p, const ovoid_allocator *
     allocator_release(allocator, b.vertices);
     if (code != OVOID_OK || !table->k) {
         *table = (support_table){.k = 0};
-        allocator_release(allocator, b.cells);
+        allocator_release(allocator, b.blocks);
         return code;
     }
     table->scale = 0.5 * table->k;
     table->cell_count = b.used;
-    *cells = b.cells;
+    *blocks = b.blocks;
     return OVOID_OK;
+}
+
+// What follows the entries is cleared, padding too, so that equal shapes are equal blocks.
+void support_table_fill(const double *vertices, const support_block *blocks, uint32_t count, simd_cell *cells) {
+    const size_t entries = offsetof(simd_cell, count);
+    for (uint32_t i = 0; i < count; i++) {
+        simd_cell *cell = &cells[i];
+        const support_block *block = &blocks[i];
+        for (uint32_t k = 0; k < SIMD_CELL; k++) {
+            vec3 p = vec3_at(vertices, block->index[k]);
+            cell->x[k] = p.x, cell->y[k] = p.y, cell->z[k] = p.z;
+            cell->index[k] = block->index[k];
+        }
+        memset((char *)cell + entries, 0, sizeof *cell - entries);
+        cell->count = block->count;
+        cell->next = block->next;
+    }
 }

@@ -83,7 +83,11 @@ static uint32_t make_table(uint32_t count, support_table *t, simd_cell **cells) 
     ovoid_error error;
     CHECK_EQ(hull_create((xyz_points){xyz, count}, &allocator, &solid, &error), OVOID_OK);
     ovoid_polytope p = hull_get_polytope(&solid);
-    CHECK_EQ(support_table_create(&p, &allocator, t, cells), OVOID_OK);
+    support_block *blocks;
+    CHECK_EQ(support_table_create(&p, &allocator, t, &blocks), OVOID_OK);
+    *cells = blocks ? allocator_allocate(&allocator, t->cell_count, sizeof **cells) : NULL;
+    if (*cells) support_table_fill(p.vertices, blocks, t->cell_count, *cells);
+    allocator_release(&allocator, blocks);
     count = p.vertex_count;
     memcpy(xyz, p.vertices, 3 * sizeof *xyz * count);
     for (uint32_t i = 0; i < (count + 7) / 8 * 8; i++) {
