@@ -115,9 +115,10 @@ static products multiply(const corners *c, const mapped *v) {
     return (products){rest + c->a[0] * p, rest + c->a[1] * p};
 }
 
+/// 1 if all four are below, by the signs of the differences.
 static int is_below(const products *v, const products *limit) {
-    both_bits below = (v->low < limit->low) & (v->high < limit->high);
-    return below[0] + below[1] == -2;
+    both_bits below = (both_bits)(v->low - limit->low) & (both_bits)(v->high - limit->high);
+    return (below[0] & below[1]) < 0;
 }
 
 /// 1 if a vertex of the list beats these products; the one at `likely` is tried first.
