@@ -22,7 +22,7 @@ static double compute_dot(const double *a, const double *b, int count) {
 
 void qp_clear(qp *q) {
     q->count = q->factored = 0;
-    for (int i = 0; i < QP_SIZE; i++) q->half[i] = 0;
+    memset(q->column, 0, sizeof q->column);
 }
 
 void qp_add(qp *q, double x) {
@@ -51,30 +51,37 @@ static void drop(qp *q, int i) {
     q->gram[i][i] = q->gram[last][last];
 }
 
-// Completes the Cholesky factor of the Gram matrix with its ridge, and L^-1 c. Returns -1, or the first unknown whose
-// row the earlier ones span. Entries of a row from its diagonal on are zero.
+// Completes the factors L D L' of the Gram matrix with its ridge, and L^-1 c. Returns -1, or the first unknown whose
+// row the earlier ones span. As soon as an entry of a row is known, its part is taken from all that follow, two at a
+// time: the chain of steps that wait for each other is then one product and one difference an entry.
 static int complete_factor(qp *q) {
     for (; q->factored < q->count; q->factored++) {
         int i = q->factored;
-        double *row = q->factor[i], d = q->gram[i][i] * (1 + QP_RIDGE);
-        for (int k = 0; k < QP_SIZE; k++) row[k] = 0;
-        for (int j = 0; j < i; j++) row[j] = (q->gram[i][j] - compute_dot(row, q->factor[j], j)) * q->inverse[j];
-        d -= compute_dot(row, row, i);
+        double rest[QP_SIZE], *row = q->factor[i], d = q->gram[i][i] * (1 + QP_RIDGE), half = q->c[i];
+        // Rows and columns are read two entries at a time, from or up to their diagonal.
+        row[i] = q->column[i][i] = 0;
+        for (int k = 0; k < i; k += 2) both_store(rest + k, both_load(q->gram[i] + k));
+        for (int j = 0; j < i; j++) {
+            double value = rest[j], *column = q->column[j];
+            for (int k = (j + 1) & ~1; k < i; k += 2)
+                both_store(rest + k, both_load(rest + k) - both_load(column + k) * both_set(value));
+            row[j] = column[i] = value * q->inverse[j];
+            d -= value * row[j];
+            half -= row[j] * q->half[j];
+        }
         if (!(d > QP_DEPENDENT * q->gram[i][i])) return i;
-        q->inverse[i] = 1 / sqrt(d);
-        q->half[i] = (q->c[i] - compute_dot(row, q->half, i)) * q->inverse[i];
+        q->inverse[i] = 1 / d;
+        q->half[i] = half;
     }
     return -1;
 }
 
-// x = L'^-1 x
+// x = L'^-1 D^-1 x
 static void solve_upper(const qp *q, double *x) {
-    for (int i = q->count - 1; i >= 0; i--) {
-        double value = x[i] * q->inverse[i];
-        // Past the end a row has a zero.
-        for (int k = 0; k < i; k += 2)
-            both_store(x + k, both_load(x + k) - both_load(q->factor[i] + k) * both_make(value, value));
-        x[i] = value;
+    for (int i = 0; i < q->count; i++) x[i] *= q->inverse[i];
+    for (int i = q->count - 1; i > 0; i--) {
+        both value = both_set(x[i]);
+        for (int k = 0; k < i; k += 2) both_store(x + k, both_load(x + k) - both_load(q->factor[i] + k) * value);
     }
 }
 
@@ -84,7 +91,7 @@ void qp_refine(qp *q) {
     for (int i = 0; i < q->count; i++) {
         double rest = q->c[i];
         for (int j = 0; j < q->count; j++) rest -= (i > j ? q->gram[i][j] : q->gram[j][i]) * q->x[j];
-        more[i] = (rest - compute_dot(q->factor[i], more, i)) * q->inverse[i];
+        more[i] = rest - compute_dot(q->factor[i], more, i);
     }
     solve_upper(q, more);
     for (int i = 0; i < q->count; i++)

@@ -15,7 +15,8 @@ typedef struct qp {
     double c[QP_SIZE], x[QP_SIZE];
     double gram[QP_SIZE][QP_SIZE];                     ///< row_i . row_j for j <= i
     int factored;                                      ///< unknowns whose rows of the factor below are there
-    double factor[QP_SIZE][QP_SIZE], inverse[QP_SIZE]; ///< Cholesky's, below the diagonal, and the diagonal's inverse
+    double factor[QP_SIZE][QP_SIZE], inverse[QP_SIZE]; ///< L, below its diagonal of ones; of D, its inverse
+    double column[QP_SIZE][QP_SIZE];                   ///< L by columns
     double half[QP_SIZE];                              ///< L^-1 c
 } qp;
 

@@ -100,10 +100,23 @@ static double compute_line_distance(const points *p, const uint32_t end[2]) {
     return width;
 }
 
+// 1 if the ball in the first simplex, of diameter 6 volume / surface, shows that no width of the body is near the
+// flatness. Six volumes are computed to 10 roundings of a product of edges, which are at most 2 sqrt(3) extents.
+static int is_thick(const points *p, const uint32_t corner[4], double extent) {
+    vec3 a = vec3_at(p->grid, corner[0]), e[3], faces[4];
+    for (int i = 0; i < 3; i++) e[i] = vec3_sub(vec3_at(p->grid, corner[i + 1]), a);
+    for (int i = 0; i < 3; i++) faces[i] = vec3_cross(e[i], e[(i + 1) % 3]);
+    faces[3] = vec3_add(faces[0], vec3_add(faces[1], faces[2]));
+    double area = 0, volume = fabs(vec3_dot(faces[0], e[2])), size = extent * extent * extent;
+    for (int i = 0; i < 4; i++) area += vec3_norm(faces[i]);
+    return 2 * volume > 4 * FACET_FLATNESS * extent * area + 0x1p-40 * size;
+}
+
 // The rank to rounding, and the normal of a nearly flat body.
 static uint32_t find_rank(const points *p, const surface *s, vec3 *normal) {
-    double flatness = FACET_FLATNESS * compute_extent(p->grid, p->count);
+    double extent = compute_extent(p->grid, p->count), flatness = FACET_FLATNESS * extent;
     if (s->rank < 2) return s->rank;
+    if (s->rank == 3 && is_thick(p, s->corner, extent)) return 3;
     if (compute_line_distance(p, s->corner) <= flatness) return 1;
     vec3 c[3];
     for (int i = 0; i < 3; i++) c[i] = vec3_at(p->grid, s->corner[i]);

@@ -39,8 +39,8 @@ static ovoid_code validate_points(const double *xyz, size_t count, bounds *b, ov
             if (fabs(v) > OVOID_LENGTH_MAX)
                 return error_set(error, OVOID_ERROR_RANGE, (int64_t)i, "point %zu: %c = %g is beyond %g", i, "xyz"[c],
                                  v, OVOID_LENGTH_MAX);
-            b->low[c] = fmin(b->low[c], v);
-            b->high[c] = fmax(b->high[c], v);
+            b->low[c] = min2(b->low[c], v);
+            b->high[c] = max2(b->high[c], v);
         }
     return OVOID_OK;
 }

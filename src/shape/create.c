@@ -168,8 +168,8 @@ ovoid_shape *shape_create_block(const hull *polytope, const ovoid_allocator *all
                                 ovoid_error *error) {
     ovoid_polytope p = hull_get_polytope(polytope);
     support_table support;
-    simd_cell *cells;
-    ovoid_code code = support_table_create((xyz_points){p.vertices, p.vertex_count}, work, &support, &cells);
+    support_block *blocks;
+    ovoid_code code = support_table_create(&p, work, &support, &blocks);
     if (code != OVOID_OK) {
         error_write(error, code, -1, "no memory for the table of supports of %u vertices", p.vertex_count);
         return NULL;
@@ -182,10 +182,10 @@ ovoid_shape *shape_create_block(const hull *polytope, const ovoid_allocator *all
     if (shape) {
         block_fill(shape, &p, &polytope->form, room);
         shape->support = support;
-        if (cells) memcpy((char *)shape + shape->at.cells, cells, support.cell_count * sizeof *cells);
+        support_table_fill(p.vertices, blocks, support.cell_count, (simd_cell *)((char *)shape + shape->at.cells));
     }
     allocator_release(work, room);
-    allocator_release(work, cells);
+    allocator_release(work, blocks);
     return shape;
 }
 

@@ -1,6 +1,7 @@
 // The file of a shape (".ovoid"): version 1; 2 where it has an allowance; 3 with the triangles of its hull, for solids
 // of many vertices; 4 and 5 are 2 and 3 with the allowance's axis; 6 and 7 are 4 and 5 of cylinders and cones, with
-// their lengths; 8 is 2 of ellipsoids, with their half axes. docs/polytope.md has the table.
+// their lengths; 8 is 2 of ellipsoids, with their half axes. Files of these versions are read; 9 to 16, which are
+// written, are the same with a checksum by words. docs/polytope.md has the table.
 //
 // A file holds what cannot be recomputed: the vertices, the fitted ellipsoids, the radius, the allowance, and the
 // report of the given points. Facets, adjacency, planes and measures depend on the vertices and the triangles alone,
@@ -8,8 +9,8 @@
 // that a file holds: these are proven to be the hull (polytope/surface_proof.h), which takes a fraction of the time of
 // finding them. So nothing in a file can contradict the vertices.
 //
-// Reading checks every byte: the checksum (FNV-1a, whose every step is a bijection, so that it detects every single
-// wrong byte), the size against the count, the range of every number, that all vertices are extreme and in the body
+// Reading checks every byte: the checksum (whose every step is a bijection, so that it detects every single wrong byte
+// or word), the size against the count, the range of every number, that all vertices are extreme and in the body
 // frame, that the rank is right, and that the ellipsoids are proven to enclose and to be enclosed.
 #include "shape/file.h"
 #include "base/allocator.h"
@@ -35,22 +36,53 @@
 #define ROUND_SIZE 24
 #define HALF_AXES_SIZE 24
 #define VERSION_ELLIPSOID 8
-#define VERSION_MOST VERSION_ELLIPSOID
+// Added to a version whose checksum is by words.
+#define VERSION_WORDS 8
+#define VERSION_MOST (VERSION_ELLIPSOID + VERSION_WORDS)
 #define CHECKSUM_SIZE 8
 static const uint8_t magic[8] = {0x89, 'O', 'V', 'O', 'I', 'D', '\n', 0x1a};
 
-static uint64_t compute_checksum(const uint8_t *bytes, size_t size) {
+// FNV-1a (G. Fowler, L. C. Noll, K.-P. Vo, 1991), a byte at a time.
+static uint64_t compute_checksum_by_bytes(const uint8_t *bytes, size_t size) {
     uint64_t h = 0xcbf29ce484222325u;
     for (size_t i = 0; i < size; i++) h = (h ^ bytes[i]) * 0x100000001b3u;
     return h;
 }
 
+static uint64_t load_word(const uint8_t *b) {
+    uint64_t low = b[0] | (uint64_t)b[1] << 8 | (uint64_t)b[2] << 16 | (uint64_t)b[3] << 24;
+    uint64_t high = b[4] | (uint64_t)b[5] << 8 | (uint64_t)b[6] << 16 | (uint64_t)b[7] << 24;
+    return low | high << 32;
+}
+
+// A bijection of the sum for any word, and of the word for any sum: a product with an odd number, and a shift that
+// brings high bits down.
+static uint64_t mix(uint64_t sum, uint64_t word) {
+    uint64_t product = (sum ^ word) * 0x9e3779b97f4a7c15u;
+    return product ^ product >> 32;
+}
+
+// The words in turn go to four sums, which do not wait for each other; their sum is that of the file. size: a multiple
+// of 8.
+static uint64_t compute_checksum_by_words(const uint8_t *bytes, size_t size) {
+    uint64_t sum[4] = {1, 2, 3, 4};
+    size_t i = 0;
+    for (; i + 32 <= size; i += 32)
+        for (size_t k = 0; k < 4; k++) sum[k] = mix(sum[k], load_word(bytes + i + 8 * k));
+    for (size_t k = 0; i < size; i += 8, k++) sum[k] = mix(sum[k], load_word(bytes + i));
+    return mix(mix(mix(mix(0, sum[0]), sum[1]), sum[2]), sum[3]);
+}
+
 // The properties of a file that depend on its version.
 typedef struct layout {
-    uint32_t version;
+    uint32_t version; // without VERSION_WORDS
+    uint32_t has_words;
     size_t vertices_at, triangles_at, size; // bytes
     uint32_t triangle_count;                // in the file
 } layout;
+
+// The version without what its checksum adds.
+static uint32_t get_plain(uint32_t written) { return written > VERSION_WORDS ? written - VERSION_WORDS : written; }
 
 static int has_half_axes(uint32_t version) { return version == VERSION_ELLIPSOID; }
 static int has_triangles(uint32_t version) { return version >= 3 && version % 2 == 1; }
@@ -58,8 +90,10 @@ static int has_axis(uint32_t version) { return version >= 4 && !has_half_axes(ve
 static int has_round(uint32_t version) { return version >= 6 && !has_half_axes(version); }
 
 // By Euler's formula a solid of n vertices has 2 n - 4 triangles.
-static layout make_layout(uint32_t version, uint32_t vertex_count) {
-    layout l = {.version = version, .vertices_at = HEADER_SIZE + (version > 1 ? ALLOWANCE_SIZE : 0)};
+static layout make_layout(uint32_t written, uint32_t vertex_count) {
+    uint32_t version = get_plain(written);
+    layout l = {.version = version, .has_words = written > VERSION_WORDS};
+    l.vertices_at = HEADER_SIZE + (version > 1 ? ALLOWANCE_SIZE : 0);
     if (has_axis(version)) l.vertices_at += AXIS_SIZE;
     if (has_round(version)) l.vertices_at += ROUND_SIZE;
     if (has_half_axes(version)) l.vertices_at += HALF_AXES_SIZE;
@@ -67,6 +101,11 @@ static layout make_layout(uint32_t version, uint32_t vertex_count) {
     l.triangle_count = has_triangles(version) && vertex_count > 3 ? 2 * vertex_count - 4 : 0;
     l.size = l.triangles_at + (size_t)l.triangle_count * 12 + CHECKSUM_SIZE;
     return l;
+}
+
+static uint64_t compute_checksum(const layout *l, const uint8_t *bytes) {
+    size_t size = l->size - CHECKSUM_SIZE;
+    return l->has_words ? compute_checksum_by_words(bytes, size) : compute_checksum_by_bytes(bytes, size);
 }
 
 // ---- writing ----
@@ -103,13 +142,14 @@ static void put_fit(writer *w, const ovoid_fit *f) {
     put_integer(w, 0, 4);
 }
 
-size_t shape_write_version(const ovoid_shape *shape, uint32_t version, void *buffer, size_t capacity) {
-    layout l = make_layout(version, shape->vertex_count);
+size_t shape_write_version(const ovoid_shape *shape, uint32_t written, void *buffer, size_t capacity) {
+    layout l = make_layout(written, shape->vertex_count);
+    uint32_t version = l.version;
     if (!buffer || capacity < l.size) return l.size;
     writer w = {buffer};
     memcpy(w.at, magic, sizeof magic);
     w.at += sizeof magic;
-    put_integer(&w, version, 4);
+    put_integer(&w, written, 4);
     put_integer(&w, shape->rank, 4);
     put_integer(&w, l.size, 8);
     put_integer(&w, shape->vertex_count, 8);
@@ -137,7 +177,7 @@ size_t shape_write_version(const ovoid_shape *shape, uint32_t version, void *buf
     for (size_t i = 0; i < 3 * (size_t)shape->vertex_count; i++) put_double(&w, vertices[i]);
     const uint32_t *triangles = ovoid_shape_get_polytope(shape).triangles;
     for (size_t i = 0; i < 3 * (size_t)l.triangle_count; i++) put_integer(&w, triangles[i], 4);
-    put_integer(&w, compute_checksum(buffer, l.size - CHECKSUM_SIZE), 8);
+    put_integer(&w, compute_checksum(&l, buffer), 8);
     return l.size;
 }
 
@@ -154,7 +194,8 @@ static uint32_t choose_version(const ovoid_shape *s) {
 
 size_t ovoid_shape_write(const ovoid_shape *shape, void *buffer, size_t capacity) {
     OVOID_ASSERT(shape);
-    ENVIRONMENT_RETURN(size_t, shape, shape_write_version(shape, choose_version(shape), buffer, capacity));
+    ENVIRONMENT_RETURN(size_t, shape,
+                       shape_write_version(shape, choose_version(shape) + VERSION_WORDS, buffer, capacity));
 }
 
 // ---- reading ----
@@ -166,18 +207,19 @@ typedef struct reader {
     const ovoid_allocator *allocator, *work; // of the shape; of working memory
 } reader;
 
-// Four bytes at a time are one load with most compilers.
-static uint64_t get_integer(reader *r, int bytes) {
-    uint64_t value = 0;
-    for (int i = 0; i < bytes; i += 4, r->at += 4) {
-        const uint8_t *b = r->bytes + r->at;
-        value |= (b[0] | (uint64_t)b[1] << 8 | (uint64_t)b[2] << 16 | (uint64_t)b[3] << 24) << 8 * i;
-    }
-    return value;
+static uint64_t get_word(reader *r) {
+    r->at += 8;
+    return load_word(r->bytes + r->at - 8);
+}
+
+static uint32_t get_half(reader *r) {
+    const uint8_t *b = r->bytes + r->at;
+    r->at += 4;
+    return b[0] | (uint32_t)b[1] << 8 | (uint32_t)b[2] << 16 | (uint32_t)b[3] << 24;
 }
 
 static double get_double(reader *r) {
-    uint64_t bits = get_integer(r, 8);
+    uint64_t bits = get_word(r);
     double value;
     memcpy(&value, &bits, sizeof value);
     return value;
@@ -195,9 +237,9 @@ static ovoid_fit get_fit(reader *r) {
     f.volume = c.x;
     f.gap = c.y;
     f.beta = c.z;
-    f.iterations = (uint32_t)get_integer(r, 4);
-    f.converged = (uint32_t)get_integer(r, 4);
-    f.facet = (uint32_t)get_integer(r, 4);
+    f.iterations = get_half(r);
+    f.converged = get_half(r);
+    f.facet = get_half(r);
     return f;
 }
 
@@ -224,18 +266,18 @@ static ovoid_code validate_envelope(reader *r, size_t size, content *c) {
     if (size < sizeof magic || memcmp(r->bytes, magic, sizeof magic) != 0) return refuse(r, 0, "not an .ovoid file");
     if (size < HEADER_SIZE + CHECKSUM_SIZE) return refuse(r, size, "the file ends within its header");
     r->at = sizeof magic;
-    uint64_t version = get_integer(r, 4);
+    uint32_t version = get_half(r);
     if (version < 1 || version > VERSION_MOST) return refuse(r, 8, "written by another version of the format");
-    c->rank = (uint32_t)get_integer(r, 4);
-    if (has_triangles((uint32_t)version) && c->rank != 3)
+    c->rank = get_half(r);
+    if (has_triangles(get_plain(version)) && c->rank != 3)
         return refuse(r, 12, "only the file of a solid holds triangles");
-    uint64_t total = get_integer(r, 8), count = get_integer(r, 8);
+    uint64_t total = get_word(r), count = get_word(r);
     if (total != size) return refuse(r, size, total > size ? "the file is truncated" : "bytes after the end");
-    if (count > 0 && count <= POINTS_MAX) c->at = make_layout((uint32_t)version, (uint32_t)count);
+    if (count > 0 && count <= POINTS_MAX) c->at = make_layout(version, (uint32_t)count);
     if (c->at.size != total) return refuse(r, 24, "the number of vertices does not agree with the size");
     c->vertex_count = (uint32_t)count;
     reader end = {.bytes = r->bytes, .at = size - CHECKSUM_SIZE};
-    if (get_integer(&end, 8) != compute_checksum(r->bytes, size - CHECKSUM_SIZE))
+    if (get_word(&end) != compute_checksum(&c->at, r->bytes))
         return refuse(r, size - CHECKSUM_SIZE, "the checksum does not agree: the file is damaged");
     return OVOID_OK;
 }
@@ -252,18 +294,18 @@ static int is_fit(const ovoid_fit *f) {
 static ovoid_code read_fit(reader *r, ovoid_fit *f) {
     size_t start = r->at;
     *f = get_fit(r);
-    if (get_integer(r, 4) != 0 || !is_fit(f)) return refuse(r, start, "a number of an ellipsoid is out of its range");
+    if (get_half(r) != 0 || !is_fit(f)) return refuse(r, start, "a number of an ellipsoid is out of its range");
     return OVOID_OK;
 }
 
 static ovoid_code read_report(reader *r, content *c) {
     size_t start = r->at;
     ovoid_report *p = &c->report;
-    p->points = get_integer(r, 8);
-    p->duplicates = get_integer(r, 8);
-    p->interior = get_integer(r, 8);
-    p->coplanar = get_integer(r, 8);
-    p->faces = get_integer(r, 8);
+    p->points = get_word(r);
+    p->duplicates = get_word(r);
+    p->interior = get_word(r);
+    p->coplanar = get_word(r);
+    p->faces = get_word(r);
     p->vertices = c->vertex_count;
     p->rank = c->rank;
     if (p->points > POINTS_MAX || p->duplicates > p->points || p->interior > p->points ||
@@ -305,7 +347,7 @@ static ovoid_code read_round(reader *r, content *c) {
     if (has_half_axes(c->at.version)) return read_half_axes(r, c);
     if (!has_round(c->at.version)) return OVOID_OK;
     size_t start = r->at;
-    uint64_t kind = get_integer(r, 8);
+    uint64_t kind = get_word(r);
     double radius = get_double(r), half_length = get_double(r);
     if (!(kind == OVOID_ROUND_CYLINDER || kind == OVOID_ROUND_CONE) || !(radius > 0 && is_length(radius)) ||
         !(half_length >= 0 && is_length(half_length)) || signbit(half_length))
@@ -341,7 +383,7 @@ static ovoid_code read_vertices(reader *r, content *c) {
 
 // Reads the triangles; the proof checks that their corners are vertices.
 static void read_triangles(reader *r, content *c) {
-    for (size_t i = 0; i < 3 * (size_t)c->at.triangle_count; i++) c->triangles[i] = (uint32_t)get_integer(r, 4);
+    for (size_t i = 0; i < 3 * (size_t)c->at.triangle_count; i++) c->triangles[i] = get_half(r);
 }
 
 // Checks that the vertices of the hull are these vertices.

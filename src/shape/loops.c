@@ -133,7 +133,26 @@ static int is_triangle(const tables *t, uint32_t edge) {
     return is_boundary(t, t->next[edge]) && is_boundary(t, t->next[t->next[edge]]);
 }
 
+// The loops where each facet is one triangle, from its edge of the lowest number.
+static void fill_triangles(tables *t) {
+    for (uint32_t i = 0; i < t->p->triangle_count; i++) {
+        const uint32_t *edges = t->corners + 3 * (size_t)i;
+        uint32_t start = 3 * t->p->triangle_facets[i], k = edges[1] < edges[0];
+        if (edges[2] < edges[k]) k = 2;
+        for (uint32_t j = 0; j < 3; j++, k = k == 2 ? 0 : k + 1) {
+            uint32_t tail = t->tails[edges[k]];
+            t->loop_vertices[start + j] = tail;
+            t->loop_edges[start + j] = tail < t->p->neighbors[edges[k]] ? edges[k] : t->reverse[edges[k]];
+        }
+    }
+    for (uint32_t f = 0; f <= t->p->facet_count; f++) t->starts[f] = 3 * f;
+}
+
 static void fill_loops(tables *t, uint32_t loop_count) {
+    if (t->p->rank == 3 && t->p->facet_count == t->p->triangle_count) {
+        fill_triangles(t);
+        return;
+    }
     for (uint32_t f = 0; f <= loop_count; f++) t->starts[f] = NOTHING;
     for (uint32_t i = t->shape->counts.neighbors; i-- > 0;)
         if (is_boundary(t, i)) t->starts[t->facets[i]] = i;

@@ -6,178 +6,195 @@
 // map is only where the cells are: products are taken in the body frame, so an answer is that of a search of all
 // vertices, bit for bit.
 //
-// Theorem (as in paper/table.c). Let the directions r_1 .. r_4 span a cone and x_i.r_k > x_j.r_k + e for each of them,
-// where e exceeds the rounding of both products for any direction of the cone that is a sum of w_k r_k with sum 1. Then
-// j is never the extreme vertex of a direction of the cone, as computed: i is ahead by more than the rounding. So a
-// list may leave out every vertex that one other vertex beats at all four corners; no search in it can miss the extreme
-// vertex, nor one that equals it.
+// Let the directions r_1 .. r_4 span a cone. A vertex i beats j there if x_i.r_k > x_j.r_k + e for each of them. Then
+// x_i.r > x_j.r + e for every r of the cone that is a sum of w_k r_k with sum 1.
 //
-// Rounding, u = 2^-53: a product with a direction r of the cone is off by 4 u |x| |r|, and so is one with a corner; 32
-// u X N covers both products twice, X and N the greatest lengths. A mapped direction is off by 8 u of its length times
-// the ratio of the map's radii, at most 1e3, so its place on the cube's face by 1e-12; each cell is taken wider by 1e-7
-// of itself, at least 1e-10.
+// Theorem. Let a list hold, with each of its vertices, every neighbor of it that no vertex of the list beats. Then each
+// vertex j outside of the list is below the largest product of the list by more than e, for every r of the cone.
+// Proof. Let v be the vertex of the list with the largest product. Its neighbors are not above it: those outside of
+// the list are beaten. So v is extreme among all vertices, as a linear function on a convex body has no other local
+// maximum; this is why the simplex method is right (G. B. Dantzig, 1951). A path over edges leads from j up to the
+// extreme vertices and along them to v, and never down. It enters the list over an edge from some w outside to the
+// list; w is beaten, so that x_j.r <= x_w.r < x_v.r - e.
+// So no search in the list can miss the extreme vertex, nor one that equals it, if e exceeds the rounding of both
+// products. A list may then leave out every vertex that another of it beats: what is left beats that one too.
 //
-// A face of the cube begins with all vertices, each division with the list of the cell around it. The extreme vertices
-// at the corners and the centre of a cell beat most vertices; of those left all are tested against all, unless they fit
-// one block. Cost: about half a us a vertex. Lists of round bodies have 5 vertices and take 270 bytes a vertex. If
-// lists stay long, as for the rings of a cylinder, cells are coarser, and at most 512 bytes a vertex are used.
+// The list of a cell begins with a vertex found by climbing over edges to the cell's centre; the theorem does not rest
+// on where the climb ends. It grows over edges by all vertices that those already listed do not beat. If it does not
+// fit one block, all are tested against all.
+//
+// Rounding, u = 2^-53: a product with a direction r of the cone is off by 4 u X N, and so is one with a corner, X and N
+// the greatest lengths; e = 32 u X N covers both products twice. Products with corners are computed from the mapped
+// vertices, inverse x, and a corner of the cube, entries up to 1: with Y the sum of the sizes of the entries of the
+// inverse times the largest coordinate, a mapped vertex is off by 4 u Y, a product by 8 u Y; 32 u Y is added to e. The
+// edges of a solid are those of its exact hull. Of a flat body they are those of its projection along the axis nearest
+// to its normal n, and n.x varies by no more than f = 64 u X over its vertices. With r' = r - (r_axis / n_axis) n,
+// products with r' are those of the projection, for which the theorem holds; they differ from products with r by at
+// most sqrt(3) f |r|, apart from a constant. So 4 f N is added to e. A mapped direction is off by 8 u of its length
+// times the ratio of the map's radii, at most 1e3, so its place on the cube's face by 1e-12; each cell is taken wider
+// by 1e-7 of itself, at least 1e-10.
+//
+// Cost: about 0.1 us a vertex. Lists of round bodies have 5 vertices and take 270 bytes a vertex. If lists stay long,
+// as for the rings of a cylinder, cells are coarser, and at most 512 bytes a vertex are used.
 #include "shape/support_table.h"
 
 #include "base/allocator.h"
 #include "base/compiler.h"
 #include "linear/both.h"
+#include "polytope/facets.h"
+#include "polytope/sort.h"
 #include "shape/direction_cells.h"
-#include "simd/support.h"
 
 #include <stddef.h>
 #include <string.h>
 
-enum { SAMPLES = 9, PAIRS_MAX = 96, NESTED_MOST = 4, K_MOST = 128, LEVELS = 14, WHOLE = 4 };
+enum { LIMITS_MAX = 96, FEW = 24, NESTED_MOST = 4, K_MOST = 128 };
 
-/// Vertices that may be extreme, padded to a multiple of 8 by the first.
-typedef struct list {
-    double *x, *y, *z;
-    uint32_t *index;
-    uint32_t count;
-} list;
+/// A vertex on a face of the cube: its product with the face's point (a, b) is m + a p + b q.
+typedef struct mapped {
+    double m, p, q;
+} mapped;
+
+/// Products with the corners of a square.
+typedef struct products {
+    both low, high;
+} products;
 
 typedef struct builder {
-    const ovoid_allocator *allocator;
+    const ovoid_polytope *polytope;
     support_table *table;
-    simd_cell *cells;
+    support_block *blocks;
     uint32_t capacity;           ///< the largest number of cells
     uint32_t used, divided_most; ///< cells in use; from divided_most on no cell is divided further
     sym3 inverse;
-    double reach;        ///< the largest length of a vertex
-    list levels[LEVELS]; ///< room for the lists of a cell and of those around it
-    /// Of the square at each level: the vertices that are extreme at nine directions, row by row.
-    uint32_t winners[LEVELS][SAMPLES];
-    uint8_t *bits;
+    double margin;    ///< what a vertex must be ahead by
+    mapped *vertices; ///< of the present face
+    uint32_t *met;    ///< of each vertex: the last list for which it was tested
+    uint32_t stamp;   ///< the number of the present list
+    uint32_t *list;   ///< of the present cell
+    uint32_t count;   ///< of the list
+    uint32_t *scratch;
+    products limits[LIMITS_MAX]; ///< of the vertices of the list, less the margin
 } builder;
-
-static uint32_t padded(uint32_t count) { return (count + 7) / 8 * 8; }
-
-static void pad(const list *l) {
-    const list p = *l;
-    for (uint32_t i = p.count, end = padded(p.count); i < end; i++) {
-        p.x[i] = p.x[0], p.y[i] = p.y[0], p.z[i] = p.z[0];
-        p.index[i] = p.index[0];
-    }
-}
 
 /// A square of a cube's face.
 typedef struct square {
-    uint32_t face, quarter; ///< quarter: of the square around it; WHOLE: the face
-    double a, b, side;      ///< from (a, b) to (a + side, b + side)
+    uint32_t face;
+    double a, b, side; ///< from (a, b) to (a + side, b + side)
 } square;
 
-/// The points that may beat others in the cone of a square, with their products with its corners.
-typedef struct contest {
-    square s;
-    double corners[4][3];
-    both_vec3 sides[2]; ///< the same, two by two
-    double limits[PAIRS_MAX][4];
-    uint32_t count;
-    double margin;
-} contest;
+// ---- the list of a cell ----
 
-static vec3 direction_at(const builder *b, const square *s, double row, double column) {
-    return sym3_mul_vec3(b->inverse, cube_point(s->face, s->a + row * s->side, s->b + column * s->side));
-}
-
-static void contest_make(const builder *b, const square *s, contest *c) {
-    double widened = 1e-7, longest = 0;
-    for (int k = 0; k < 4; k++) {
-        vec3 v = direction_at(b, s, k & 2 ? 1 + widened : -widened, k & 1 ? 1 + widened : -widened);
-        c->corners[k][0] = v.x, c->corners[k][1] = v.y, c->corners[k][2] = v.z;
-        longest = max2(longest, vec3_norm_squared(v));
-    }
-    for (int k = 0; k < 2; k++)
-        c->sides[k] = both_vec3_make(vec3_at(c->corners[2 * k], 0), vec3_at(c->corners[2 * k + 1], 0));
-    c->s = *s;
-    c->count = 0;
-    c->margin = 32 * 0x1p-53 * b->reach * sqrt(longest);
-}
-
-/// Adds point i of the list to the points that may beat others.
-static void enter(contest *c, const list *l, uint32_t i) {
-    both_vec3 p = {both_set(l->x[i]), both_set(l->y[i]), both_set(l->z[i])};
-    for (int k = 0; k < 2; k++)
-        both_store(&c->limits[c->count][2 * k], both_vec3_dot(p, c->sides[k]) - both_set(c->margin));
-    c->count++;
-}
-
-/// Copies the points whose bit is set; *to may be the list itself.
-static void keep(const uint8_t *all, const list *from, list *to) {
-    uint32_t kept = 0, count = from->count;
-    const list f = *from, t = *to;
-    for (uint32_t block = 0; 8 * block < count; block++) {
-        unsigned bits = all[block];
-        if (count - 8 * block < 8) bits &= (1u << (count - 8 * block)) - 1;
-        for (; bits; bits &= bits - 1, kept++) {
-            uint32_t i = 8 * block + (uint32_t)__builtin_ctz(bits);
-            t.x[kept] = f.x[i], t.y[kept] = f.y[i], t.z[kept] = f.z[i];
-            t.index[kept] = f.index[i];
+/// Climbs over edges from a vertex to one whose neighbors have no larger product with (a, b).
+static uint32_t climb(const builder *b, uint32_t vertex, double at_a, double at_b) {
+    const ovoid_polytope *p = b->polytope;
+    double most = -INFINITY;
+    for (uint32_t from = UINT32_MAX; from != vertex;) {
+        from = vertex;
+        for (uint32_t i = p->neighbor_starts[from]; i < p->neighbor_starts[from + 1]; i++) {
+            const mapped *v = &b->vertices[p->neighbors[i]];
+            double value = v->m + (at_a * v->p + at_b * v->q);
+            if (value > most) most = value, vertex = p->neighbors[i];
         }
     }
-    to->count = kept;
-    pad(to);
+    return vertex;
 }
 
-static simd_points get_points(const list *l) { return (simd_points){l->x, l->y, l->z, padded(l->count)}; }
+/// The coordinates of the corners, two by two, of a square that is a little wider.
+typedef struct corners {
+    both a[2], b;
+} corners;
 
-/// Copies the points that are not beaten; *to may be the list itself.
-static void cull(const builder *b, const contest *c, const list *from, list *to) {
-    simd_cull by = {(const double(*)[3])c->corners, (const double(*)[4])c->limits, c->count};
-    simd_points points = get_points(from);
-    simd_find_unbeaten(&by, &points, b->bits);
-    keep(b->bits, from, to);
+static corners make_corners(const square *s) {
+    double low = -1e-7 * s->side, high = s->side - low;
+    return (corners){{both_set(s->a + low), both_set(s->a + high)}, both_make(s->b + low, s->b + high)};
 }
 
-/// The vertex of the list of a square that is extreme at a direction of the square.
-static uint32_t find_winner(const builder *b, const list *l, const square *s, uint32_t row, uint32_t column) {
-    simd_points points = get_points(l);
-    return l->index[simd_find_support(&points, direction_at(b, s, 0.5 * row, 0.5 * column)).index];
+static products multiply(const corners *c, const mapped *v) {
+    both rest = both_set(v->m) + c->b * both_set(v->q), p = both_set(v->p);
+    return (products){rest + c->a[0] * p, rest + c->a[1] * p};
 }
 
-/// Adds the vertices that are extreme at the corners of the square and at its centre, each once. The corners are among
-/// the nine directions of the square around it.
-static void enter_winners(builder *b, contest *c, int level) {
-    uint32_t *own = b->winners[level], found[5];
-    const square *s = &c->s;
-    for (uint32_t i = 0; i < 5; i++) {
-        uint32_t row = i == 4 ? 1 : i & 2, column = i == 4 ? 1 : 2 * (i & 1), before = 0;
-        own[3 * row + column] =
-            i < 4 && s->quarter != WHOLE
-                ? b->winners[level - 1][3 * ((s->quarter >> 1) + row / 2) + (s->quarter & 1) + column / 2]
-                : find_winner(b, &b->levels[level], s, row, column);
-        found[i] = own[3 * row + column];
-        while (found[before] != found[i]) before++;
-        if (before == i) enter(c, &b->levels[0], found[i]);
+/// 1 if all four are below, by the signs of the differences.
+static int is_below(const products *v, const products *limit) {
+    both_bits below = (both_bits)(v->low - limit->low) & (both_bits)(v->high - limit->high);
+    return (below[0] & below[1]) < 0;
+}
+
+/// 1 if a vertex of the list beats these products; the one at `likely` is tried first.
+static int is_beaten(const builder *b, const products *v, uint32_t likely) {
+    uint32_t count = b->count < LIMITS_MAX ? b->count : LIMITS_MAX;
+    if (likely < count && is_below(v, &b->limits[likely])) return 1;
+    for (uint32_t i = 0; i < count; i++)
+        if (is_below(v, &b->limits[i])) return 1;
+    return 0;
+}
+
+static void append(builder *b, uint32_t vertex, const products *v) {
+    both margin = both_set(b->margin);
+    if (b->count < LIMITS_MAX) b->limits[b->count] = (products){v->low - margin, v->high - margin};
+    b->list[b->count++] = vertex;
+}
+
+/// Grows the list from one vertex.
+static void grow(builder *b, const corners *c, uint32_t first) {
+    const ovoid_polytope *p = b->polytope;
+    products v = multiply(c, &b->vertices[first]);
+    b->count = 0;
+    b->met[first] = ++b->stamp;
+    append(b, first, &v);
+    for (uint32_t done = 0; done < b->count; done++) {
+        uint32_t from = b->list[done];
+        for (uint32_t i = p->neighbor_starts[from]; i < p->neighbor_starts[from + 1]; i++) {
+            uint32_t to = p->neighbors[i];
+            if (b->met[to] == b->stamp) continue;
+            b->met[to] = b->stamp;
+            v = multiply(c, &b->vertices[to]);
+            if (!is_beaten(b, &v, done)) append(b, to, &v);
+        }
     }
 }
 
-/// Finds the vertices that are extreme at the middles of the square's sides, before it is divided. l: its own list.
-static void find_middles(builder *b, const square *s, const list *l, int level) {
-    for (uint32_t i = 1; i < SAMPLES; i += 2) b->winners[level][i] = find_winner(b, l, s, i / 3, i % 3);
+/// Drops the vertices that others of the list beat.
+static void cull_by_pairs(builder *b, const corners *c) {
+    uint32_t kept = 0, count = b->count;
+    for (uint32_t i = 0; i < count; i++) {
+        products v = multiply(c, &b->vertices[b->list[i]]);
+        if (!is_beaten(b, &v, 0)) b->list[kept++] = b->list[i];
+    }
+    b->count = kept;
 }
 
-/// Copies the points that no other point of the list beats.
-static void cull_by_pairs(const builder *b, contest *c, const list *from, list *to) {
-    c->count = 0;
-    for (uint32_t i = 0; i < from->count; i++) enter(c, from, i);
-    cull(b, c, from, to);
+static int compare_numbers(const void *context, uint32_t a, uint32_t b) {
+    (void)context;
+    return a < b ? -1 : a > b;
 }
 
-/// Copies the points that the extreme points at five directions of the cell do not beat.
-static void cull_by_samples(builder *b, contest *c, int level) {
-    enter_winners(b, c, level);
-    cull(b, c, &b->levels[level], &b->levels[level + 1]);
+static void sort_list(const builder *b) {
+    uint32_t *list = b->list;
+    if (b->count > FEW) {
+        sort_indices(list, b->scratch, b->count, (index_order){compare_numbers, NULL});
+        return;
+    }
+    for (uint32_t i = 1; i < b->count; i++) {
+        uint32_t v = list[i], k = i;
+        for (; k > 0 && list[k - 1] > v; k--) list[k] = list[k - 1];
+        list[k] = v;
+    }
 }
+
+static void find_list(builder *b, const square *s, uint32_t first) {
+    corners c = make_corners(s);
+    grow(b, &c, first);
+    if (b->count > SIMD_CELL && b->count <= LIMITS_MAX) cull_by_pairs(b, &c);
+    sort_list(b);
+}
+
+// ---- cells ----
 
 static square quarter(const square *s, uint32_t i) {
     double side = 0.5 * s->side;
-    return (square){s->face, i, s->a + (i >> 1) * side, s->b + (i & 1) * side, side};
+    return (square){s->face, s->a + (i >> 1) * side, s->b + (i & 1) * side, side};
 }
 
 /// Reserves consecutive blocks; 0 if there are too many.
@@ -188,59 +205,57 @@ static int reserve(builder *b, uint32_t blocks, uint32_t *at) {
     return 1;
 }
 
-/// Fills a block's entries and clears what follows them, padding too, so that equal shapes are equal blocks.
-static void fill_block(simd_cell *cell, const list *l, uint32_t first) {
-    memset((char *)cell + offsetof(simd_cell, count), 0, sizeof *cell - offsetof(simd_cell, count));
-    for (uint32_t i = 0; i < SIMD_CELL; i++) {
-        uint32_t k = first + i < l->count ? first + i : first;
-        cell->x[i] = l->x[k], cell->y[i] = l->y[k], cell->z[i] = l->z[k];
-        cell->index[i] = l->index[k];
-    }
+static void fill_block(const builder *b, support_block *block, uint32_t first) {
+    *block = (support_block){.count = 0};
+    for (uint32_t i = 0; i < SIMD_CELL; i++) block->index[i] = b->list[first + i < b->count ? first + i : first];
 }
 
-static int fill_list(builder *b, uint32_t at, const list *l) {
-    uint32_t more = (l->count + SIMD_CELL - 1) / SIMD_CELL - 1, next = 0;
+static int fill_list(builder *b, uint32_t at) {
+    uint32_t more = (b->count + SIMD_CELL - 1) / SIMD_CELL - 1, next = 0;
     if (more && !reserve(b, more, &next)) return 0;
-    fill_block(&b->cells[at], l, 0);
-    b->cells[at].count = l->count;
-    b->cells[at].next = next;
-    for (uint32_t i = 0; i < more; i++) fill_block(&b->cells[next + i], l, (i + 1) * SIMD_CELL);
+    fill_block(b, &b->blocks[at], 0);
+    b->blocks[at].count = b->count;
+    b->blocks[at].next = next;
+    for (uint32_t i = 0; i < more; i++) fill_block(b, &b->blocks[next + i], (i + 1) * SIMD_CELL);
     return 1;
 }
 
-/// Fills the cell at a place of the array from the candidates of the cell around it, which are at `level`. nested: the
-/// number of divisions of the cell.
-static int fill_cell(builder *b, const square *s, uint32_t at, int level, int nested) {
-    contest c;
-    list *l = &b->levels[level + 1];
-    contest_make(b, s, &c);
-    cull_by_samples(b, &c, level);
-    if (l->count > SIMD_CELL && l->count <= PAIRS_MAX) cull_by_pairs(b, &c, l, l);
-    if (l->count <= SIMD_CELL || nested == NESTED_MOST || b->used > b->divided_most) return fill_list(b, at, l);
+/// Fills the cell at a place of the array. near: a vertex to climb from; replaced by that found. nested: the number of
+/// divisions of the cell.
+static int fill_cell(builder *b, const square *s, uint32_t at, uint32_t *near, int nested) {
     uint32_t next;
+    *near = climb(b, *near, s->a + 0.5 * s->side, s->b + 0.5 * s->side);
+    find_list(b, s, *near);
+    if (b->count <= SIMD_CELL || nested == NESTED_MOST || b->used > b->divided_most) return fill_list(b, at);
     if (!reserve(b, 4, &next)) return 0;
-    memset(&b->cells[at], 0, sizeof b->cells[at]);
-    b->cells[at].next = next;
-    find_middles(b, s, l, level);
+    b->blocks[at] = (support_block){.next = next};
+    uint32_t inside = *near;
     for (uint32_t i = 0; i < 4; i++) {
         square inner = quarter(s, i);
-        if (!fill_cell(b, &inner, next + i, level + 1, nested + 1)) return 0;
+        if (!fill_cell(b, &inner, next + i, &inside, nested + 1)) return 0;
     }
     return 1;
 }
 
-/// Divides a square of a face down to the cells of the grid. row, column: the square's place in the face divided
-/// `level` times.
-static int fill_grid(builder *b, const square *s, uint32_t row, uint32_t column, int level) {
+/// Maps the vertices for a face.
+static void map_vertices(const builder *b, uint32_t face) {
+    const ovoid_polytope *p = b->polytope;
+    for (uint32_t i = 0; i < p->vertex_count; i++) {
+        vec3 v = sym3_mul_vec3(b->inverse, vec3_at(p->vertices, i));
+        double m = face < 2 ? v.x : face < 4 ? v.y : v.z;
+        b->vertices[i] = (mapped){face & 1 ? -m : m, face < 2 ? v.y : v.x, face < 4 ? v.z : v.y};
+    }
+}
+
+/// Fills all cells of a face, row by row, forth and back, so that the next one is at the side of the last.
+static int fill_face(builder *b, uint32_t face, uint32_t *near) {
     uint32_t k = b->table->k;
-    if (1u << level == k) return fill_cell(b, s, cube_cell(s->face, row, column, k), level, 0);
-    contest c;
-    contest_make(b, s, &c);
-    cull_by_samples(b, &c, level);
-    find_middles(b, s, &b->levels[level + 1], level);
-    for (uint32_t i = 0; i < 4; i++) {
-        square inner = quarter(s, i);
-        if (!fill_grid(b, &inner, 2 * row + (i >> 1), 2 * column + (i & 1), level + 1)) return 0;
+    double side = 2.0 / k;
+    map_vertices(b, face);
+    for (uint32_t i = 0; i < k * k; i++) {
+        uint32_t row = i / k, column = row & 1 ? k - 1 - i % k : i % k;
+        square s = {face, -1 + side * row, -1 + side * column, side};
+        if (!fill_cell(b, &s, cube_cell(face, row, column, k), near, 0)) return 0;
     }
     return 1;
 }
@@ -250,17 +265,15 @@ static int fill_all(builder *b) {
     uint32_t k = b->table->k, grid;
     b->used = 0;
     if (!reserve(b, 6 * k * k, &grid)) return 0;
-    for (uint32_t face = 0; face < 6; face++) {
-        square s = {face, WHOLE, -1, -1, 2};
-        if (!fill_grid(b, &s, 0, 0, 0)) return 0;
-    }
+    for (uint32_t face = 0, near = 0; face < 6; face++)
+        if (!fill_face(b, face, &near)) return 0;
     return 1;
 }
 
 /// The root of the second moments, with radii of a ratio of at most 1e3, and its inverse.
-static void find_map(xyz_points given, double size, sym3 *root, sym3 *inverse) {
-    const double *xyz = given.xyz;
-    uint32_t count = (uint32_t)given.count;
+static void find_map(const ovoid_polytope *p, double size, sym3 *root, sym3 *inverse) {
+    const double *xyz = p->vertices;
+    uint32_t count = p->vertex_count;
     vec3 sum = {0, 0, 0};
     sym3 q = {0, 0, 0, 0, 0, 0};
     for (uint32_t i = 0; i < count; i++) sum = vec3_add(sum, vec3_scale(vec3_at(xyz, i), 1 / size));
@@ -277,55 +290,78 @@ static void find_map(xyz_points given, double size, sym3 *root, sym3 *inverse) {
     *inverse = sym3_from_eigen(s, e.v);
 }
 
-/// Allocates the lists; the first has room for all vertices, the lower ones for fewer.
-static int make_room(builder *b, const double *xyz, uint32_t count, double **numbers) {
-    size_t each = padded(count);
-    *numbers = allocator_allocate(b->allocator, LEVELS * each, 4 * sizeof **numbers);
-    b->cells = allocator_allocate(b->allocator, b->capacity, sizeof *b->cells);
-    if (!*numbers || !b->cells) return 0;
-    // Four doubles for each vertex and level: three coordinates and the index. The last level is room for the bits.
-    for (int i = 0; i < LEVELS; i++) {
-        double *at = *numbers + 4 * each * (size_t)i;
-        b->levels[i] = (list){at, at + each, at + 2 * each, (uint32_t *)(at + 3 * each), 0};
-    }
-    b->bits = (uint8_t *)(*numbers + 4 * each * (LEVELS - 1));
-    list *all = &b->levels[0];
-    for (uint32_t i = 0; i < count; i++) {
-        all->x[i] = xyz[3 * i], all->y[i] = xyz[3 * i + 1], all->z[i] = xyz[3 * i + 2];
-        all->index[i] = i;
-    }
-    all->count = count;
-    pad(all);
+/// 1 if the theorem holds of the neighbors: of solids, and of polygons all of whose vertices are on the loop.
+static int has_edges(const ovoid_polytope *p) {
+    for (uint32_t v = 0; v < p->vertex_count; v++)
+        if (p->neighbor_starts[v] == p->neighbor_starts[v + 1]) return 0;
+    return p->rank >= 2;
+}
+
+static int make_room(builder *b, const ovoid_allocator *allocator) {
+    uint32_t count = b->polytope->vertex_count;
+    b->blocks = allocator_allocate(allocator, b->capacity, sizeof *b->blocks);
+    b->vertices = allocator_allocate(allocator, count, sizeof *b->vertices + 3 * sizeof *b->met);
+    if (!b->vertices || !b->blocks) return 0;
+    b->met = (uint32_t *)(b->vertices + count);
+    b->list = b->met + count;
+    b->scratch = b->list + count;
+    memset(b->met, 0, count * sizeof *b->met);
     return 1;
 }
 
-ovoid_code support_table_create(xyz_points given, const ovoid_allocator *allocator, support_table *table,
-                                simd_cell **cells) {
-    const double *xyz = given.xyz;
-    uint32_t count = (uint32_t)given.count;
-    double size = 0, *numbers = NULL;
+/// The sum of the sizes of the entries: at least by what it makes vectors longer.
+static double bound_norm(sym3 m) {
+    return fabs(m.xx) + fabs(m.yy) + fabs(m.zz) + 2 * (fabs(m.xy) + fabs(m.xz) + fabs(m.yz));
+}
+
+static void find_margin(builder *b, double size) {
+    double norm = bound_norm(b->inverse), longest = 1.75 * norm;
+    b->margin = 0x1p-53 * 32 * (1.75 * size * longest + size * norm);
+    if (b->polytope->rank == 2) b->margin += 4.01 * FACET_FLATNESS * size * longest;
+}
+
+ovoid_code support_table_create(const ovoid_polytope *p, const ovoid_allocator *allocator, support_table *table,
+                                support_block **blocks) {
+    uint32_t count = p->vertex_count;
     *table = (support_table){.k = 0};
-    *cells = NULL;
-    if (count < SUPPORT_TABLE_LEAST) return OVOID_OK;
-    for (size_t i = 0; i < 3 * (size_t)count; i++) size = max2(size, fabs(xyz[i]));
+    *blocks = NULL;
+    if (count < SUPPORT_TABLE_LEAST || !has_edges(p)) return OVOID_OK;
+    double size = compute_extent(p->vertices, count);
     if (!(size > 1e-90 && size < 1e90)) return OVOID_OK;
-    builder b = {
-        .allocator = allocator, .table = table, .capacity = 2 * count, .divided_most = count, .reach = 1.75 * size};
+    builder b = {.polytope = p, .table = table, .capacity = 2 * count, .divided_most = count};
     table->k = K_MOST;
     while (6 * table->k * table->k > count && table->k > 1) table->k /= 2;
-    ovoid_code code = make_room(&b, xyz, count, &numbers) ? OVOID_OK : OVOID_ERROR_MEMORY;
+    ovoid_code code = make_room(&b, allocator) ? OVOID_OK : OVOID_ERROR_MEMORY;
     if (code == OVOID_OK) {
-        find_map(given, size, &table->root, &b.inverse);
+        find_map(p, size, &table->root, &b.inverse);
+        find_margin(&b, size);
         while (table->k && !fill_all(&b)) table->k /= 2;
     }
-    allocator_release(allocator, numbers);
+    allocator_release(allocator, b.vertices);
     if (code != OVOID_OK || !table->k) {
         *table = (support_table){.k = 0};
-        allocator_release(allocator, b.cells);
+        allocator_release(allocator, b.blocks);
         return code;
     }
     table->scale = 0.5 * table->k;
     table->cell_count = b.used;
-    *cells = b.cells;
+    *blocks = b.blocks;
     return OVOID_OK;
+}
+
+// What follows the entries is cleared, padding too, so that equal shapes are equal blocks.
+void support_table_fill(const double *vertices, const support_block *blocks, uint32_t count, simd_cell *cells) {
+    const size_t entries = offsetof(simd_cell, count);
+    for (uint32_t i = 0; i < count; i++) {
+        simd_cell *cell = &cells[i];
+        const support_block *block = &blocks[i];
+        for (uint32_t k = 0; k < SIMD_CELL; k++) {
+            vec3 p = vec3_at(vertices, block->index[k]);
+            cell->x[k] = p.x, cell->y[k] = p.y, cell->z[k] = p.z;
+            cell->index[k] = block->index[k];
+        }
+        memset((char *)cell + entries, 0, sizeof *cell - entries);
+        cell->count = block->count;
+        cell->next = block->next;
+    }
 }

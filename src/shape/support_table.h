@@ -4,7 +4,7 @@
 #define OVOID_SHAPE_SUPPORT_TABLE_H
 
 #include "linear/mat3.h"
-#include "ovoid/base.h"
+#include "ovoid/polytope.h"
 #include "simd/support_cell.h"
 
 /// The map from a direction n to its cell: root n falls in one of the cube's 6 k k cells. k = 0: there is no table.
@@ -18,10 +18,18 @@ typedef struct support_table {
 /// The smallest number of vertices of a body with a table; for fewer, a search of all vertices is as fast.
 enum { SUPPORT_TABLE_LEAST = 96 };
 
-/// The table of count vertices and its array of cell_count blocks, which the caller releases. NULL and k = 0 if a table
-/// would not help or the lengths are unusual. OVOID_OK or MEMORY.
-ovoid_code support_table_create(xyz_points given, const ovoid_allocator *allocator, support_table *table,
-                                simd_cell **cells);
+/// A block of a cell's list, or a divided cell: simd_cell without its coordinates.
+typedef struct support_block {
+    uint32_t index[SIMD_CELL], count, next;
+} support_block;
+
+/// The table of a polytope's vertices and its cell_count blocks, which the caller releases. NULL and k = 0 if a table
+/// would not help, the lengths are unusual or a vertex has no neighbor. OVOID_OK or MEMORY.
+ovoid_code support_table_create(const ovoid_polytope *polytope, const ovoid_allocator *allocator, support_table *table,
+                                support_block **blocks);
+
+/// Fills `count` cells from the blocks and the coordinates of the vertices, x y z of each.
+void support_table_fill(const double *vertices, const support_block *blocks, uint32_t count, simd_cell *cells);
 
 /// The vertex extreme along n, with the bits of simd_find_support over all vertices. Returns 0 without a result if n is
 /// zero, not finite or of extreme length.

@@ -1,5 +1,4 @@
-// The vector kernels of a table of supports (shape/support_table.h): the best of the few vertices that a cell lists,
-// and which of many vertices cannot be the best of a cell.
+// The vector kernel of a table of supports (shape/support_table.h): the best of the few vertices that a cell lists.
 #ifndef OVOID_SIMD_SUPPORT_CELL_H
 #define OVOID_SIMD_SUPPORT_CELL_H
 
@@ -28,19 +27,5 @@ typedef struct simd_extreme {
 /// simd_find_support over the vertices listed.
 simd_extreme simd_find_in_cell(const simd_cell *first, const simd_cell *more, uint32_t count, const vec3 *n);
 simd_extreme simd_find_in_cell_scalar(const simd_cell *first, const simd_cell *more, uint32_t count, const vec3 *n);
-
-/// A point is beaten where for one of the limits all four of its products with the corners are smaller.
-typedef struct simd_cull {
-    const double (*corners)[3]; ///< four of them
-    const double (*limits)[4];
-    uint32_t limit_count;
-} simd_cull;
-
-/// Sets one bit for each of the points, padding too: 1 where the point is not beaten.
-void simd_find_unbeaten(const simd_cull *by, const simd_points *points, uint8_t *bits);
-typedef void simd_unbeaten_function(const simd_cull *by, const simd_points *points, uint8_t *bits);
-
-/// That of one instruction set, for tests: NULL where this machine or build lacks it.
-simd_unbeaten_function *simd_get_unbeaten(simd_isa isa);
 
 #endif

@@ -5,10 +5,22 @@
 #include "check.h"
 #include "shape/block.h"
 
-/// The checksum of docs/polytope.md: FNV-1a of 64 bits over all bytes before it, little-endian.
+static inline uint64_t shape_files_mix(uint64_t sum, uint64_t word) {
+    sum = (sum ^ word) * 0x9e3779b97f4a7c15u;
+    return sum ^ sum >> 32;
+}
+
+/// The checksum of docs/polytope.md over all bytes before it, little-endian: FNV-1a of 64 bits in versions up to 8,
+/// thereafter of words, in turn into four sums.
 static inline void shape_files_mend(uint8_t *bytes, size_t size) {
-    uint64_t h = 0xcbf29ce484222325u;
-    for (size_t i = 0; i + 8 < size; i++) h = (h ^ bytes[i]) * 0x100000001b3u;
+    uint64_t h = bytes[8] > 8 ? 0 : 0xcbf29ce484222325u, sum[4] = {1, 2, 3, 4};
+    for (size_t i = 0; bytes[8] <= 8 && i + 8 < size; i++) h = (h ^ bytes[i]) * 0x100000001b3u;
+    for (size_t i = 0; bytes[8] > 8 && i + 16 <= size; i += 8) {
+        uint64_t word = 0;
+        for (size_t k = 0; k < 8; k++) word |= (uint64_t)bytes[i + k] << 8 * k;
+        sum[i / 8 % 4] = shape_files_mix(sum[i / 8 % 4], word);
+    }
+    for (int k = 0; bytes[8] > 8 && k < 4; k++) h = shape_files_mix(h, sum[k]);
     for (int i = 0; i < 8; i++) bytes[size - 8 + (size_t)i] = (uint8_t)(h >> 8 * i);
 }
 

@@ -7,6 +7,7 @@
 #include "linear/exact.h"
 #include "linear/rotation.h"
 #include "shape/block.h"
+#include "shape/loops.h"
 
 static double cloud[3 * 20000];
 
@@ -399,7 +400,32 @@ static void check_nearly_straight(void) {
     }
 }
 
+// The loop of each facet names its edges from the lower vertex, and begins with the directed edge of the lowest number.
+static void check_loops(void) {
+    uint64_t seed = 57;
+    for (uint32_t count = 8; count < 60; count += 3) {
+        double xyz[3 * 60];
+        for (uint32_t i = 0; i < 3 * count; i++)
+            xyz[i] = count % 2 ? random_normal(&seed) : (double)(random_next(&seed) % 4);
+        ovoid_shape *s = ovoid_shape_create_from_points(xyz, count, NULL, NULL);
+        if (!CHECK(s && s->rank == 3)) continue;
+        const uint32_t *starts = shape_loop_starts(s), *edges = shape_loop_edges(s);
+        for (uint32_t f = 0; f < s->counts.facets; f++) {
+            const uint32_t *corners = shape_loop_vertices(s) + starts[f], size = starts[f + 1] - starts[f];
+            uint32_t first = shape_find_edge(s, corners[0], corners[1]);
+            CHECK(size >= 3);
+            for (uint32_t i = 0; i < size; i++) {
+                uint32_t a = corners[i], b = corners[(i + 1) % size];
+                CHECK_EQ(edges[starts[f] + i], shape_find_edge(s, a < b ? a : b, a < b ? b : a));
+                CHECK_LE(first, shape_find_edge(s, a, b));
+            }
+        }
+        ovoid_shape_destroy(s);
+    }
+}
+
 int main(void) {
+    check_loops();
     check_box();
     check_round();
     check_turned();

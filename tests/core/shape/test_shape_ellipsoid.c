@@ -8,6 +8,7 @@
 #include "places.h"
 #include "shape/ellipsoid.h"
 #include "shape/rim.h"
+#include "shape_files.h"
 
 #include <string.h>
 
@@ -178,9 +179,7 @@ static void test_options(void) {
 
 static void write_again(unsigned char *bytes, size_t size, size_t at, double value) {
     memcpy(bytes + at, &value, sizeof value);
-    uint64_t sum = 0xcbf29ce484222325u;
-    for (size_t i = 0; i + 8 < size; i++) sum = (sum ^ bytes[i]) * 0x100000001b3u;
-    memcpy(bytes + size - 8, &sum, sizeof sum);
+    shape_files_mend(bytes, size);
 }
 
 // The file holds the same shape; one whose half axes or allowance are others than its vertices' is refused.
