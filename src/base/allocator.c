@@ -1,9 +1,30 @@
 // The default allocator, and memory through any.
+#if defined(__linux__)
+#define _DEFAULT_SOURCE // madvise
+#endif
 #include "base/allocator.h"
 
 #include <stdlib.h>
 #if defined(_WIN32)
 #include <malloc.h>
+#endif
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
+// Large arrays of which scattered parts are read begin at a large page, and the system is asked to use such pages for
+// them: else most of these reads wait for the address of their page too. A refusal changes nothing.
+enum { LARGE_PAGE = 1 << 21 };
+
+#if !defined(_WIN32)
+static void *allocate_array(size_t size) {
+    size_t large = size / LARGE_PAGE * LARGE_PAGE;
+    void *memory = aligned_alloc(large ? LARGE_PAGE : 64, size);
+#if defined(__linux__)
+    if (memory && large) (void)madvise(memory, large, MADV_HUGEPAGE);
+#endif
+    return memory;
+}
 #endif
 
 // Windows has an aligned_alloc of its own name, whose memory is not for free().
@@ -13,7 +34,7 @@ static void *allocate_aligned(void *context, size_t size) {
 #if defined(_WIN32)
     return _aligned_malloc((size + 63) / 64 * 64, 64);
 #else
-    return aligned_alloc(64, (size + 63) / 64 * 64);
+    return allocate_array((size + 63) / 64 * 64);
 #endif
 }
 

@@ -13,6 +13,7 @@
 #include "simd/kernels/pair8.h"
 
 #include "simd/kernels/group_gjk.h"
+#include "simd/kernels/kept8.h"
 #include "simd/kernels/solid8.h"
 
 LANES_TARGET int box_axes_find_avx512(const box_axes_query *query, box_axes *out) { return run_axes(query, out); }
@@ -21,6 +22,7 @@ LANES_TARGET epa8_end epa8_grow_avx512(epa8 *s, const epa8_query *query) { retur
 
 const group_gjk_kernels group_gjk_avx512 = {run_group_begin, run_group_support, run_group_start, run_group_advance,
                                             run_group_finish};
+const kept8_kernels kept8_avx512 = {run_compare, run_gaps, run_depths};
 const pair8_kernels pair8_avx512 = {run_spheres, run_ellipsoids, run_supports};
 const solid8_kernels solid8_avx512 = {run_boxes, run_triangles};
 

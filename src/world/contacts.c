@@ -3,6 +3,7 @@
 #include "base/environment.h"
 #include "base/error.h"
 #include "exact/cover_memory.h"
+#include "simd/pair8.h"
 #include "world/step.h"
 
 // ---- deciding
@@ -19,15 +20,21 @@ static size_t count_contacts(const world_pair *pairs, uint32_t count) {
 static void decide_chunk(ovoid_world *w, world_pair *pairs, uint32_t count, chunk *out) {
     uint16_t open[CHUNK];
     uint32_t open_count = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        if (i + PLACES_AHEAD < count) compiler_prefetch(&w->places[pairs[i + PLACES_AHEAD].b]);
-        open[open_count] = (uint16_t)i;
-        open_count += !step_is_answered(w, &pairs[i]);
+    for (uint32_t i = 0; i < count; i += PAIR8) {
+        uint32_t some = count - i < PAIR8 ? count - i : PAIR8;
+        for (uint32_t k = i + PLACES_AHEAD; k < i + PLACES_AHEAD + some && k < count; k++)
+            compiler_prefetch(&w->places[pairs[k].b]);
+        unsigned answered = step_find_answered(w, &pairs[i], some);
+        for (uint32_t k = 0; k < some; k++) {
+            open[open_count] = (uint16_t)(i + k);
+            open_count += !(answered >> k & 1);
+        }
     }
     *out = (chunk){.queried = open_count};
+    open_count = pairs_revalidate(w, pairs, open, open_count);
     for (uint32_t i = 0; i < open_count; i++) {
         step_prefetch(w, pairs, open, i, open_count);
-        pair_update(w, &pairs[open[i]]);
+        pair_update_with(w, &pairs[open[i]], NULL);
         out->full += (pairs[open[i]].flags & PAIR_FULL) != 0;
     }
     out->contacts = count_contacts(pairs, count);
@@ -78,7 +85,7 @@ enum { AHEAD = 12 };
 
 static void prefetch_contact(const ovoid_world *w, const world_pair *p) {
     if (!(p->flags & PAIR_CONTACT)) return;
-    pair_cache_prefetch(&w->pair_cache[p->slot]);
+    prefetch_two_lines(&w->pair_cache[p->slot]);
     compiler_prefetch(&w->places[p->b]);
     compiler_prefetch(&w->bodies[p->a].user);
     compiler_prefetch(&w->bodies[p->b].user);

@@ -90,7 +90,7 @@ static int is_in_box(const world_body *b, const body_place *p) {
 void body_mark_fresh(ovoid_world *w, uint32_t i) {
     if (!(w->marks[i] & (MARK_BOX | MARK_FRESH))) w->changed[w->changed_count++] = i;
     w->marks[i] |= MARK_BOX | MARK_FRESH | MARK_MOVED;
-    w->bodies[i].seen = box_make_empty();
+    w->seen[i] = box_make_empty();
 }
 
 void body_refresh(ovoid_world *w, uint32_t i) {
@@ -98,7 +98,7 @@ void body_refresh(ovoid_world *w, uint32_t i) {
     box old = w->tree.nodes[leaf].bounds, now = world_compute_box(w, i);
     if (!(w->marks[i] & (MARK_BOX | MARK_FRESH))) {
         w->changed[w->changed_count++] = i;
-        w->bodies[i].seen = old;
+        w->seen[i] = old;
         w->marks[i] |= MARK_BOX;
     }
     if (box_is_overlapping(&old, &now)) {
