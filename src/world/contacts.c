@@ -64,20 +64,6 @@ static int decide_full(ovoid_world *w, world_pair *pairs, uint32_t count, chunk 
     return has_memory;
 }
 
-static int decide(ovoid_world *w, uint32_t chunks, ovoid_contacts *found) {
-    int has_memory = 1;
-    task_host_run(&w->host, &(task){decide_chunks, w, chunks, 1});
-    for (uint32_t c = 0; c < chunks; c++) {
-        if (w->chunks[c].full)
-            has_memory &= decide_full(w, &w->pairs[(size_t)c * CHUNK], step_get_chunk_size(w, c), &w->chunks[c]);
-        size_t here = w->chunks[c].contacts;
-        w->chunks[c].contacts = found->count;
-        found->count += here;
-        found->queried += w->chunks[c].queried;
-    }
-    return has_memory;
-}
-
 // ---- writing
 
 // How many pairs ahead what a contact reads is prefetched.
@@ -91,26 +77,67 @@ static void prefetch_contact(const ovoid_world *w, const world_pair *p) {
     compiler_prefetch(&w->bodies[p->b].user);
 }
 
-static void write_chunks(void *work, uint32_t first, uint32_t end, uint32_t worker) {
-    ovoid_world *w = work;
-    (void)worker;
-    for (uint32_t c = first; c < end; c++) {
-        size_t at = w->chunks[c].contacts;
-        for (uint32_t i = 0, count = step_get_chunk_size(w, c); i < count; i++) {
-            const world_pair *p = &w->pairs[(size_t)c * CHUNK + i];
-            if (i + AHEAD < count) prefetch_contact(w, p + AHEAD);
-            if (!(p->flags & PAIR_CONTACT)) continue;
-            w->contacts[at] = pair_make_contact(w, p);
-            if (world_has_witnesses(w)) w->contact_witnesses[at] = w->witnesses[p->slot];
-            at++;
-        }
+// Writes the contacts of a chunk, which are contacts number `at` and those that follow.
+static void write_chunk(ovoid_world *w, uint32_t c, size_t at) {
+    const world_pair *pairs = &w->pairs[(size_t)c * CHUNK];
+    for (uint32_t i = 0, count = step_get_chunk_size(w, c); i < count; i++) {
+        const world_pair *p = &pairs[i];
+        if (i + AHEAD < count) prefetch_contact(w, p + AHEAD);
+        if (!(p->flags & PAIR_CONTACT)) continue;
+        w->contacts[at] = pair_make_contact(w, p);
+        if (world_has_witnesses(w)) w->contact_witnesses[at] = w->witnesses[p->slot];
+        at++;
     }
 }
 
-static int reserve_contacts(ovoid_world *w, size_t count) {
-    return world_reserve(w, (void **)&w->contacts, &w->contact_capacity, 0, count, sizeof *w->contacts) &&
-           (!world_has_witnesses(w) || world_reserve(w, (void **)&w->contact_witnesses, &w->witness_capacity, 0, count,
-                                                     sizeof *w->contact_witnesses));
+static void write_chunks(void *work, uint32_t first, uint32_t end, uint32_t worker) {
+    ovoid_world *w = work;
+    (void)worker;
+    for (uint32_t c = first; c < end; c++) write_chunk(w, c, w->chunks[c].contacts);
+}
+
+// Room for so many contacts, of which the first `used` are written.
+static int reserve_contacts(ovoid_world *w, size_t used, size_t count) {
+    return world_reserve(w, (void **)&w->contacts, &w->contact_capacity, used, count, sizeof *w->contacts) &&
+           (!world_has_witnesses(w) || world_reserve(w, (void **)&w->contact_witnesses, &w->witness_capacity, used,
+                                                     count, sizeof *w->contact_witnesses));
+}
+
+// ---- all chunks
+
+// Adds a chunk that is decided to the counts, once its full searches are repeated. 0: no memory for these.
+static int count_chunk(ovoid_world *w, uint32_t c, ovoid_contacts *found) {
+    int has_memory = 1;
+    chunk *here = &w->chunks[c];
+    if (here->full) has_memory = decide_full(w, &w->pairs[(size_t)c * CHUNK], step_get_chunk_size(w, c), here);
+    size_t contacts = here->contacts;
+    here->contacts = found->count;
+    found->count += contacts;
+    found->queried += here->queried;
+    return has_memory;
+}
+
+// One thread writes each chunk at once, while what it reads is in the near caches. 0: no memory.
+static int answer_alone(ovoid_world *w, uint32_t chunks, ovoid_contacts *found) {
+    int has_memory = 1;
+    for (uint32_t c = 0; c < chunks; c++) {
+        size_t before = found->count;
+        decide_chunks(w, c, c + 1, 0);
+        has_memory &= count_chunk(w, c, found);
+        has_memory = has_memory && reserve_contacts(w, before, found->count);
+        if (has_memory) write_chunk(w, c, before);
+    }
+    return has_memory;
+}
+
+// Several threads decide all chunks, then write them all, when it is known how many contacts come before each.
+static int answer_together(ovoid_world *w, uint32_t chunks, ovoid_contacts *found) {
+    int has_memory = 1;
+    task_host_run(&w->host, &(task){decide_chunks, w, chunks, 1});
+    for (uint32_t c = 0; c < chunks; c++) has_memory &= count_chunk(w, c, found);
+    if (!has_memory || !reserve_contacts(w, 0, found->count)) return 0;
+    task_host_run(&w->host, &(task){write_chunks, w, chunks, 1});
+    return 1;
 }
 
 // ---- the step
@@ -124,8 +151,8 @@ static ovoid_code compute_contacts(ovoid_world *w, const ovoid_contact_query *q,
     uint32_t chunks;
     step_take_query(w, q, 0);
     if (!step_begin(w, &chunks, &found)) return step_refuse_memory(error);
-    if (!decide(w, chunks, &found) || !reserve_contacts(w, found.count)) return step_refuse_memory(error);
-    task_host_run(&w->host, &(task){write_chunks, w, chunks, 1});
+    if (!(w->threads == 1 && !w->host.tasks.start ? answer_alone : answer_together)(w, chunks, &found))
+        return step_refuse_memory(error);
     step_end(w, &found);
     found.items = w->contacts;
     found.witnesses = world_has_witnesses(w) ? w->contact_witnesses : NULL;

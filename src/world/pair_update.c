@@ -7,6 +7,7 @@
 
 #include "body/body_find.h"
 #include "exact/cover_memory.h"
+#include "exact/small.h"
 #include "simd/kept8.h"
 
 #define SLACK_REPORTED 0x1p-49
@@ -127,13 +128,20 @@ double pair_compute_age(const ovoid_world *w, const world_pair *p, const pair_ca
            SLACK_REPORTED * (sum_abs(d) + sum_abs(cache->between) + t + fabs(cache->lower) + fabs(cache->upper));
 }
 
+// 1 if the cached proof was of an overlap and has just been measured: it does not hold. Only a search of many vertices
+// begins at its differences.
+static int has_failed(const ovoid_world *w, const pair_cache *cache, const ovoid_pair *pair) {
+    int is_small = pair->shape_a->padded_count <= SMALL_POINTS_SIGN && pair->shape_b->padded_count <= SMALL_POINTS_SIGN;
+    return is_small && cache->status == OVOID_OVERLAPPING && !world_is_measuring(w);
+}
+
 // cover: with memory for the search, or NULL.
 static void query_shapes(const ovoid_world *w, const world_pair *p, ovoid_cover *cover, ovoid_answer *out) {
     const pair_cache *cache = &w->pair_cache[p->slot];
     const ovoid_body *a = &w->bodies[p->a].body, *b = &w->bodies[p->b].body;
     ovoid_pair both = {a->shape, b->shape, a->pose, b->pose};
     ovoid_proof earlier;
-    int is_warm = cache->proof != OVOID_PROOF_NONE;
+    int is_warm = cache->proof != OVOID_PROOF_NONE && !has_failed(w, cache, &both);
     if (is_warm) write_proof(cache, &earlier);
     const query_goal goal = make_goal(w, p->a, p->b);
     ovoid_options options = w->query_options;
