@@ -15,12 +15,17 @@
 
 #include "simd/kernels/group_gjk.h"
 #include "simd/kernels/kept8.h"
+#include "simd/kernels/move8.h"
 #include "simd/kernels/patch.h"
 #include "simd/kernels/solid8.h"
 
 LANES_TARGET void areas_compute_avx2(const simd_triangles *triangles, vec3 *areas) { run_areas(triangles, areas); }
 
 LANES_TARGET int box_axes_find_avx2(const box_axes_query *query, box_axes *out) { return run_axes(query, out); }
+
+LANES_TARGET void move8_run_avx2(const move8_places *from, const move8_errors *errors, move8_result *out) {
+    run_move(from, errors, out);
+}
 
 LANES_TARGET epa8_end epa8_grow_avx2(epa8 *s, const epa8_query *query) { return run_grow(s, query); }
 

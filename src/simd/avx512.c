@@ -14,9 +14,14 @@
 
 #include "simd/kernels/group_gjk.h"
 #include "simd/kernels/kept8.h"
+#include "simd/kernels/move8.h"
 #include "simd/kernels/solid8.h"
 
 LANES_TARGET int box_axes_find_avx512(const box_axes_query *query, box_axes *out) { return run_axes(query, out); }
+
+LANES_TARGET void move8_run_avx512(const move8_places *from, const move8_errors *errors, move8_result *out) {
+    run_move(from, errors, out);
+}
 
 LANES_TARGET epa8_end epa8_grow_avx512(epa8 *s, const epa8_query *query) { return run_grow(s, query); }
 

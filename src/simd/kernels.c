@@ -32,6 +32,7 @@ static epa8_function *const epa8_of[SIMD_ISA_COUNT] = KERNELS(epa8_grow_scalar, 
 static const group_gjk_kernels *const group_gjk_of[SIMD_ISA_COUNT] =
     KERNELS(&group_gjk_scalar, &group_gjk_avx2, &group_gjk_avx512);
 static const kept8_kernels *const kept8_of[SIMD_ISA_COUNT] = KERNELS(&kept8_scalar, &kept8_avx2, &kept8_avx512);
+static move8_function *const move8_of[SIMD_ISA_COUNT] = KERNELS(move8_run_scalar, move8_run_avx2, move8_run_avx512);
 static const pair8_kernels *const pair8_of[SIMD_ISA_COUNT] = KERNELS(&pair8_scalar, &pair8_avx2, &pair8_avx512);
 static const patch_kernels *const patch_of[SIMD_ISA_COUNT] = KERNELS(&patch_scalar, &patch_avx2, &patch_avx2);
 static const solid8_kernels *const solid8_of[SIMD_ISA_COUNT] = KERNELS(&solid8_scalar, &solid8_avx2, &solid8_avx512);
@@ -56,6 +57,7 @@ int box_axes_find(const box_axes_query *query, box_axes *out) { return box_axes_
 epa8_end epa8_grow(epa8 *s, const epa8_query *query) { return epa8_of[find_widest()](s, query); }
 const group_gjk_kernels *group_gjk_get_kernels(size_t pairs) { return group_gjk_of[find_isa_of(pairs)]; }
 const kept8_kernels *kept8_get_kernels(size_t pairs) { return kept8_of[find_isa_of(pairs)]; }
+move8_function *move8_get(size_t bodies) { return move8_of[find_isa_of(bodies)]; }
 const pair8_kernels *pair8_get_kernels(size_t pairs) { return pair8_of[find_isa_of(pairs)]; }
 const patch_kernels *patch_get_kernels(void) { return patch_of[find_widest()]; }
 const solid8_kernels *solid8_get_kernels(void) { return solid8_of[find_widest()]; }
@@ -84,6 +86,7 @@ box_axes_function *box_axes_get(simd_isa isa) { return has(isa) ? box_axes_of[is
 epa8_function *epa8_get(simd_isa isa) { return has(isa) ? epa8_of[isa] : NULL; }
 const group_gjk_kernels *group_gjk_get_kernels_of(simd_isa isa) { return has(isa) ? group_gjk_of[isa] : NULL; }
 const kept8_kernels *kept8_get_kernels_of(simd_isa isa) { return has(isa) ? kept8_of[isa] : NULL; }
+move8_function *move8_get_of(simd_isa isa) { return has(isa) ? move8_of[isa] : NULL; }
 const pair8_kernels *pair8_get_kernels_of(simd_isa isa) { return has(isa) ? pair8_of[isa] : NULL; }
 const patch_kernels *patch_get_kernels_of(simd_isa isa) { return has(isa) ? patch_of[isa] : NULL; }
 const solid8_kernels *solid8_get_kernels_of(simd_isa isa) { return has(isa) ? solid8_of[isa] : NULL; }

@@ -13,6 +13,7 @@
 
 #include "simd/kernels/group_gjk.h"
 #include "simd/kernels/kept8.h"
+#include "simd/kernels/move8.h"
 #include "simd/kernels/patch.h"
 #include "simd/kernels/solid8.h"
 
@@ -22,6 +23,10 @@ const uint8_t box_axes_second[BOX_AXES] = {1, 2, 3, 4, 5, 2, 3, 4, 5, 3, 4, 5, 4
 void areas_compute_scalar(const simd_triangles *triangles, vec3 *areas) { run_areas(triangles, areas); }
 
 int box_axes_find_scalar(const box_axes_query *query, box_axes *out) { return run_axes(query, out); }
+
+void move8_run_scalar(const move8_places *from, const move8_errors *errors, move8_result *out) {
+    run_move(from, errors, out);
+}
 
 epa8_end epa8_grow_scalar(epa8 *s, const epa8_query *query) { return run_grow(s, query); }
 

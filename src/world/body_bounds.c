@@ -6,11 +6,6 @@
 #include "simd/pair.h"
 #include "solid/solid.h"
 
-// u = 2^-53. R(q) is off by 36 u, a product with it by 6 u more, the sum by u of itself: 43 u |local| + u |r|, and
-// local itself, a sum, by u. The largest coordinate times sqrt 3 bounds a length: 64 u 2 (max|p| + max|local|) is above
-// it.
-#define CENTER_ERROR (128 * 0x1p-53)
-
 body_sphere body_compute_sphere(const ovoid_body *body) {
     const ovoid_shape *s = body->shape;
     if (body->compound) {
@@ -28,7 +23,7 @@ body_sphere body_compute_sphere(const ovoid_body *body) {
 }
 
 static double find_center_error(const body_sphere *ball, const ovoid_pose *pose) {
-    return CENTER_ERROR * (vec3_max_abs(pose->position) + ball->size) + OVOID_LENGTH_MIN;
+    return BODY_CENTER_ERROR * (vec3_max_abs(pose->position) + ball->size) + OVOID_LENGTH_MIN;
 }
 
 vec3 body_compute_center(const body_sphere *ball, const ovoid_pose *pose, double *center_error) {

@@ -11,6 +11,7 @@
 #include "base/environment.h"
 #include "base/error.h"
 #include "linear/rotation.h"
+#include "simd/move8.h"
 #include "world/body_bounds.h"
 #include "world/tree/wide_tree.h"
 
@@ -186,17 +187,54 @@ typedef struct moves {
     const ovoid_pose *poses;
 } moves;
 
-// Batches of more bodies than this are moved first, then get their boxes: LEAST with several threads; MANY with one, as
-// the tree then no longer fits into the near caches and its leaves are prefetched.
-enum { LEAST = 512, MANY = 8192 };
+// A worker's part of a batch is at least so many bodies.
+enum { LEAST = 512 };
+
+static const move8_errors errors = {SLACK, NEARLY_UNIT, BODY_CENTER_ERROR, OVOID_LENGTH_MIN};
+
+static void set_places(const moves *m, uint32_t item, move8_places *out, uint32_t lane) {
+    uint32_t i = (uint32_t)(m->ids[item] >> 32);
+    const world_body *b = &m->w->bodies[i];
+    out->from[lane] = &b->body.pose.position.x;
+    out->to[lane] = &m->poses[item].position.x;
+    out->ball[lane] = &b->local.x;
+    out->reach[lane] = &b->reach;
+    out->place[lane] = &m->w->places[i].at.x;
+    out->placed[lane] = &b->placed.at.x;
+    out->room[lane] = b->low;
+}
+
+// Stores what a lane says of a body.
+static void take_place(ovoid_world *w, uint32_t i, const ovoid_pose *pose, const move8_result *from, uint32_t lane) {
+    world_body *b = &w->bodies[i];
+    for (int k = 0; k < 3; k++) b->displacement[k] = (float)from->displacement[k].lane[lane];
+    b->turn = (float)from->turn.lane[lane];
+    w->places[i] = (body_place){{from->place[0].lane[lane], from->place[1].lane[lane], from->place[2].lane[lane]},
+                                from->place[3].lane[lane]};
+    b->center_error = from->center_error.lane[lane];
+    b->body.pose = *pose;
+    w->marks[i] |= MARK_MOVED | MARK_POSED | (from->left >> lane & 1 ? MARK_LEFT : 0);
+}
+
+// Moves up to eight bodies from an item of the batch on.
+static void place_some(const moves *m, uint32_t first, uint32_t count) {
+    ovoid_world *w = m->w;
+    move8_places places = {.count = count};
+    move8_result found;
+    for (uint32_t k = 0; k < PAIR8; k++) set_places(m, k < count ? first + k : first, &places, k);
+    move8_get(count)(&places, &errors, &found);
+    for (uint32_t k = 0; k < count; k++) {
+        uint32_t i = (uint32_t)(m->ids[first + k] >> 32);
+        const ovoid_pose *pose = &m->poses[first + k];
+        if (found.moved >> k & 1) take_place(w, i, pose, &found, k);
+        if (found.odd >> k & 1 && place_body(w, i, pose)) w->marks[i] |= MARK_LEFT;
+    }
+}
 
 static void place_bodies(void *work, uint32_t first, uint32_t end, uint32_t worker) {
     const moves *m = work;
     (void)worker;
-    for (uint32_t k = first; k < end; k++) {
-        uint32_t i = (uint32_t)(m->ids[k] >> 32);
-        if (place_body(m->w, i, &m->poses[k])) m->w->marks[i] |= MARK_LEFT;
-    }
+    for (uint32_t k = first; k < end; k += PAIR8) place_some(m, k, end - k < PAIR8 ? end - k : PAIR8);
 }
 
 // Leaves, their siblings and their parents are scattered in the tree: they are prefetched some bodies ahead.
@@ -231,30 +269,34 @@ static void move_by_all(ovoid_world *w, const ovoid_id *ids, const ovoid_pose *p
     }
 }
 
-// 1 if no id occurs twice; all of them must be valid.
-static int are_different(ovoid_world *w, const ovoid_id *ids, size_t count) {
+// OVOID_OK, or what is wrong with a batch; *are_different: no id occurs twice.
+static ovoid_code validate_moves(ovoid_world *w, const ovoid_world_moves *all, int *are_different, ovoid_error *error) {
+    ovoid_code code = OVOID_OK;
     size_t k = 0;
-    for (; k < count && !(w->marks[ids[k] >> 32] & MARK_NAMED); k++) w->marks[ids[k] >> 32] |= MARK_NAMED;
-    for (size_t j = 0; j < k; j++) w->marks[ids[j] >> 32] &= (uint8_t)~MARK_NAMED;
-    return k == count;
+    *are_different = 1;
+    for (; k < all->count; k++) {
+        code = validate_move(w, all->ids[k], &all->poses[k], (int64_t)k, error);
+        if (code != OVOID_OK) break;
+        uint8_t *mark = &w->marks[all->ids[k] >> 32];
+        if (*mark & MARK_NAMED) *are_different = 0;
+        *mark |= MARK_NAMED;
+    }
+    for (size_t j = 0; j < k; j++) w->marks[all->ids[j] >> 32] &= (uint8_t)~MARK_NAMED;
+    return code;
 }
 
 static ovoid_code move_many(ovoid_world *w, const ovoid_world_moves *all, ovoid_error *error) {
-    const ovoid_id *ids = all->ids;
-    const ovoid_pose *poses = all->poses;
-    size_t count = all->count;
-    OVOID_ASSERT(w && ((ids && poses) || !count));
-    for (size_t k = 0; k < count; k++) {
-        ovoid_code code = validate_move(w, ids[k], &poses[k], (int64_t)k, error);
-        if (code != OVOID_OK) return code;
-    }
-    if (count > (w->threads > 1 ? LEAST : MANY) && are_different(w, ids, count)) {
-        move_by_all(w, ids, poses, (uint32_t)count);
+    OVOID_ASSERT(w && ((all->ids && all->poses) || !all->count));
+    int are_different;
+    ovoid_code code = validate_moves(w, all, &are_different, error);
+    if (code != OVOID_OK) return code;
+    if (all->count > 1 && are_different) {
+        move_by_all(w, all->ids, all->poses, (uint32_t)all->count);
         return OVOID_OK;
     }
-    for (size_t k = 0; k < count; k++) {
-        uint32_t i = (uint32_t)(ids[k] >> 32);
-        if (place_body(w, i, &poses[k])) body_refresh(w, i);
+    for (size_t k = 0; k < all->count; k++) {
+        uint32_t i = (uint32_t)(all->ids[k] >> 32);
+        if (place_body(w, i, &all->poses[k])) body_refresh(w, i);
     }
     return OVOID_OK;
 }
