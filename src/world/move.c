@@ -94,20 +94,36 @@ void body_mark_fresh(ovoid_world *w, uint32_t i) {
     w->seen[i] = box_make_empty();
 }
 
-void body_refresh(ovoid_world *w, uint32_t i) {
-    uint32_t leaf = w->leaf_of[i];
-    box old = w->tree.nodes[leaf].bounds, now = world_compute_box(w, i);
+// Gives a leaf its body's new box, but leaves the tree above it as it is until settle_box. Workers do this at the same
+// time for different bodies.
+static void replace_box(ovoid_world *w, uint32_t i) {
+    box *bounds = &w->tree.nodes[w->leaf_of[i]].bounds;
+    box now = world_compute_box(w, i);
+    if (!(w->marks[i] & (MARK_BOX | MARK_FRESH))) w->seen[i] = *bounds;
+    if (!box_is_overlapping(bounds, &now)) w->marks[i] |= MARK_AWAY;
+    *bounds = now;
+}
+
+// Fits the tree to a leaf's new box, and lists the body as changed. Leaves that are not settled yet may be in the tree:
+// each brings the nodes above it up to date when it is its turn.
+static void settle_box(ovoid_world *w, uint32_t i) {
+    box now = w->tree.nodes[w->leaf_of[i]].bounds;
     if (!(w->marks[i] & (MARK_BOX | MARK_FRESH))) {
         w->changed[w->changed_count++] = i;
-        w->seen[i] = old;
         w->marks[i] |= MARK_BOX;
     }
-    if (box_is_overlapping(&old, &now)) {
-        dynamic_tree_refit(&w->tree, leaf, &now);
-    } else {
-        dynamic_tree_remove(&w->tree, leaf, w->leaf_of);
+    if (w->marks[i] & MARK_AWAY) {
+        dynamic_tree_remove(&w->tree, w->leaf_of[i], w->leaf_of);
         dynamic_tree_add(&w->tree, i, &now, w->leaf_of);
+    } else {
+        dynamic_tree_refit(&w->tree, w->leaf_of[i], &now);
     }
+    w->marks[i] &= (uint8_t) ~(MARK_LEFT | MARK_AWAY);
+}
+
+void body_refresh(ovoid_world *w, uint32_t i) {
+    replace_box(w, i);
+    settle_box(w, i);
 }
 
 // The largest deviation from unit length of a quaternion that is used without normalisation, as most are normalised
@@ -179,8 +195,8 @@ static ovoid_code validate_move(const ovoid_world *w, ovoid_id id, const ovoid_p
     return world_validate_body(&moved, place, error);
 }
 
-// A batch of moves, no body twice: all workers move the bodies, then bodies that left their boxes get new ones, in
-// order.
+// A batch of moves, no body twice: all workers move the bodies and replace the boxes of those that left them, then the
+// tree is fitted to these in order.
 typedef struct moves {
     ovoid_world *w;
     const ovoid_id *ids;
@@ -256,16 +272,25 @@ static void fetch_parent(const ovoid_world *w, uint32_t i) {
     if (parent != NONE) fetch_couple(w, parent);
 }
 
+static void replace_boxes(void *work, uint32_t first, uint32_t end, uint32_t worker) {
+    const moves *m = work;
+    (void)worker;
+    for (uint32_t k = first; k < end; k++) {
+        if (k + AHEAD < end) fetch_leaf(m->w, (uint32_t)(m->ids[k + AHEAD] >> 32));
+        uint32_t i = (uint32_t)(m->ids[k] >> 32);
+        if (m->w->marks[i] & MARK_LEFT) replace_box(m->w, i);
+    }
+}
+
 static void move_by_all(ovoid_world *w, const ovoid_id *ids, const ovoid_pose *poses, uint32_t count) {
     moves all = {w, ids, poses};
     task_host_run(&w->host, &(task){place_bodies, &all, count, LEAST});
+    task_host_run(&w->host, &(task){replace_boxes, &all, count, LEAST});
     for (uint32_t k = 0; k < count; k++) {
         if (k + AHEAD < count) fetch_leaf(w, (uint32_t)(ids[k + AHEAD] >> 32));
         if (k + PARENTS_AHEAD < count) fetch_parent(w, (uint32_t)(ids[k + PARENTS_AHEAD] >> 32));
         uint32_t i = (uint32_t)(ids[k] >> 32);
-        if (!(w->marks[i] & MARK_LEFT)) continue;
-        w->marks[i] &= (uint8_t)~MARK_LEFT;
-        body_refresh(w, i);
+        if (w->marks[i] & MARK_LEFT) settle_box(w, i);
     }
 }
 

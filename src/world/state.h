@@ -23,8 +23,9 @@ typedef struct body_place {
 } body_place;
 
 /// Marks of a body since the last step: its box changed, all its pairs must be found again, its pairs must be compared
-/// again, it has another pose. NAMED, and LEFT (its box), are used within one call.
-enum { MARK_BOX = 1, MARK_FRESH = 2, MARK_MOVED = 4, MARK_NAMED = 8, MARK_LEFT = 16, MARK_POSED = 32 };
+/// again, it has another pose. NAMED, LEFT (its box) and AWAY (its new box does not overlap the old one) are used
+/// within one call.
+enum { MARK_BOX = 1, MARK_FRESH = 2, MARK_MOVED = 4, MARK_NAMED = 8, MARK_LEFT = 16, MARK_POSED = 32, MARK_AWAY = 64 };
 
 /// Four cache lines, of which pairs read the first two.
 typedef struct world_body {
