@@ -8,6 +8,7 @@
 
 #include "world/tree/dynamic_tree_traverse.h"
 #include "world/tree/radix_sort.h"
+#include "world/tree/wide_tree.h"
 
 #include <string.h>
 
@@ -63,7 +64,7 @@ static int take_leaf(void *context, const tree_node *leaf) {
 static int find_pairs_of(const ovoid_world *w, uint32_t i, gathered *g) {
     box bounds = w->tree.nodes[w->leaf_of[i]].bounds;
     pair_search search = {w, i, g};
-    return dynamic_tree_find_overlaps(&w->tree, &bounds, take_leaf, &search);
+    return dynamic_tree_find_new(&w->tree, &bounds, &w->seen[i], take_leaf, &search);
 }
 
 static void find_pairs(void *work, uint32_t first, uint32_t end, uint32_t worker) {
@@ -85,6 +86,14 @@ static int sort_changed(ovoid_world *w) {
     return 1;
 }
 
+// Names the leaves of all changed bodies as fresh for the search, or no longer.
+static void set_fresh(ovoid_world *w, int is_fresh) {
+    for (uint32_t k = 0; w->tree.wide_count && k < w->changed_count; k++) {
+        uint32_t leaf = w->leaf_of[w->changed[k]];
+        if (leaf != NONE) wide_tree_set_fresh(&w->tree, leaf, is_fresh);
+    }
+}
+
 // Building the wide nodes costs as much as they save in this many searches, as a share of all bodies.
 enum { WIDEN = 16 };
 
@@ -93,7 +102,9 @@ static int find_new(ovoid_world *w, size_t *count) {
     if (!sort_changed(w)) return 0;
     if ((uint64_t)w->changed_count * WIDEN > w->count) world_widen_tree(w);
     for (uint32_t k = 0; k < w->threads; k++) w->gathered[k].count = 0, w->gathered[k].failed = 0;
+    set_fresh(w, 1);
     task_host_run(&w->host, &(task){find_pairs, w, w->changed_count, LEAST});
+    set_fresh(w, 0);
     *count = 0;
     for (uint32_t k = 0; k < w->threads; k++) {
         if (w->gathered[k].failed) return 0;
