@@ -11,6 +11,7 @@
 #include "simd/kernels/areas.h"
 #include "simd/kernels/box_axes.h"
 #include "simd/kernels/epa8.h"
+#include "simd/kernels/extents.h"
 #include "simd/kernels/pair8.h"
 
 #include "simd/kernels/group_gjk.h"
@@ -22,6 +23,10 @@
 LANES_TARGET void areas_compute_avx2(const simd_triangles *triangles, vec3 *areas) { run_areas(triangles, areas); }
 
 LANES_TARGET int box_axes_find_avx2(const box_axes_query *query, box_axes *out) { return run_axes(query, out); }
+
+LANES_TARGET simd_extents extents_find_avx2(const simd_points *points, const mat3 *rows) {
+    return run_extents(points, rows);
+}
 
 LANES_TARGET void move8_run_avx2(const move8_places *from, const move8_errors *errors, move8_result *out) {
     run_move(from, errors, out);

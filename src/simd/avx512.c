@@ -10,6 +10,7 @@
 
 #include "simd/kernels/box_axes.h"
 #include "simd/kernels/epa8.h"
+#include "simd/kernels/extents.h"
 #include "simd/kernels/pair8.h"
 
 #include "simd/kernels/group_gjk.h"
@@ -18,6 +19,10 @@
 #include "simd/kernels/solid8.h"
 
 LANES_TARGET int box_axes_find_avx512(const box_axes_query *query, box_axes *out) { return run_axes(query, out); }
+
+LANES_TARGET simd_extents extents_find_avx512(const simd_points *points, const mat3 *rows) {
+    return run_extents(points, rows);
+}
 
 LANES_TARGET void move8_run_avx512(const move8_places *from, const move8_errors *errors, move8_result *out) {
     run_move(from, errors, out);

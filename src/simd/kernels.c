@@ -29,6 +29,8 @@ static areas_function *const areas_of[SIMD_ISA_COUNT] =
 static box_axes_function *const box_axes_of[SIMD_ISA_COUNT] =
     KERNELS(box_axes_find_scalar, box_axes_find_avx2, box_axes_find_avx512);
 static epa8_function *const epa8_of[SIMD_ISA_COUNT] = KERNELS(epa8_grow_scalar, epa8_grow_avx2, epa8_grow_avx512);
+static simd_extents_function *const extents_of[SIMD_ISA_COUNT] =
+    KERNELS(extents_find_scalar, extents_find_avx2, extents_find_avx512);
 static const group_gjk_kernels *const group_gjk_of[SIMD_ISA_COUNT] =
     KERNELS(&group_gjk_scalar, &group_gjk_avx2, &group_gjk_avx512);
 static const kept8_kernels *const kept8_of[SIMD_ISA_COUNT] = KERNELS(&kept8_scalar, &kept8_avx2, &kept8_avx512);
@@ -55,6 +57,9 @@ static inline simd_isa find_isa_of(size_t pairs) {
 void areas_compute(const simd_triangles *triangles, vec3 *areas) { areas_of[find_widest()](triangles, areas); }
 int box_axes_find(const box_axes_query *query, box_axes *out) { return box_axes_of[find_widest()](query, out); }
 epa8_end epa8_grow(epa8 *s, const epa8_query *query) { return epa8_of[find_widest()](s, query); }
+simd_extents simd_find_extents(const simd_points *points, const mat3 *rows) {
+    return extents_of[find_widest()](points, rows);
+}
 const group_gjk_kernels *group_gjk_get_kernels(size_t pairs) { return group_gjk_of[find_isa_of(pairs)]; }
 const kept8_kernels *kept8_get_kernels(size_t pairs) { return kept8_of[find_isa_of(pairs)]; }
 move8_function *move8_get(size_t bodies) { return move8_of[find_isa_of(bodies)]; }
@@ -84,6 +89,7 @@ void simd_find_kept(const small_gjk_query *query, const small_gjk_kept *kept, sm
 areas_function *areas_get(simd_isa isa) { return has(isa) ? areas_of[isa] : NULL; }
 box_axes_function *box_axes_get(simd_isa isa) { return has(isa) ? box_axes_of[isa] : NULL; }
 epa8_function *epa8_get(simd_isa isa) { return has(isa) ? epa8_of[isa] : NULL; }
+simd_extents_function *simd_get_extents(simd_isa isa) { return has(isa) ? extents_of[isa] : NULL; }
 const group_gjk_kernels *group_gjk_get_kernels_of(simd_isa isa) { return has(isa) ? group_gjk_of[isa] : NULL; }
 const kept8_kernels *kept8_get_kernels_of(simd_isa isa) { return has(isa) ? kept8_of[isa] : NULL; }
 move8_function *move8_get_of(simd_isa isa) { return has(isa) ? move8_of[isa] : NULL; }

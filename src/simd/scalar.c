@@ -9,6 +9,7 @@
 #include "simd/kernels/areas.h"
 #include "simd/kernels/box_axes.h"
 #include "simd/kernels/epa8.h"
+#include "simd/kernels/extents.h"
 #include "simd/kernels/pair8.h"
 
 #include "simd/kernels/group_gjk.h"
@@ -23,6 +24,8 @@ const uint8_t box_axes_second[BOX_AXES] = {1, 2, 3, 4, 5, 2, 3, 4, 5, 3, 4, 5, 4
 void areas_compute_scalar(const simd_triangles *triangles, vec3 *areas) { run_areas(triangles, areas); }
 
 int box_axes_find_scalar(const box_axes_query *query, box_axes *out) { return run_axes(query, out); }
+
+simd_extents extents_find_scalar(const simd_points *points, const mat3 *rows) { return run_extents(points, rows); }
 
 void move8_run_scalar(const move8_places *from, const move8_errors *errors, move8_result *out) {
     run_move(from, errors, out);
