@@ -6,7 +6,6 @@
 #include "simd/areas.h"
 #include "simd/box_axes.h"
 #include "simd/epa8.h"
-#include "simd/extents.h"
 #include "simd/group_gjk.h"
 #include "simd/kept8.h"
 #include "simd/move8.h"

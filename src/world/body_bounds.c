@@ -3,7 +3,7 @@
 
 #include "compound/compound.h"
 #include "linear/rotation.h"
-#include "simd/extents.h"
+#include "simd/support.h"
 #include "solid/solid.h"
 
 body_sphere body_compute_sphere(const ovoid_body *body) {

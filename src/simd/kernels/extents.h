@@ -1,6 +1,6 @@
-// The kernel of extents.h, written once over lanes.
-#include "simd/extents.h"
+// The kernel of extents (support.h), written once over lanes.
 #include "simd/kernels/lanes.h"
+#include "simd/support.h"
 
 LANES_TARGET static simd_extents run_extents(const simd_points *p, const mat3 *m) {
     const vec3 rows[3] = {m->r0, m->r1, m->r2};

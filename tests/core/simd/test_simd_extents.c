@@ -1,6 +1,6 @@
 // The kernel of extents against the scalar support along each direction and against it: the same numbers, by all
 // instruction sets, for all numbers of points that a shape may have. No tolerance.
-#include "simd/extents.h"
+#include "simd/support.h"
 
 #include "check.h"
 
