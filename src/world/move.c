@@ -232,6 +232,16 @@ static void take_place(ovoid_world *w, uint32_t i, const ovoid_pose *pose, const
     w->marks[i] |= MARK_MOVED | MARK_POSED | (from->left >> lane & 1 ? MARK_LEFT : 0);
 }
 
+// How many bodies ahead a body is prefetched. The next ones in memory come by themselves, but not across pages.
+enum { BODIES_AHEAD = 16 };
+
+static void fetch_body(const moves *m, uint32_t item) {
+    uint32_t i = (uint32_t)(m->ids[item] >> 32);
+    prefetch_two_lines(&m->w->bodies[i]);
+    prefetch_two_lines(&m->w->bodies[i].local);
+    compiler_prefetch(&m->w->places[i]);
+}
+
 // Moves up to eight bodies from an item of the batch on.
 static void place_some(const moves *m, uint32_t first, uint32_t count) {
     ovoid_world *w = m->w;
@@ -250,7 +260,10 @@ static void place_some(const moves *m, uint32_t first, uint32_t count) {
 static void place_bodies(void *work, uint32_t first, uint32_t end, uint32_t worker) {
     const moves *m = work;
     (void)worker;
-    for (uint32_t k = first; k < end; k += PAIR8) place_some(m, k, end - k < PAIR8 ? end - k : PAIR8);
+    for (uint32_t k = first; k < end; k += PAIR8) {
+        for (uint32_t j = k + BODIES_AHEAD; j < k + BODIES_AHEAD + PAIR8 && j < end; j++) fetch_body(m, j);
+        place_some(m, k, end - k < PAIR8 ? end - k : PAIR8);
+    }
 }
 
 // Leaves, their siblings and their parents are scattered in the tree: they are prefetched some bodies ahead.
