@@ -12,19 +12,21 @@
 #include <sys/mman.h>
 #endif
 
-// Large arrays of which scattered parts are read begin at a large page, and the system is asked to use such pages for
-// them: else most of these reads wait for the address of their page too. A refusal changes nothing.
+// Large arrays of which scattered parts are read begin at a large page, and Linux is asked to use such pages for them:
+// else most of these reads wait for the address of their page too. A refusal changes nothing. What is behind the last
+// whole page is not touched, and so takes no memory.
+#if defined(__linux__)
 enum { LARGE_PAGE = 1 << 21 };
 
-#if !defined(_WIN32)
 static void *allocate_array(size_t size) {
     size_t large = size / LARGE_PAGE * LARGE_PAGE;
-    void *memory = aligned_alloc(large ? LARGE_PAGE : 64, size);
-#if defined(__linux__)
-    if (memory && large) (void)madvise(memory, large, MADV_HUGEPAGE);
-#endif
+    if (!large || size > SIZE_MAX - LARGE_PAGE) return aligned_alloc(64, size);
+    void *memory = aligned_alloc(LARGE_PAGE, (size + LARGE_PAGE - 1) / LARGE_PAGE * LARGE_PAGE);
+    if (memory) (void)madvise(memory, large, MADV_HUGEPAGE);
     return memory;
 }
+#elif !defined(_WIN32)
+static void *allocate_array(size_t size) { return aligned_alloc(64, size); }
 #endif
 
 // Windows has an aligned_alloc of its own name, whose memory is not for free().
