@@ -39,7 +39,7 @@ tests_of() {
     simd) echo "test_simd $query" ;;
     environment) echo "test_environment $query" ;;
     tools) echo "test_tools" ;;
-    world) echo "test_world_depth test_world_tree test_world_margins test_world_rules test_world_even test_world_states test_world_find test_world test_world_far test_world_threads test_world_soak" ;;
+    world) echo "test_simd_extents test_simd_kept8 test_simd_move8 test_world_moves test_world_depth test_world_tree test_world_margins test_world_rules test_world_even test_world_states test_world_find test_world test_world_far test_world_threads test_world_soak" ;;
     solid_manifolds) echo "test_solid_facets test_solid_contacts test_solid_manifolds test_world_slide" ;;
     world_manifolds) echo "test_world_manifolds test_body_manifolds test_world_rules test_world_threads test_world_soak" ;;
     solid_body) echo "test_solid_compound test_solid_impact test_solid_impact_altered test_world_solids test_io_scene" ;;

@@ -1,9 +1,32 @@
 // The default allocator, and memory through any.
+#if defined(__linux__)
+#define _DEFAULT_SOURCE // madvise
+#endif
 #include "base/allocator.h"
 
 #include <stdlib.h>
 #if defined(_WIN32)
 #include <malloc.h>
+#endif
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
+// Large arrays of which scattered parts are read begin at a large page, and Linux is asked to use such pages for them:
+// else most of these reads wait for the address of their page too. A refusal changes nothing. What is behind the last
+// whole page is not touched, and so takes no memory.
+#if defined(__linux__)
+enum { LARGE_PAGE = 1 << 21 };
+
+static void *allocate_array(size_t size) {
+    size_t large = size / LARGE_PAGE * LARGE_PAGE;
+    if (!large || size > SIZE_MAX - LARGE_PAGE) return aligned_alloc(64, size);
+    void *memory = aligned_alloc(LARGE_PAGE, (size + LARGE_PAGE - 1) / LARGE_PAGE * LARGE_PAGE);
+    if (memory) (void)madvise(memory, large, MADV_HUGEPAGE);
+    return memory;
+}
+#elif !defined(_WIN32)
+static void *allocate_array(size_t size) { return aligned_alloc(64, size); }
 #endif
 
 // Windows has an aligned_alloc of its own name, whose memory is not for free().
@@ -13,7 +36,7 @@ static void *allocate_aligned(void *context, size_t size) {
 #if defined(_WIN32)
     return _aligned_malloc((size + 63) / 64 * 64, 64);
 #else
-    return aligned_alloc(64, (size + 63) / 64 * 64);
+    return allocate_array((size + 63) / 64 * 64);
 #endif
 }
 

@@ -24,7 +24,6 @@
 #include "exact/cover_memory.h"
 #include "pair/cover.h"
 #include "simd/box_axes.h"
-#include "simd/box_separation.h"
 
 #include <string.h>
 

@@ -15,6 +15,7 @@ typedef struct box8 {
     float high[3][BOX8];
     uint32_t child[BOX8]; ///< a node, or the caller's number of a leaf
     uint32_t leaves;      ///< the lanes that are leaves
+    uint32_t fresh;       ///< of these, those that box8_find_new_leaves always returns
 } box8;
 
 /// Numbers rounded down and up to single precision: off by a rounding of the product, of the sum and of the conversion,
@@ -48,7 +49,8 @@ enum { BOX8_DEPTH = 64 };
 /// A traversal: nodes that wait.
 typedef struct box8_walk {
     const box8 *nodes;
-    float low[3], high[3]; ///< of the box, rounded outward
+    float low[3], high[3];           ///< of the box, rounded outward
+    float seen_low[3], seen_high[3]; ///< of another box, made smaller by more than a node's roundings
     uint32_t count;
     uint32_t stack[BOX8_DEPTH * (BOX8 - 1) + 1];
 } box8_walk;
@@ -56,11 +58,18 @@ typedef struct box8_walk {
 /// Begins at node 0. The box: x, y, z of its lower, then of its upper ends.
 void box8_begin(box8_walk *walk, const box8 *nodes, const double *ends);
 
+/// Begins at node 0, for box8_find_new_leaves: `seen` are the ends of another box, or of an empty one.
+void box8_begin_new(box8_walk *walk, const box8 *nodes, const double *ends, const double *seen);
+
 /// Goes on until there is no room for eight leaves more, or nothing waits any more; how many leaves were written.
 typedef uint32_t box8_function(box8_walk *walk, uint32_t *leaves, uint32_t room);
 uint32_t box8_find_leaves(box8_walk *walk, uint32_t *leaves, uint32_t room);
 
-/// The kernel of one instruction set, for tests; NULL where this machine or build lacks it, or has no use for it.
+/// box8_find_leaves without leaves that certainly overlap the other box too, except fresh ones.
+uint32_t box8_find_new_leaves(box8_walk *walk, uint32_t *leaves, uint32_t room);
+
+/// The kernels of one instruction set, for tests; NULL where this machine or build lacks them, or has no use for them.
 box8_function *box8_get(simd_isa isa);
+box8_function *box8_get_new(simd_isa isa);
 
 #endif

@@ -31,8 +31,12 @@ static box_axes_function *const box_axes_of[SIMD_ISA_COUNT] =
 static box_separation_function *const box_separation_of[SIMD_ISA_COUNT] =
     KERNELS(box_separation_find_scalar, box_separation_find_avx2, box_separation_find_avx2);
 static epa8_function *const epa8_of[SIMD_ISA_COUNT] = KERNELS(epa8_grow_scalar, epa8_grow_avx2, epa8_grow_avx512);
+static simd_extents_function *const extents_of[SIMD_ISA_COUNT] =
+    KERNELS(extents_find_scalar, extents_find_avx2, extents_find_avx512);
 static const group_gjk_kernels *const group_gjk_of[SIMD_ISA_COUNT] =
     KERNELS(&group_gjk_scalar, &group_gjk_avx2, &group_gjk_avx512);
+static const kept8_kernels *const kept8_of[SIMD_ISA_COUNT] = KERNELS(&kept8_scalar, &kept8_avx2, &kept8_avx512);
+static move8_function *const move8_of[SIMD_ISA_COUNT] = KERNELS(move8_run_scalar, move8_run_avx2, move8_run_avx512);
 static const pair8_kernels *const pair8_of[SIMD_ISA_COUNT] = KERNELS(&pair8_scalar, &pair8_avx2, &pair8_avx512);
 static const patch_kernels *const patch_of[SIMD_ISA_COUNT] = KERNELS(&patch_scalar, &patch_avx2, &patch_avx2);
 static const solid8_kernels *const solid8_of[SIMD_ISA_COUNT] = KERNELS(&solid8_scalar, &solid8_avx2, &solid8_avx512);
@@ -58,7 +62,12 @@ int box_separation_find(const box_separation_query *query, box_separation *out) 
     return box_separation_of[find_widest()](query, out);
 }
 epa8_end epa8_grow(epa8 *s, const epa8_query *query) { return epa8_of[find_widest()](s, query); }
+simd_extents simd_find_extents(const simd_points *points, const mat3 *rows) {
+    return extents_of[find_widest()](points, rows);
+}
 const group_gjk_kernels *group_gjk_get_kernels(size_t pairs) { return group_gjk_of[find_isa_of(pairs)]; }
+const kept8_kernels *kept8_get_kernels(size_t pairs) { return kept8_of[find_isa_of(pairs)]; }
+move8_function *move8_get(size_t bodies) { return move8_of[find_isa_of(bodies)]; }
 const pair8_kernels *pair8_get_kernels(size_t pairs) { return pair8_of[find_isa_of(pairs)]; }
 const patch_kernels *patch_get_kernels(void) { return patch_of[find_widest()]; }
 const solid8_kernels *solid8_get_kernels(void) { return solid8_of[find_widest()]; }
@@ -86,7 +95,10 @@ areas_function *areas_get(simd_isa isa) { return has(isa) ? areas_of[isa] : NULL
 box_separation_function *box_separation_get(simd_isa isa) { return has(isa) ? box_separation_of[isa] : NULL; }
 box_axes_function *box_axes_get(simd_isa isa) { return has(isa) ? box_axes_of[isa] : NULL; }
 epa8_function *epa8_get(simd_isa isa) { return has(isa) ? epa8_of[isa] : NULL; }
+simd_extents_function *simd_get_extents(simd_isa isa) { return has(isa) ? extents_of[isa] : NULL; }
 const group_gjk_kernels *group_gjk_get_kernels_of(simd_isa isa) { return has(isa) ? group_gjk_of[isa] : NULL; }
+const kept8_kernels *kept8_get_kernels_of(simd_isa isa) { return has(isa) ? kept8_of[isa] : NULL; }
+move8_function *move8_get_of(simd_isa isa) { return has(isa) ? move8_of[isa] : NULL; }
 const pair8_kernels *pair8_get_kernels_of(simd_isa isa) { return has(isa) ? pair8_of[isa] : NULL; }
 const patch_kernels *patch_get_kernels_of(simd_isa isa) { return has(isa) ? patch_of[isa] : NULL; }
 const solid8_kernels *solid8_get_kernels_of(simd_isa isa) { return has(isa) ? solid8_of[isa] : NULL; }

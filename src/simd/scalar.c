@@ -10,9 +10,12 @@
 #include "simd/kernels/box_axes.h"
 #include "simd/kernels/box_separation.h"
 #include "simd/kernels/epa8.h"
+#include "simd/kernels/extents.h"
 #include "simd/kernels/pair8.h"
 
 #include "simd/kernels/group_gjk.h"
+#include "simd/kernels/kept8.h"
+#include "simd/kernels/move8.h"
 #include "simd/kernels/patch.h"
 #include "simd/kernels/solid8.h"
 
@@ -27,10 +30,17 @@ int box_separation_find_scalar(const box_separation_query *query, box_separation
     return run_separation(query, out);
 }
 
+simd_extents extents_find_scalar(const simd_points *points, const mat3 *rows) { return run_extents(points, rows); }
+
+void move8_run_scalar(const move8_places *from, const move8_errors *errors, move8_result *out) {
+    run_move(from, errors, out);
+}
+
 epa8_end epa8_grow_scalar(epa8 *s, const epa8_query *query) { return run_grow(s, query); }
 
 const group_gjk_kernels group_gjk_scalar = {run_group_begin, run_group_support, run_group_start, run_group_advance,
                                             run_group_finish};
+const kept8_kernels kept8_scalar = {run_compare, run_gaps, run_depths};
 const pair8_kernels pair8_scalar = {run_spheres, run_ellipsoids, run_supports};
 const patch_kernels patch_scalar = {run_place, run_measure};
 const solid8_kernels solid8_scalar = {run_boxes, run_triangles};

@@ -1,8 +1,9 @@
-// The vector kernel of support queries: the index of the largest dot product.
+// The vector kernel of support queries: the index of the largest dot product. And that of boxes: how far points reach
+// along three directions, both ways.
 #ifndef OVOID_SIMD_SUPPORT_H
 #define OVOID_SIMD_SUPPORT_H
 
-#include "linear/vec3.h"
+#include "linear/mat3.h"
 
 #include <stdint.h>
 
@@ -31,6 +32,20 @@ typedef support_result simd_support_function(const simd_points *points, vec3 n);
 
 /// The kernel of one instruction set, for tests and measurements; NULL where this machine or build lacks it.
 simd_support_function *simd_get_support(simd_isa isa);
+
+/// The least and the greatest of row.p over the points, for each row of a matrix.
+typedef struct simd_extents {
+    double low[3], high[3];
+} simd_extents;
+
+/// The same bits from every instruction set, those of simd_find_support: (x n.x + y n.y) + z n.z, but for the sign of
+/// zero. Cost: padded_count / lanes steps.
+simd_extents simd_find_extents(const simd_points *points, const mat3 *rows);
+
+typedef simd_extents simd_extents_function(const simd_points *points, const mat3 *rows);
+
+/// The kernel of one instruction set, for tests; NULL where this machine or build lacks it.
+simd_extents_function *simd_get_extents(simd_isa isa);
 
 /// "scalar", "sse2", "avx2", "avx512".
 const char *simd_isa_get_name(simd_isa isa);

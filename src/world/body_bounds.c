@@ -3,13 +3,8 @@
 
 #include "compound/compound.h"
 #include "linear/rotation.h"
-#include "simd/pair.h"
+#include "simd/support.h"
 #include "solid/solid.h"
-
-// u = 2^-53. R(q) is off by 36 u, a product with it by 6 u more, the sum by u of itself: 43 u |local| + u |r|, and
-// local itself, a sum, by u. The largest coordinate times sqrt 3 bounds a length: 64 u 2 (max|p| + max|local|) is above
-// it.
-#define CENTER_ERROR (128 * 0x1p-53)
 
 body_sphere body_compute_sphere(const ovoid_body *body) {
     const ovoid_shape *s = body->shape;
@@ -28,22 +23,12 @@ body_sphere body_compute_sphere(const ovoid_body *body) {
 }
 
 static double find_center_error(const body_sphere *ball, const ovoid_pose *pose) {
-    return CENTER_ERROR * (vec3_max_abs(pose->position) + ball->size) + OVOID_LENGTH_MIN;
+    return BODY_CENTER_ERROR * (vec3_max_abs(pose->position) + ball->size) + OVOID_LENGTH_MIN;
 }
 
 vec3 body_compute_center(const body_sphere *ball, const ovoid_pose *pose, double *center_error) {
     *center_error = find_center_error(ball, pose);
     return vec3_add(pose->position, mat3_mul_vec3(quat_to_mat3(pose->rotation), ball->local));
-}
-
-// The extent of a shape along a row of R, from r: max and min over the vertices v of row.(v - c). Dots are off by 42 u
-// |v| and 3 u |v|, v and c below the extent: the pad of 128 u is above it.
-static void find_extent(const ovoid_shape *s, vec3 row, double *low, double *high) {
-    simd_points points = shape_get_points(s);
-    simd_pair ends = simd_find_pair(&points, row, &points, vec3_neg(row));
-    double c = vec3_dot(row, s->center);
-    *high = ends.high.value - c;
-    *low = -ends.low.value - c;
 }
 
 static vec3 absolute(vec3 v) { return (vec3){fabs(v.x), fabs(v.y), fabs(v.z)}; }
@@ -74,12 +59,13 @@ box body_compute_box(const ovoid_body *body, const body_sphere *ball) {
     if (has_own_box(body)) return find_own_box(body, ball, r, at, center_error);
     radius = s->lower_radius;
     pad = radius + center_error + 128 * 0x1p-53 * (s->extent + radius) + 4 * 0x1p-53 * vec3_max_abs(at);
-    vec3 low, high;
-    find_extent(s, r.r0, &low.x, &high.x);
-    find_extent(s, r.r1, &low.y, &high.y);
-    find_extent(s, r.r2, &low.z, &high.z);
-    return (box){{at.x + low.x - pad, at.y + low.y - pad, at.z + low.z - pad},
-                 {at.x + high.x + pad, at.y + high.y + pad, at.z + high.z + pad}};
+    // The extent from r along a row of R: max and min over the vertices v of row.v - row.c. Dots are off by 42 u |v|
+    // and 3 u |v|, v and c below the extent: the pad of 128 u is above it.
+    simd_points points = shape_get_points(s);
+    simd_extents e = simd_find_extents(&points, &r);
+    vec3 c = mat3_mul_vec3(r, s->center);
+    return (box){{at.x + (e.low[0] - c.x) - pad, at.y + (e.low[1] - c.y) - pad, at.z + (e.low[2] - c.z) - pad},
+                 {at.x + (e.high[0] - c.x) + pad, at.y + (e.high[1] - c.y) + pad, at.z + (e.high[2] - c.z) + pad}};
 }
 
 static vec3 least(vec3 a, vec3 b) { return (vec3){min2(a.x, b.x), min2(a.y, b.y), min2(a.z, b.z)}; }

@@ -15,6 +15,11 @@ typedef struct body_sphere {
 
 body_sphere body_compute_sphere(const ovoid_body *body);
 
+// u = 2^-53. R(q) is off by 36 u, a product with it by 6 u more, the sum by u of itself: 43 u |local| + u |r|, and
+// local itself, a sum, by u. The largest coordinate times sqrt 3 bounds a length: 64 u 2 (max|p| + max|local|) is above
+// it.
+#define BODY_CENTER_ERROR (128 * 0x1p-53)
+
 /// The centre r in the world, off by at most *center_error.
 vec3 body_compute_center(const body_sphere *ball, const ovoid_pose *pose, double *center_error);
 

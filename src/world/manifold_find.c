@@ -2,6 +2,7 @@
 // same order, so those of each pair are found by going through both at once. A pair that had a manifold is not queried:
 // its manifold, found again from the last one, says whether it is within the margin.
 #include "body/manifolds/body_manifolds.h"
+#include "simd/pair8.h"
 #include "world/manifold_list.h"
 #include "world/material.h"
 
@@ -182,11 +183,13 @@ static void find_pair(finding *f, world_pair *p, int is_answered) {
 }
 
 // The pairs to look at: those that are not answered, and those that are in contact.
-static uint32_t list_pairs(const ovoid_world *w, world_pair *pairs, uint32_t count, uint16_t items[CHUNK],
+static uint32_t list_pairs(ovoid_world *w, world_pair *pairs, uint32_t count, uint16_t items[CHUNK],
                            uint8_t answered[CHUNK]) {
     uint32_t listed = 0;
+    unsigned some = 0;
     for (uint32_t i = 0; i < count; i++) {
-        int is_answered = step_is_answered(w, &pairs[i]);
+        if (i % PAIR8 == 0) some = step_find_answered(w, &pairs[i], count - i < PAIR8 ? count - i : PAIR8);
+        int is_answered = some >> i % PAIR8 & 1;
         items[listed] = (uint16_t)i;
         answered[listed] = (uint8_t)is_answered;
         listed += !is_answered || pairs[i].flags & PAIR_CONTACT;

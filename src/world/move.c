@@ -11,6 +11,7 @@
 #include "base/environment.h"
 #include "base/error.h"
 #include "linear/rotation.h"
+#include "simd/move8.h"
 #include "world/body_bounds.h"
 #include "world/tree/wide_tree.h"
 
@@ -90,23 +91,39 @@ static int is_in_box(const world_body *b, const body_place *p) {
 void body_mark_fresh(ovoid_world *w, uint32_t i) {
     if (!(w->marks[i] & (MARK_BOX | MARK_FRESH))) w->changed[w->changed_count++] = i;
     w->marks[i] |= MARK_BOX | MARK_FRESH | MARK_MOVED;
-    w->bodies[i].seen = box_make_empty();
+    w->seen[i] = box_make_empty();
+}
+
+// Gives a leaf its body's new box, but leaves the tree above it as it is until settle_box. Workers do this at the same
+// time for different bodies.
+static void replace_box(ovoid_world *w, uint32_t i) {
+    box *bounds = &w->tree.nodes[w->leaf_of[i]].bounds;
+    box now = world_compute_box(w, i);
+    if (!(w->marks[i] & (MARK_BOX | MARK_FRESH))) w->seen[i] = *bounds;
+    if (!box_is_overlapping(bounds, &now)) w->marks[i] |= MARK_AWAY;
+    *bounds = now;
+}
+
+// Fits the tree to a leaf's new box, and lists the body as changed. Leaves that are not settled yet may be in the tree:
+// each brings the nodes above it up to date when it is its turn.
+static void settle_box(ovoid_world *w, uint32_t i) {
+    box now = w->tree.nodes[w->leaf_of[i]].bounds;
+    if (!(w->marks[i] & (MARK_BOX | MARK_FRESH))) {
+        w->changed[w->changed_count++] = i;
+        w->marks[i] |= MARK_BOX;
+    }
+    if (w->marks[i] & MARK_AWAY) {
+        dynamic_tree_remove(&w->tree, w->leaf_of[i], w->leaf_of);
+        dynamic_tree_add(&w->tree, i, &now, w->leaf_of);
+    } else {
+        dynamic_tree_refit(&w->tree, w->leaf_of[i], &now);
+    }
+    w->marks[i] &= (uint8_t) ~(MARK_LEFT | MARK_AWAY);
 }
 
 void body_refresh(ovoid_world *w, uint32_t i) {
-    uint32_t leaf = w->leaf_of[i];
-    box old = w->tree.nodes[leaf].bounds, now = world_compute_box(w, i);
-    if (!(w->marks[i] & (MARK_BOX | MARK_FRESH))) {
-        w->changed[w->changed_count++] = i;
-        w->bodies[i].seen = old;
-        w->marks[i] |= MARK_BOX;
-    }
-    if (box_is_overlapping(&old, &now)) {
-        dynamic_tree_refit(&w->tree, leaf, &now);
-    } else {
-        dynamic_tree_remove(&w->tree, leaf, w->leaf_of);
-        dynamic_tree_add(&w->tree, i, &now, w->leaf_of);
-    }
+    replace_box(w, i);
+    settle_box(w, i);
 }
 
 // The largest deviation from unit length of a quaternion that is used without normalisation, as most are normalised
@@ -178,24 +195,74 @@ static ovoid_code validate_move(const ovoid_world *w, ovoid_id id, const ovoid_p
     return world_validate_body(&moved, place, error);
 }
 
-// A batch of moves, no body twice: all workers move the bodies, then bodies that left their boxes get new ones, in
-// order.
+// A batch of moves, no body twice: all workers move the bodies and replace the boxes of those that left them, then the
+// tree is fitted to these in order.
 typedef struct moves {
     ovoid_world *w;
     const ovoid_id *ids;
     const ovoid_pose *poses;
 } moves;
 
-// Batches of more bodies than this are moved first, then get their boxes: LEAST with several threads; MANY with one, as
-// the tree then no longer fits into the near caches and its leaves are prefetched.
-enum { LEAST = 512, MANY = 8192 };
+// A worker's part of a batch is at least so many bodies.
+enum { LEAST = 512 };
+
+static const move8_errors errors = {SLACK, NEARLY_UNIT, BODY_CENTER_ERROR, OVOID_LENGTH_MIN};
+
+static void set_places(const moves *m, uint32_t item, move8_places *out, uint32_t lane) {
+    uint32_t i = (uint32_t)(m->ids[item] >> 32);
+    const world_body *b = &m->w->bodies[i];
+    out->from[lane] = &b->body.pose.position.x;
+    out->to[lane] = &m->poses[item].position.x;
+    out->ball[lane] = &b->local.x;
+    out->reach[lane] = &b->reach;
+    out->place[lane] = &m->w->places[i].at.x;
+    out->placed[lane] = &b->placed.at.x;
+    out->room[lane] = b->low;
+}
+
+// Stores what a lane says of a body.
+static void take_place(ovoid_world *w, uint32_t i, const ovoid_pose *pose, const move8_result *from, uint32_t lane) {
+    world_body *b = &w->bodies[i];
+    for (int k = 0; k < 3; k++) b->displacement[k] = (float)from->displacement[k].lane[lane];
+    b->turn = (float)from->turn.lane[lane];
+    w->places[i] = (body_place){{from->place[0].lane[lane], from->place[1].lane[lane], from->place[2].lane[lane]},
+                                from->place[3].lane[lane]};
+    b->center_error = from->center_error.lane[lane];
+    b->body.pose = *pose;
+    w->marks[i] |= MARK_MOVED | MARK_POSED | (from->left >> lane & 1 ? MARK_LEFT : 0);
+}
+
+// How many bodies ahead a body is prefetched. The next ones in memory come by themselves, but not across pages.
+enum { BODIES_AHEAD = 16 };
+
+static void fetch_body(const moves *m, uint32_t item) {
+    uint32_t i = (uint32_t)(m->ids[item] >> 32);
+    prefetch_two_lines(&m->w->bodies[i]);
+    prefetch_two_lines(&m->w->bodies[i].local);
+    compiler_prefetch(&m->w->places[i]);
+}
+
+// Moves up to eight bodies from an item of the batch on.
+static void place_some(const moves *m, uint32_t first, uint32_t count) {
+    ovoid_world *w = m->w;
+    move8_places places = {.count = count};
+    move8_result found;
+    for (uint32_t k = 0; k < PAIR8; k++) set_places(m, k < count ? first + k : first, &places, k);
+    move8_get(count)(&places, &errors, &found);
+    for (uint32_t k = 0; k < count; k++) {
+        uint32_t i = (uint32_t)(m->ids[first + k] >> 32);
+        const ovoid_pose *pose = &m->poses[first + k];
+        if (found.moved >> k & 1) take_place(w, i, pose, &found, k);
+        if (found.odd >> k & 1 && place_body(w, i, pose)) w->marks[i] |= MARK_LEFT;
+    }
+}
 
 static void place_bodies(void *work, uint32_t first, uint32_t end, uint32_t worker) {
     const moves *m = work;
     (void)worker;
-    for (uint32_t k = first; k < end; k++) {
-        uint32_t i = (uint32_t)(m->ids[k] >> 32);
-        if (place_body(m->w, i, &m->poses[k])) m->w->marks[i] |= MARK_LEFT;
+    for (uint32_t k = first; k < end; k += PAIR8) {
+        for (uint32_t j = k + BODIES_AHEAD; j < k + BODIES_AHEAD + PAIR8 && j < end; j++) fetch_body(m, j);
+        place_some(m, k, end - k < PAIR8 ? end - k : PAIR8);
     }
 }
 
@@ -218,43 +285,56 @@ static void fetch_parent(const ovoid_world *w, uint32_t i) {
     if (parent != NONE) fetch_couple(w, parent);
 }
 
+static void replace_boxes(void *work, uint32_t first, uint32_t end, uint32_t worker) {
+    const moves *m = work;
+    (void)worker;
+    for (uint32_t k = first; k < end; k++) {
+        if (k + AHEAD < end) fetch_leaf(m->w, (uint32_t)(m->ids[k + AHEAD] >> 32));
+        uint32_t i = (uint32_t)(m->ids[k] >> 32);
+        if (m->w->marks[i] & MARK_LEFT) replace_box(m->w, i);
+    }
+}
+
 static void move_by_all(ovoid_world *w, const ovoid_id *ids, const ovoid_pose *poses, uint32_t count) {
     moves all = {w, ids, poses};
     task_host_run(&w->host, &(task){place_bodies, &all, count, LEAST});
+    task_host_run(&w->host, &(task){replace_boxes, &all, count, LEAST});
     for (uint32_t k = 0; k < count; k++) {
         if (k + AHEAD < count) fetch_leaf(w, (uint32_t)(ids[k + AHEAD] >> 32));
         if (k + PARENTS_AHEAD < count) fetch_parent(w, (uint32_t)(ids[k + PARENTS_AHEAD] >> 32));
         uint32_t i = (uint32_t)(ids[k] >> 32);
-        if (!(w->marks[i] & MARK_LEFT)) continue;
-        w->marks[i] &= (uint8_t)~MARK_LEFT;
-        body_refresh(w, i);
+        if (w->marks[i] & MARK_LEFT) settle_box(w, i);
     }
 }
 
-// 1 if no id occurs twice; all of them must be valid.
-static int are_different(ovoid_world *w, const ovoid_id *ids, size_t count) {
+// OVOID_OK, or what is wrong with a batch; *are_different: no id occurs twice.
+static ovoid_code validate_moves(ovoid_world *w, const ovoid_world_moves *all, int *are_different, ovoid_error *error) {
+    ovoid_code code = OVOID_OK;
     size_t k = 0;
-    for (; k < count && !(w->marks[ids[k] >> 32] & MARK_NAMED); k++) w->marks[ids[k] >> 32] |= MARK_NAMED;
-    for (size_t j = 0; j < k; j++) w->marks[ids[j] >> 32] &= (uint8_t)~MARK_NAMED;
-    return k == count;
+    *are_different = 1;
+    for (; k < all->count; k++) {
+        code = validate_move(w, all->ids[k], &all->poses[k], (int64_t)k, error);
+        if (code != OVOID_OK) break;
+        uint8_t *mark = &w->marks[all->ids[k] >> 32];
+        if (*mark & MARK_NAMED) *are_different = 0;
+        *mark |= MARK_NAMED;
+    }
+    for (size_t j = 0; j < k; j++) w->marks[all->ids[j] >> 32] &= (uint8_t)~MARK_NAMED;
+    return code;
 }
 
 static ovoid_code move_many(ovoid_world *w, const ovoid_world_moves *all, ovoid_error *error) {
-    const ovoid_id *ids = all->ids;
-    const ovoid_pose *poses = all->poses;
-    size_t count = all->count;
-    OVOID_ASSERT(w && ((ids && poses) || !count));
-    for (size_t k = 0; k < count; k++) {
-        ovoid_code code = validate_move(w, ids[k], &poses[k], (int64_t)k, error);
-        if (code != OVOID_OK) return code;
-    }
-    if (count > (w->threads > 1 ? LEAST : MANY) && are_different(w, ids, count)) {
-        move_by_all(w, ids, poses, (uint32_t)count);
+    OVOID_ASSERT(w && ((all->ids && all->poses) || !all->count));
+    int are_different;
+    ovoid_code code = validate_moves(w, all, &are_different, error);
+    if (code != OVOID_OK) return code;
+    if (all->count > 1 && are_different) {
+        move_by_all(w, all->ids, all->poses, (uint32_t)all->count);
         return OVOID_OK;
     }
-    for (size_t k = 0; k < count; k++) {
-        uint32_t i = (uint32_t)(ids[k] >> 32);
-        if (place_body(w, i, &poses[k])) body_refresh(w, i);
+    for (size_t k = 0; k < all->count; k++) {
+        uint32_t i = (uint32_t)(all->ids[k] >> 32);
+        if (place_body(w, i, &all->poses[k])) body_refresh(w, i);
     }
     return OVOID_OK;
 }

@@ -1,14 +1,15 @@
 // Updating one pair from step to step. docs/world.md derives how kept bounds are adjusted for the motion.
 //
-// Roundings: c, d and t are sums of a few terms, each bounded by |d| + t + |L|, and off by a few u of that. SLACK_SET
+// Roundings: c, d and t are sums of a few terms, each bounded by |d| + t + |L|, and off by a few u of that. KEPT8_SLACK
 // is subtracted when c is made and again when it is compared; reported bounds are moved by half as much, so that they
 // always show the status that a comparison found.
 #include "world/pair_update.h"
 
 #include "body/body_find.h"
 #include "exact/cover_memory.h"
+#include "exact/small.h"
+#include "simd/kept8.h"
 
-#define SLACK_SET 0x1p-48
 #define SLACK_REPORTED 0x1p-49
 
 static double sum_abs(vec3 v) { return fabs(v.x) + fabs(v.y) + fabs(v.z); }
@@ -84,7 +85,7 @@ static vec3 find_between(const ovoid_world *w, const world_pair *p, double *trav
 void pair_set_age(const ovoid_world *w, world_pair *p, const pair_cache *cache) {
     double margin = w->margin, range = world_get_pair_range(w, p->a, p->b);
     double slack =
-        SLACK_SET * (sum_abs(cache->between) + cache->travel + fabs(cache->lower) + fabs(cache->upper) + margin);
+        KEPT8_SLACK * (sum_abs(cache->between) + cache->travel + fabs(cache->lower) + fabs(cache->upper) + margin);
     // The ranges of bodies change from step to step: a comparison adds those of its own step.
     int is_far = cache->lower > margin + range;
     p->kind = PAIR_OPEN;
@@ -96,6 +97,7 @@ void pair_set_age(const ovoid_world *w, world_pair *p, const pair_cache *cache) 
         const world_body *a = &w->bodies[p->a], *b = &w->bodies[p->b];
         double reach = (a->reach + b->reach) + (a->radius + b->radius);
         p->kind = PAIR_SPHERE;
+        p->v = (vec3){0, 0, 0};
         p->c = (reach + margin) * (1 + 0x1p-48) + 3 * (a->center_error + b->center_error);
         return;
     }
@@ -119,25 +121,18 @@ void pair_set_age(const ovoid_world *w, world_pair *p, const pair_cache *cache) 
     p->c = lasts + cache->travel - slack;
 }
 
-// The error of both centres that comes from their positions: 128 u of a position (body_bounds.c).
-static double find_center_error(const ovoid_world *w, const world_pair *p) {
-    return 0x1p-45 * (sum_abs(w->places[p->a].at) + sum_abs(w->places[p->b].at));
-}
-
-int pair_is_answered(const ovoid_world *w, const world_pair *p) {
-    double t, range = world_get_pair_range(w, p->a, p->b);
-    vec3 d = find_between(w, p, &t);
-    double slack = SLACK_SET * (sum_abs(d) + t + fabs(p->c) + range) + range;
-    if (p->kind == PAIR_PLANE) return p->c + vec3_dot(p->v, d) - t > slack;
-    if (p->kind == PAIR_BALL) return p->c - vec3_norm(vec3_sub(d, p->v)) - t > slack;
-    return p->kind == PAIR_SPHERE && vec3_norm(d) > p->c + slack + find_center_error(w, p);
-}
-
 double pair_compute_age(const ovoid_world *w, const world_pair *p, const pair_cache *cache) {
     double t;
     vec3 d = find_between(w, p, &t);
     return (vec3_norm(vec3_sub(d, cache->between)) + (t - cache->travel)) +
            SLACK_REPORTED * (sum_abs(d) + sum_abs(cache->between) + t + fabs(cache->lower) + fabs(cache->upper));
+}
+
+// 1 if the cached proof was of an overlap and has just been measured: it does not hold. Only a search of many vertices
+// begins at its differences.
+static int has_failed(const ovoid_world *w, const pair_cache *cache, const ovoid_pair *pair) {
+    int is_small = pair->shape_a->padded_count <= SMALL_POINTS_SIGN && pair->shape_b->padded_count <= SMALL_POINTS_SIGN;
+    return is_small && cache->status == OVOID_OVERLAPPING && !world_is_measuring(w);
 }
 
 // cover: with memory for the search, or NULL.
@@ -146,7 +141,7 @@ static void query_shapes(const ovoid_world *w, const world_pair *p, ovoid_cover 
     const ovoid_body *a = &w->bodies[p->a].body, *b = &w->bodies[p->b].body;
     ovoid_pair both = {a->shape, b->shape, a->pose, b->pose};
     ovoid_proof earlier;
-    int is_warm = cache->proof != OVOID_PROOF_NONE;
+    int is_warm = cache->proof != OVOID_PROOF_NONE && !has_failed(w, cache, &both);
     if (is_warm) write_proof(cache, &earlier);
     const query_goal goal = make_goal(w, p->a, p->b);
     ovoid_options options = w->query_options;
@@ -189,20 +184,20 @@ void pair_renew(const ovoid_world *w, world_pair *p, pair_cache *cache) {
     pair_set_age(w, p, cache);
 }
 
-void pair_update(ovoid_world *w, world_pair *p) {
+void pair_update_with(ovoid_world *w, world_pair *p, ovoid_cover *cover) {
     pair_cache *cache = &w->pair_cache[p->slot];
     p->flags &= (uint16_t)~PAIR_FULL;
-    if (!(p->flags & PAIR_KNOWN) || !pair_revalidate(w, p, cache)) {
-        query_pair(w, p, NULL);
-        if (w->kind == OVOID_QUERY_DEPTH && cache->limit == OVOID_LIMIT_CAPACITY) p->flags |= PAIR_FULL;
-    }
+    query_pair(w, p, cover);
+    if (!cover && w->kind == OVOID_QUERY_DEPTH && cache->limit == OVOID_LIMIT_CAPACITY) p->flags |= PAIR_FULL;
     pair_renew(w, p, cache);
 }
 
-void pair_update_with(ovoid_world *w, world_pair *p, ovoid_cover *cover) {
-    p->flags &= (uint16_t)~PAIR_FULL;
-    query_pair(w, p, cover);
-    pair_renew(w, p, &w->pair_cache[p->slot]);
+void pair_update(ovoid_world *w, world_pair *p) {
+    pair_cache *cache = &w->pair_cache[p->slot];
+    if (pair_revalidate(w, p, cache))
+        pair_renew(w, p, cache);
+    else
+        pair_update_with(w, p, NULL);
 }
 
 // ---- contacts

@@ -12,12 +12,12 @@ void pair_query(const ovoid_world *w, ovoid_couple pair, const pair_cache *cache
 /// Sets how long the cached answer holds for the world's query: kind, v, c and CONTACT.
 void pair_set_age(const ovoid_world *w, world_pair *p, const pair_cache *cache);
 
-/// Answers the pair from its revalidated proof or by a query, caches the answer and sets its age. FULL is set where a
-/// search for a depth filled its memory.
-void pair_update(ovoid_world *w, world_pair *p);
-
-/// Asks a pair anew whose search for a depth filled its own memory (PAIR_FULL), with that of the cover.
+/// Answers the pair by a query, caches the answer and sets its age. cover: of a pair asked anew whose search for a
+/// depth filled its own memory; else NULL, and FULL is set where it does.
 void pair_update_with(ovoid_world *w, world_pair *p, ovoid_cover *cover);
+
+/// Answers the pair from its revalidated proof or by a query (pair_update_with).
+void pair_update(ovoid_world *w, world_pair *p);
 
 /// Notes that the cached bounds are those at the present poses, and sets their age.
 void pair_renew(const ovoid_world *w, world_pair *p, pair_cache *cache);
@@ -29,8 +29,9 @@ double pair_compute_age(const ovoid_world *w, const world_pair *p, const pair_ca
 /// ones.
 int pair_revalidate(const ovoid_world *w, const world_pair *p, pair_cache *cache);
 
-/// 1 if the cached answer still holds; reads no geometry.
-int pair_is_answered(const ovoid_world *w, const world_pair *p);
+/// pair_revalidate for pairs[items[0]], ...: the items of those that still have no answer are moved to the front; their
+/// number. Cached proofs are measured eight at a time.
+uint32_t pairs_revalidate(ovoid_world *w, world_pair *pairs, uint16_t *items, uint32_t count);
 
 /// The contact of a pair, with bounds adjusted for the motion.
 ovoid_contact pair_make_contact(const ovoid_world *w, const world_pair *p);

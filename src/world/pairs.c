@@ -8,6 +8,7 @@
 
 #include "world/tree/dynamic_tree_traverse.h"
 #include "world/tree/radix_sort.h"
+#include "world/tree/wide_tree.h"
 
 #include <string.h>
 
@@ -41,9 +42,9 @@ static int gather(const ovoid_world *w, gathered *g, uint64_t key) {
 
 // 1 if boxes that overlap now did not overlap when the list was made.
 static int is_new(const ovoid_world *w, uint32_t i, uint32_t j, const box *box_j) {
-    if (!(w->marks[j] & (MARK_BOX | MARK_FRESH))) return !box_is_overlapping(&w->bodies[i].seen, box_j);
+    if (!(w->marks[j] & (MARK_BOX | MARK_FRESH))) return !box_is_overlapping(&w->seen[i], box_j);
     // If both bodies have changed, both find the pair, and the lower index reports it.
-    return i < j && !box_is_overlapping(&w->bodies[i].seen, &w->bodies[j].seen);
+    return i < j && !box_is_overlapping(&w->seen[i], &w->seen[j]);
 }
 
 // The search for the pairs of one body.
@@ -63,7 +64,7 @@ static int take_leaf(void *context, const tree_node *leaf) {
 static int find_pairs_of(const ovoid_world *w, uint32_t i, gathered *g) {
     box bounds = w->tree.nodes[w->leaf_of[i]].bounds;
     pair_search search = {w, i, g};
-    return dynamic_tree_find_overlaps(&w->tree, &bounds, take_leaf, &search);
+    return dynamic_tree_find_new(&w->tree, &bounds, &w->seen[i], take_leaf, &search);
 }
 
 static void find_pairs(void *work, uint32_t first, uint32_t end, uint32_t worker) {
@@ -85,6 +86,14 @@ static int sort_changed(ovoid_world *w) {
     return 1;
 }
 
+// Names the leaves of all changed bodies as fresh for the search, or no longer.
+static void set_fresh(ovoid_world *w, int is_fresh) {
+    for (uint32_t k = 0; w->tree.wide_count && k < w->changed_count; k++) {
+        uint32_t leaf = w->leaf_of[w->changed[k]];
+        if (leaf != NONE) wide_tree_set_fresh(&w->tree, leaf, is_fresh);
+    }
+}
+
 // Building the wide nodes costs as much as they save in this many searches, as a share of all bodies.
 enum { WIDEN = 16 };
 
@@ -93,7 +102,9 @@ static int find_new(ovoid_world *w, size_t *count) {
     if (!sort_changed(w)) return 0;
     if ((uint64_t)w->changed_count * WIDEN > w->count) world_widen_tree(w);
     for (uint32_t k = 0; k < w->threads; k++) w->gathered[k].count = 0, w->gathered[k].failed = 0;
+    set_fresh(w, 1);
     task_host_run(&w->host, &(task){find_pairs, w, w->changed_count, LEAST});
+    set_fresh(w, 0);
     *count = 0;
     for (uint32_t k = 0; k < w->threads; k++) {
         if (w->gathered[k].failed) return 0;
@@ -119,35 +130,57 @@ static int reserve_pairs(ovoid_world *w, size_t count) {
            world_reserve(w, (void **)&w->pair_cache, &w->slot_capacity, w->slot_used, count, sizeof *w->pair_cache);
 }
 
-// Prefetches the leaves of a pair whose boxes drop_pairs will compare. A removed body has none, and is MARK_FRESH.
+// Prefetches the leaves of a pair whose boxes are compared. A removed body has none, and is MARK_FRESH.
 static void prefetch_leaves(const ovoid_world *w, const world_pair *p) {
-    unsigned marks = w->marks[p->a] | w->marks[p->b];
-    if (!(marks & MARK_BOX) || marks & MARK_FRESH) return;
+    if ((w->marks[p->a] | w->marks[p->b]) & MARK_FRESH) return;
     compiler_prefetch(&w->tree.nodes[w->leaf_of[p->a]]);
     compiler_prefetch(&w->tree.nodes[w->leaf_of[p->b]]);
 }
 
-// How many pairs ahead leaves are prefetched.
-enum { AHEAD = 12 };
+// 1 if a pair of which a body has changed is no longer one.
+static int has_ended(const ovoid_world *w, const world_pair *p) {
+    return (w->marks[p->a] | w->marks[p->b]) & MARK_FRESH ||
+           !box_is_overlapping(&w->tree.nodes[w->leaf_of[p->a]].bounds, &w->tree.nodes[w->leaf_of[p->b]].bounds);
+}
+
+// The pairs of a part of the list of which a body has changed; their number.
+static uint32_t find_changed(const ovoid_world *w, const world_pair *pairs, uint32_t count, uint16_t *changed) {
+    uint32_t found = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        changed[found] = (uint16_t)i;
+        found += ((w->marks[pairs[i].a] | w->marks[pairs[i].b]) & (MARK_BOX | MARK_FRESH)) != 0;
+    }
+    return found;
+}
+
+// Moves the pairs from..end - 1 of the list to `to`; the place after them there.
+static size_t move_pairs(ovoid_world *w, size_t to, size_t from, size_t end) {
+    if (to != from) memmove(&w->pairs[to], &w->pairs[from], (end - from) * sizeof *w->pairs);
+    return to + (end - from);
+}
+
+// The list is looked through in parts of so many; so many pairs ahead leaves are prefetched.
+enum { PART = 512, AHEAD = 12 };
 
 // Removes pairs whose boxes no longer overlap; the rest keeps its order.
 static size_t drop_pairs(ovoid_world *w) {
-    size_t to = 0;
-    for (size_t from = 0; from < w->pair_count; from++) {
-        const world_pair *p = &w->pairs[from];
-        if (from + AHEAD < w->pair_count) prefetch_leaves(w, p + AHEAD);
-        unsigned marks = w->marks[p->a] | w->marks[p->b];
-        int ends =
-            marks & MARK_FRESH || (marks & MARK_BOX && !box_is_overlapping(&w->tree.nodes[w->leaf_of[p->a]].bounds,
-                                                                           &w->tree.nodes[w->leaf_of[p->b]].bounds));
-        if (ends) {
+    uint16_t changed[PART];
+    size_t to = 0, stays = 0; // pairs from `stays` on are to be moved
+    for (size_t first = 0; first < w->pair_count; first += PART) {
+        const world_pair *pairs = &w->pairs[first];
+        uint32_t count =
+            find_changed(w, pairs, w->pair_count - first < PART ? (uint32_t)(w->pair_count - first) : PART, changed);
+        for (uint32_t k = 0; k < count && k < AHEAD; k++) prefetch_leaves(w, &pairs[changed[k]]);
+        for (uint32_t k = 0; k < count; k++) {
+            const world_pair *p = &pairs[changed[k]];
+            if (k + AHEAD < count) prefetch_leaves(w, &pairs[changed[k + AHEAD]]);
+            if (!has_ended(w, p)) continue;
             w->free_slots[w->free_slot_count++] = p->slot;
-        } else {
-            if (to != from) w->pairs[to] = *p;
-            to++;
+            to = move_pairs(w, to, stays, first + changed[k]);
+            stays = first + changed[k] + 1;
         }
     }
-    return to;
+    return move_pairs(w, to, stays, w->pair_count);
 }
 
 static world_pair make_pair(ovoid_world *w, uint64_t key) {
@@ -156,19 +189,33 @@ static world_pair make_pair(ovoid_world *w, uint64_t key) {
     return (world_pair){.a = key_get_a(key), .b = key_get_b(key), .slot = slot};
 }
 
+// The number of the first `count` pairs of the list that come before a key, most of them as a rule: the search doubles
+// its step from the end, then bisects.
+static size_t count_before(const ovoid_world *w, size_t count, uint64_t key) {
+    size_t step = 1, end = count, first;
+    for (;; end = first, step *= 2) {
+        first = end > step ? end - step : 0;
+        if (!first || key_make(w->pairs[first].a, w->pairs[first].b) < key) break;
+    }
+    while (first < end) {
+        size_t middle = first + (end - first) / 2;
+        if (key_make(w->pairs[middle].a, w->pairs[middle].b) < key)
+            first = middle + 1;
+        else
+            end = middle;
+    }
+    return first;
+}
+
 // Merges the new keys in from the back, so that nothing is moved twice.
 static void merge_pairs(ovoid_world *w, size_t count) {
-    size_t old = w->pair_count, at = old + count;
+    size_t old = w->pair_count;
     while (count) {
-        const world_pair *last = old ? &w->pairs[old - 1] : NULL;
-        uint64_t key = w->keys[count - 1];
-        if (last && key_make(last->a, last->b) > key) {
-            w->pairs[--at] = *last;
-            old--;
-        } else {
-            w->pairs[--at] = make_pair(w, key);
-            count--;
-        }
+        uint64_t key = w->keys[--count];
+        size_t before = count_before(w, old, key);
+        (void)move_pairs(w, before + count + 1, before, old);
+        w->pairs[before + count] = make_pair(w, key);
+        old = before;
     }
 }
 

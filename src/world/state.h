@@ -23,24 +23,25 @@ typedef struct body_place {
 } body_place;
 
 /// Marks of a body since the last step: its box changed, all its pairs must be found again, its pairs must be compared
-/// again, it has another pose. NAMED, and LEFT (its box), are used within one call.
-enum { MARK_BOX = 1, MARK_FRESH = 2, MARK_MOVED = 4, MARK_NAMED = 8, MARK_LEFT = 16, MARK_POSED = 32 };
+/// again, it has another pose. NAMED, LEFT (its box) and AWAY (its new box does not overlap the old one) are used
+/// within one call.
+enum { MARK_BOX = 1, MARK_FRESH = 2, MARK_MOVED = 4, MARK_NAMED = 8, MARK_LEFT = 16, MARK_POSED = 32, MARK_AWAY = 64 };
 
+/// Four cache lines, of which pairs read the first two.
 typedef struct world_body {
-    ovoid_body body;
+    _Alignas(64) ovoid_body body;
+    double reach;        ///< no point of the body without its radius is farther from r
+    double radius;       ///< its rounding radius, with what its allowance adds
+    double center_error; ///< error of r at the present pose, length
+    uint64_t user;
+    ovoid_groups groups;
+    uint32_t next;               ///< of a free index: the next one; else the number of the body's ignored pairs
+    uint32_t boxes;              ///< the number of boxes since it was added
     vec3 local;                  ///< r in the body's local frame
-    double reach;                ///< no point of the body without its radius is farther from r
-    double radius;               ///< its rounding radius, with what its allowance adds
     double size;                 ///< bounds all lengths in its local frame
-    double center_error;         ///< error of r at the present pose, length
     body_place placed;           ///< its place when its box was computed
     float low[3], high[3];       ///< how far it may move from that place, against and along each axis
     float displacement[3], turn; ///< of the last move: only a forecast of the next one
-    box seen;                    ///< MARK_BOX: the box from which the list of pairs was made; empty if MARK_FRESH
-    uint64_t user;
-    ovoid_groups groups;
-    uint32_t next;  ///< of a free index: the next one; else the number of the body's ignored pairs
-    uint32_t boxes; ///< the number of boxes since it was added
 } world_body;
 
 /// The groups of a body or a probe; if both are zero, all bits of both.
@@ -69,12 +70,12 @@ typedef struct world_pair {
                     ///< CHECK: kind and c are new in this step, and not yet compared
 } world_pair;
 
-/// The cached answer of a pair's last query.
+/// The cached answer of a pair's last query: two cache lines.
 typedef struct pair_cache {
-    vec3 between;        ///< d at that time
-    double travel;       ///< t at that time
-    double lower, upper; ///< of the signed distance at that time
-    vec3 normal;         ///< of the lower bound, world; zero: none
+    _Alignas(64) vec3 between; ///< d at that time
+    double travel;             ///< t at that time
+    double lower, upper;       ///< of the signed distance at that time
+    vec3 normal;               ///< of the lower bound, world; zero: none
     union {
         vec3 inner;           ///< INNER: the common point, A's body frame
         uint16_t entry[6][2]; ///< the proof's vertices of A and B
@@ -85,11 +86,10 @@ typedef struct pair_cache {
     uint8_t count;                       ///< entries of the proof
 } pair_cache;
 
-/// Prefetches a cached answer: two or three cache lines.
-static inline void pair_cache_prefetch(const pair_cache *cache) {
-    compiler_prefetch(cache);
-    compiler_prefetch((const char *)cache + 64);
-    compiler_prefetch((const char *)(cache + 1) - 1);
+/// Prefetches two cache lines: a cached answer, or what queries read of a body.
+static inline void prefetch_two_lines(const void *at) {
+    compiler_prefetch(at);
+    compiler_prefetch((const char *)at + 64);
 }
 
 /// The keys of new pairs that one worker found.
@@ -127,6 +127,7 @@ struct ovoid_world {
     world_body *bodies;
     body_place *places;
     uint8_t *marks;
+    box *seen; ///< MARK_BOX: the box from which the list of pairs was made; empty if MARK_FRESH
     uint32_t *leaf_of, *changed, *generations;
     uint32_t capacity, used, count, free;
     int has_vast;           ///< a compound or solid larger than half of OVOID_LENGTH_MAX was added

@@ -4,29 +4,41 @@
 
 #include "base/error.h"
 #include "query/goal.h"
+#include "simd/kept8.h"
 
 #include <string.h>
 
 // ---- deciding
 
-int step_is_answered(const ovoid_world *w, world_pair *p) {
-    int has_moved = (w->marks[p->a] | w->marks[p->b]) & MARK_MOVED || p->flags & PAIR_CHECK;
-    if (!(p->flags & PAIR_KNOWN)) return 0;
-    if (!has_moved) return 1;
-    p->flags &= (uint16_t) ~(PAIR_STILL | PAIR_CHECK);
-    return pair_is_answered(w, p);
+unsigned step_find_answered(ovoid_world *w, world_pair *pairs, uint32_t count) {
+    unsigned known = 0, moved = 0, of_kind[PAIR_SPHERE + 1] = {0};
+    double ranges[PAIR8] = {0};
+    for (uint32_t k = 0; k < count; k++) {
+        const world_pair *p = &pairs[k];
+        known |= (unsigned)((p->flags & PAIR_KNOWN) != 0) << k;
+        moved |= (unsigned)(((w->marks[p->a] | w->marks[p->b]) & MARK_MOVED) || p->flags & PAIR_CHECK) << k;
+        of_kind[p->kind] |= 1u << k;
+    }
+    moved &= known;
+    if (!moved) return known;
+    for (uint32_t k = 0; k < count; k++) {
+        world_pair *p = &pairs[k];
+        if (moved >> k & 1) p->flags &= (uint16_t) ~(PAIR_STILL | PAIR_CHECK);
+        if (w->wants_manifolds) ranges[k] = world_get_pair_range(w, p->a, p->b);
+    }
+    const kept8_bounds bounds = {pairs, sizeof *pairs, &w->places[0].at.x, ranges, count};
+    kept8_answers holds = kept8_get_kernels(count)->compare(&bounds);
+    return (known & ~moved) | (moved & ((holds.plane & of_kind[PAIR_PLANE]) | (holds.ball & of_kind[PAIR_BALL]) |
+                                        (holds.sphere & of_kind[PAIR_SPHERE])));
 }
 
 // Bodies, cached proofs and shapes are scattered in memory.
 enum { AHEAD = 6, SHAPES_AHEAD = 2, SHAPE_LINES = 8 };
 
-static void prefetch_bodies(const ovoid_world *w, const world_pair *p) {
-    const char *a = (const char *)&w->bodies[p->a], *b = (const char *)&w->bodies[p->b];
-    for (int line = 0; line < 3; line++) {
-        compiler_prefetch(a + 64 * line);
-        compiler_prefetch(b + 64 * line);
-    }
-    pair_cache_prefetch(&w->pair_cache[p->slot]);
+void step_prefetch_bodies(const ovoid_world *w, const world_pair *p) {
+    prefetch_two_lines(&w->bodies[p->a]);
+    prefetch_two_lines(&w->bodies[p->b]);
+    prefetch_two_lines(&w->pair_cache[p->slot]);
 }
 
 static void prefetch_shapes(const ovoid_world *w, const world_pair *p) {
@@ -38,8 +50,8 @@ static void prefetch_shapes(const ovoid_world *w, const world_pair *p) {
 }
 
 void step_prefetch(const ovoid_world *w, const world_pair *pairs, const uint16_t *items, uint32_t i, uint32_t count) {
-    for (uint32_t k = 0; i == 0 && k < count && k < AHEAD; k++) prefetch_bodies(w, &pairs[items[k]]);
-    if (i + AHEAD < count) prefetch_bodies(w, &pairs[items[i + AHEAD]]);
+    for (uint32_t k = 0; i == 0 && k < count && k < AHEAD; k++) step_prefetch_bodies(w, &pairs[items[k]]);
+    if (i + AHEAD < count) step_prefetch_bodies(w, &pairs[items[i + AHEAD]]);
     if (i + SHAPES_AHEAD < count) prefetch_shapes(w, &pairs[items[i + SHAPES_AHEAD]]);
 }
 

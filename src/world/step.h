@@ -25,8 +25,12 @@ void step_take_query(ovoid_world *w, const ovoid_contact_query *query, int wants
 /// Updates tree and pairs, with room for all chunks. 0: memory ran out, and nothing is lost.
 int step_begin(ovoid_world *w, uint32_t *chunks, ovoid_contacts *counts);
 
-/// 1 if a pair is answered without a query; mostly its entry in the list suffices.
-int step_is_answered(const ovoid_world *w, world_pair *p);
+/// The pairs that are answered without a query, as bits, of up to PAIR8 that follow each other in the list. Mostly
+/// their entries there suffice; no geometry is read.
+unsigned step_find_answered(ovoid_world *w, world_pair *pairs, uint32_t count);
+
+/// Prefetches the bodies and the cached proof of a pair.
+void step_prefetch_bodies(const ovoid_world *w, const world_pair *p);
 
 /// Bodies, cached proofs and shapes of the pairs to come are prefetched; call it before the pair at items[i] of count.
 void step_prefetch(const ovoid_world *w, const world_pair *pairs, const uint16_t *items, uint32_t i, uint32_t count);

@@ -71,7 +71,7 @@ static void destroy(ovoid_world *w) {
     void *all[] = {w->bodies,     w->places,       w->marks,    w->leaf_of,           w->changed,      w->generations,
                    w->tree.nodes, w->ignored.keys, w->pairs,    w->pair_cache,        w->witnesses,    w->free_slots,
                    w->keys,       w->chunks,       w->contacts, w->contact_witnesses, w->cover_memory, w->tree.wide,
-                   w->materials,  w->ranges};
+                   w->materials,  w->ranges,       w->seen};
     manifolds_destroy(w);
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) allocator_release(&w->allocator, all[i]);
     for (uint32_t i = 0; w->gathered && i < w->threads; i++) allocator_release(&w->allocator, w->gathered[i].keys);
@@ -98,12 +98,13 @@ static int reserve_bodies(ovoid_world *w, uint32_t count) {
     if (count <= w->capacity) return 1;
     uint32_t room = w->capacity < OVOID_WORLD_BODIES / 2 && 2 * w->capacity > count ? 2 * w->capacity : count;
     if (room < 16) room = 16;
-    enum { ARRAYS = 7 };
-    const size_t sizes[ARRAYS] = {sizeof *w->bodies,        sizeof *w->places,  sizeof *w->marks,
-                                  sizeof *w->leaf_of,       sizeof *w->changed, sizeof *w->generations,
-                                  2 * sizeof *w->tree.nodes};
+    enum { ARRAYS = 8 };
+    const size_t sizes[ARRAYS] = {sizeof *w->bodies,         sizeof *w->places,  sizeof *w->marks,
+                                  sizeof *w->leaf_of,        sizeof *w->changed, sizeof *w->generations,
+                                  2 * sizeof *w->tree.nodes, sizeof *w->seen};
     void *larger[ARRAYS];
-    void *const old[ARRAYS] = {w->bodies, w->places, w->marks, w->leaf_of, w->changed, w->generations, w->tree.nodes};
+    void *const old[ARRAYS] = {w->bodies,  w->places,      w->marks,      w->leaf_of,
+                               w->changed, w->generations, w->tree.nodes, w->seen};
     for (int i = 0; i < ARRAYS; i++) {
         larger[i] = world_allocate(w, (size_t)room + 1, sizes[i]);
         if (larger[i]) continue;
@@ -111,7 +112,8 @@ static int reserve_bodies(ovoid_world *w, uint32_t count) {
         return 0;
     }
     // Only the used nodes are copied; there are two for each body and two more.
-    const size_t used[ARRAYS] = {w->used, w->used, w->used, w->used, w->changed_count, w->used, (w->tree.used + 1) / 2};
+    const size_t used[ARRAYS] = {w->used, w->used, w->used, w->used, w->changed_count, w->used, (w->tree.used + 1) / 2,
+                                 w->used};
     for (int i = 0; i < ARRAYS; i++) {
         if (old[i] && used[i]) memcpy(larger[i], old[i], used[i] * sizes[i]);
         if (old[i]) world_release(w, old[i], (size_t)w->capacity + 1, sizes[i]);
@@ -122,6 +124,7 @@ static int reserve_bodies(ovoid_world *w, uint32_t count) {
     w->leaf_of = larger[3];
     w->changed = larger[4];
     w->generations = larger[5];
+    w->seen = larger[7];
     if (w->tree.nodes) {
         w->tree.nodes = larger[6];
         w->tree.capacity = room;
@@ -155,8 +158,7 @@ static uint32_t add_record(ovoid_world *w, const ovoid_world_body *given) {
                       .radius = ball.radius,
                       .size = ball.size,
                       .user = given->user,
-                      .groups = groups_make(given->groups),
-                      .seen = box_make_empty()};
+                      .groups = groups_make(given->groups)};
     w->places[i] = (body_place){body_compute_center(&ball, &b->body.pose, &b->center_error), 0};
     material_forget(w, i);
     if (world_get_extent(&given->body) > OVOID_LENGTH_MAX / 2) w->has_vast = 1;

@@ -40,7 +40,7 @@ expect "writable data" 'assert_hook' "$writable"
 outside=$(echo "$symbols" | awk '/\*UND\*/ { needed[$NF] = 1; next }
     / (g|w)[ a-zA-Z]* / && NF >= 5 { defined[$NF] = 1 }
     END { for (s in needed) if (!(s in defined)) print s }')
-memory='aligned_alloc|free|mem(cpy|move|set|cmp)|str(len|cmp|ncmp)|abort|_*(vsnprintf|mem(cpy|move|set))(_chk)?|__stack_chk_fail'
+memory='aligned_alloc|madvise|free|mem(cpy|move|set|cmp)|str(len|cmp|ncmp)|abort|_*(vsnprintf|mem(cpy|move|set))(_chk)?|__stack_chk_fail'
 mathematics='sqrt|sin|cos|sincos|fm(in|ax)|frexp|ldexp|scalbn|floor|ceil|rint|nearbyint|nextafter|trunc|log2?|exp2?|cbrt|pow|hypot|fabs|fesetenv|fegetenv'
 # The threads of a world: created and joined by it, asleep between its frames; queries know none of them. getpid tells
 # whether this is still their process; signals are kept from them.

@@ -1,9 +1,9 @@
-// The kernels of box_separation.h, over four places of one vector in AVX2 and of an array elsewhere, with the same
+// The search for an axis of box_axes.h, over four places of one vector in AVX2 and of an array elsewhere, with the same
 // bits.
 #ifndef OVOID_SIMD_KERNELS_BOX_SEPARATION_H
 #define OVOID_SIMD_KERNELS_BOX_SEPARATION_H
 
-#include "simd/box_separation.h"
+#include "simd/box_axes.h"
 #include "simd/kernels/lanes.h"
 
 #if LANES == 4

@@ -18,4 +18,12 @@ static inline void wide_tree_set_box(dynamic_tree *t, const tree_node *n) {
     box8_set_lane(&t->wide[n->link / BOX8], n->link % BOX8, &n->bounds);
 }
 
+/// Names a leaf as fresh, or no longer (dynamic_tree_find_new).
+static inline void wide_tree_set_fresh(dynamic_tree *t, uint32_t leaf, int is_fresh) {
+    uint32_t link = t->nodes[leaf].link;
+    if (!t->wide_count || link == NONE) return;
+    uint32_t *fresh = &t->wide[link / BOX8].fresh, bit = 1u << link % BOX8;
+    *fresh = is_fresh ? *fresh | bit : *fresh & ~bit;
+}
+
 #endif

@@ -1,7 +1,8 @@
 // The axes of two boxes: every instruction set against the scalar twin, bit for bit; and the twin against long double.
 // The gap that it states is that of the corners along its normal, to 1e-13 of boxes of size 1 to 5; an axis is found
 // where one of the 15 separates the boxes by more than asked and 1e-9, and none where none does.
-#include "simd/box_separation.h"
+
+#include "simd/box_axes.h"
 
 #include "check.h"
 

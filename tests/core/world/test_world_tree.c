@@ -85,6 +85,53 @@ static void check_kernels(const dynamic_tree *t, const box *wanted) {
     }
 }
 
+// Leaves that overlap the wanted box, but not the seen one, and fresh leaves are found, by all instruction sets the
+// same. Of the others those that overlap the seen box by more than roundings are left out.
+static void check_new(dynamic_tree *t, const box *wanted, const box *seen, uint64_t fresh) {
+    uint32_t first[BODIES + BOX8], count = 0;
+    for (uint32_t i = 0; i < BODIES; i++)
+        if (leaf_of[i] != NONE) wide_tree_set_fresh(t, leaf_of[i], (int)(fresh >> i % 64 & 1));
+    for (int isa = SIMD_SCALAR; t->wide_count && isa < SIMD_ISA_COUNT; isa++) {
+        box8_function *find = box8_get_new((simd_isa)isa);
+        if (!find) continue;
+        box8_walk walk;
+        uint32_t leaves[BODIES + BOX8], here, all = 0;
+        box8_begin_new(&walk, t->wide, &wanted->min.x, &seen->min.x);
+        while ((here = find(&walk, leaves + all, BODIES + BOX8 - all)) > 0) all += here;
+        if (isa == SIMD_SCALAR) {
+            count = all;
+            memcpy(first, leaves, sizeof first);
+        }
+        CHECK(all == count && !memcmp(first, leaves, all * sizeof *leaves));
+    }
+    uint8_t is_found[BODIES] = {0};
+    for (uint32_t k = 0; k < count; k++) is_found[t->nodes[first[k]].body] = 1;
+    vec3 more = {1e-4, 1e-4, 1e-4};
+    box less = {vec3_add(seen->min, more), vec3_sub(seen->max, more)};
+    for (uint32_t i = 0; i < BODIES && t->wide_count; i++) {
+        if (leaf_of[i] == NONE || !box_is_overlapping(&boxes[i], wanted)) continue;
+        if ((fresh >> i % 64 & 1) || !box_is_overlapping(&boxes[i], seen)) CHECK_EQ(is_found[i], 1);
+        if (!(fresh >> i % 64 & 1) && box_is_overlapping(&boxes[i], &less)) CHECK_EQ(is_found[i], 0);
+    }
+    for (uint32_t i = 0; i < BODIES; i++)
+        if (leaf_of[i] != NONE) wide_tree_set_fresh(t, leaf_of[i], 0);
+    for (uint32_t i = 0; i < t->wide_count; i++) CHECK_EQ(t->wide[i].fresh, 0);
+}
+
+// The seen box: another one, one that ends less than single precision tells before a leaf begins, an empty one.
+static void check_seen(dynamic_tree *t, const box *wanted, uint64_t *s) {
+    box seen = make_box(s), empty = box_make_empty(), near = seen;
+    check_new(t, wanted, &seen, random_next(s) & random_next(s));
+    uint32_t i = (uint32_t)(random_next(s) % BODIES);
+    near = boxes[i];
+    near.max.x = boxes[i].min.x - 1e-9;
+    near.min.x = near.max.x - 1;
+    check_new(t, &boxes[i], &near, 0);
+    near = (box){{boxes[i].max.x + 1e-9, near.min.y, near.min.z}, {boxes[i].max.x + 1, near.max.y, near.max.z}};
+    check_new(t, &boxes[i], &near, 0);
+    check_new(t, wanted, &empty, 0);
+}
+
 // Boxes of the wide nodes hold those of the leaves, and are larger by less than 1e-6 of the numbers.
 static void check_wide(const dynamic_tree *t) {
     uint32_t leaves = 0;
@@ -181,6 +228,7 @@ static void test_tree(void) {
         check_overlaps(&t, &less);
         check_wide(&t);
         check_kernels(&t, &wanted);
+        check_seen(&t, &wanted, &s);
         check_nearest(&t, wanted.min);
     }
     // Empty again.
@@ -200,6 +248,11 @@ static void test_rounding(void) {
         if (fabs(x) < 1e38) CHECK(x - down <= 1e-6 * fabs(x) + 1e-40 && up - x <= 1e-6 * fabs(x) + 1e-40);
     }
     CHECK(box8_round_down(0) <= 0 && box8_round_up(0) >= 0);
+    // A box with an end that a node would cut off is no seen box: it may not overlap what it seems to overlap there.
+    const double ends[6] = {0, 0, 0, 1, 1, 1}, far[6] = {0, 0, 0, 1, 1, 1e45};
+    box8_walk walk;
+    box8_begin_new(&walk, NULL, ends, far);
+    for (int k = 0; k < 3; k++) CHECK(walk.seen_low[k] > walk.seen_high[k]);
 }
 
 // Boxes at powers of 1.5, added one after another, make a chain. It has wide nodes as long as no path is too long.
