@@ -169,8 +169,10 @@ inline bool is_round(const ovoid_shape *shape) {
 /// The contacts of two polyhedra that touch: the points of their manifold, deepest first. The first one has the depth
 /// of the shapes. Where no corner of the manifold is that deep, the deepest point comes before its corners.
 template <class S> void add_contacts(contact_list<S> &to, int i, int j, const ovoid_pair &pair) {
-    const ovoid_manifold manifold = ovoid_manifold_find(&pair, nullptr, nullptr);
-    ovoid_manifold_points points = ovoid_manifold_compute_points(&pair, &manifold);
+    ovoid_manifold_points points;
+    ovoid_manifold_options options{};
+    options.points = &points;
+    const ovoid_manifold manifold = ovoid_manifold_find(&pair, &options, nullptr);
     std::uint32_t count = 0;
     for (; count < points.count && count < 4; count++)
         for (std::uint32_t at = count; at > 0 && points.points[at].separation < points.points[at - 1].separation; at--)
