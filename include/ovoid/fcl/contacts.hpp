@@ -71,9 +71,9 @@ struct measured {
     ovoid_verdict bracket;
     ovoid_witness at;
 };
-/// Where round bodies touch, a depth that is off by e has a normal that is off by the root of e: depths of contacts are
-/// nearly to rounding. Those of polyhedra are so anyway.
-constexpr ovoid_options contact_options = {0, 1e-12, 0, 0};
+/// Where round bodies touch, a depth that is off by e has a normal that is off by the root of e: 1e-4 at most here, in
+/// radians. Depths and normals of polyhedra are exact but for rounding anyway.
+constexpr ovoid_options contact_options = {0, 1e-9, 0, 0};
 inline measured ask_depth(const ovoid_prepared_pair &pair) {
     measured found;
     const ovoid_evidence evidence = {nullptr, &found.at, nullptr};
