@@ -183,6 +183,21 @@ static void test_crossing() {
     CHECK_NEAR(all[0].penetration_depth, 0.01, 1e-12);
 }
 
+/// Bars on their edges, one on the other, turned by so little that the edges are nearly parallel: they overlap least
+/// along the edges' cross product, as long as they overlap by less than the ends are beside one another.
+static void test_long_crossing() {
+    const body bar = make_box(3, 0.2, 0.2);
+    const Transform3d a = make_transform(Vector3d(0, 0, 0), Vector3d::UnitX(), pi / 4);
+    for (double turn : {1e-1, 1e-2, 1e-3, 2e-4, 5e-5, 1e-5}) {
+        const double height = 0.2 * std::sqrt(2.0) - 0.1 * turn;
+        const Transform3d b = make_transform(Vector3d(0, 0, height), Vector3d::UnitZ(), turn) * a;
+        check(bar, a, bar, b);
+        const auto all = list(bar, a, bar, b);
+        CHECK(!all.empty());
+        if (!all.empty()) CHECK_NEAR(all[0].penetration_depth, 0.1 * turn, 4e-9);
+    }
+}
+
 /// A capsule on a box: lying two ends, standing or leaning one; within it too.
 static void test_capsules() {
     const body box = make_box(4, 4, 1), pill = make_capsule(0.3, 0.8);
@@ -214,6 +229,7 @@ int main() {
     test_on_a_table(make_box(4, 4, 1));
     test_octagon();
     test_crossing();
+    test_long_crossing();
     test_capsules();
     for (const body &x : all) ovoid_shape_destroy(x.shape);
     return check_end();

@@ -106,7 +106,7 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
     }
     /** Calls back with each two objects whose boxes meet. */
     void collide(void *data, ::fcl::CollisionCallBack<S> callback) const override {
-        pair_queue queue(callback, data);
+        pair_queue queue(callback, data, objects_.size());
         const auto take = [&](std::size_t i, std::size_t j) { return queue.push(objects_[i], objects_[j]); };
         if (tree_.find_own(take)) return;
         for (std::size_t k = leaves_; k < objects_.size(); k++)
@@ -127,7 +127,7 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
      */
     void collide(base *other, void *data, ::fcl::CollisionCallBack<S> callback) const override {
         if (other == this) return collide(data, callback);
-        pair_queue queue(callback, data);
+        pair_queue queue(callback, data, objects_.size());
         const auto take = [&](object *x, object *y) { return queue.push(x, y); };
         const auto *ours = dynamic_cast<const BroadPhaseManager *>(other);
         if (!ours) {
@@ -156,13 +156,15 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
 
   private:
     /// Pairs on the way to the callback, in their order. In a large scene objects and geometries are not in the nearer
-    /// caches: they are fetched while the pairs before them are asked.
+    /// caches: they are fetched while the pairs before them are asked. In a small one the callback is called at once.
     class pair_queue {
       public:
-        pair_queue(::fcl::CollisionCallBack<S> callback, void *data) : callback_(callback), data_(data) {}
+        pair_queue(::fcl::CollisionCallBack<S> callback, void *data, std::size_t objects)
+            : callback_(callback), data_(data), is_large_(objects > 2000) {}
         /// True if the query is over: the callback says so.
         OVOID_FCL_INLINE bool push(object *x, object *y) {
             if (!x || !y) return false;
+            if (!is_large_) return callback_(x, y, data_);
             const couple &last = pairs_[(count_ - 1) % size], &middle = pairs_[(count_ - size / 2) % size];
             // Many pairs one after the other have the same second object.
             if (last.y != y) fetch<0, 1, 2>(y);
@@ -174,8 +176,7 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
         }
         /// Calls back with those that are left.
         void finish() {
-            while (done_ < count_ && !call()) {
-            }
+            for (bool is_over = false; !is_over && done_ < count_;) is_over = call();
         }
 
       private:
@@ -200,6 +201,7 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
 
         ::fcl::CollisionCallBack<S> callback_;
         void *data_;
+        bool is_large_;
         std::size_t count_ = 0, done_ = 0;
         couple pairs_[size] = {};
     };
