@@ -10,6 +10,10 @@ sym3dd sym3dd_from(sym3 s) {
     return (sym3dd){{{dd_from(s.xx), xy, xz}, {xy, dd_from(s.yy), yz}, {xz, yz, dd_from(s.zz)}}};
 }
 
+sym3 sym3dd_truncate(const sym3dd *s) {
+    return (sym3){s->m[0][0].high, s->m[0][1].high, s->m[0][2].high, s->m[1][1].high, s->m[1][2].high, s->m[2][2].high};
+}
+
 // Half the exponent of a square: 2^-2k x lies in [1/4, 1).
 static int half_exponent(double x) {
     int e;

@@ -16,6 +16,8 @@ typedef struct sym3dd {
 
 /// The matrix in double-double.
 sym3dd sym3dd_from(sym3 s);
+/// The doubles nearest to its entries.
+sym3 sym3dd_truncate(const sym3dd *s);
 /// Doubles near s, chosen together (round.c): the ellipsoid of the result is as near to that of s, in its own metric,
 /// as doubles allow, even for a needle or a slab.
 sym3 sym3dd_round(const sym3dd *s);

@@ -41,6 +41,12 @@ using solid_owner = std::unique_ptr<ovoid_solid, solid_deleter>;
 struct box_tree {
     std::vector<ovoid_box> boxes;
     std::vector<std::uint32_t> order;
+
+    /// The place of a triangle among the leaves.
+    std::size_t find(std::uint32_t triangle) const {
+        const auto found = std::find(order.begin(), order.end(), triangle);
+        return found == order.end() ? 0 : static_cast<std::size_t>(found - order.begin());
+    }
 };
 
 /// A geometry of FCL as a shape or a solid; neither of them if ovoid refused it: then FCL answers.
@@ -62,17 +68,25 @@ class body {
         return shape_ ? ovoid_shape_get_size(shape_.get()) : solid_ ? ovoid_solid_get_size(solid_.get()) : 0;
     }
 
+    /// Writes the corners of triangle i of the solid.
+    void get_triangle(std::uint32_t i, ovoid_vec3 *to) const {
+        const double *points = ovoid_solid_get_points(solid_.get());
+        std::uint32_t corners[3];
+        ovoid_solid_get_triangle(solid_.get(), i, corners);
+        for (int k = 0; k < 3; k++) {
+            const double *xyz = points + 3 * std::size_t{corners[k]};
+            to[k] = {xyz[0], xyz[1], xyz[2]};
+        }
+    }
     /// The shape, or triangle i of the solid as a shape, which is made when it is first wanted. NULL: no memory is
     /// left.
     const ovoid_shape *piece(std::uint32_t i) const {
         if (shape_) return shape_.get();
         ovoid_shape *made = pieces_[i].load(std::memory_order_acquire);
         if (made) return made;
-        const double *points = ovoid_solid_get_points(solid_.get());
-        std::uint32_t corners[3];
-        ovoid_solid_get_triangle(solid_.get(), i, corners);
-        double xyz[9];
-        for (std::size_t k = 0; k < 9; k++) xyz[k] = points[3 * std::size_t{corners[k / 3]} + k % 3];
+        ovoid_vec3 at[3];
+        get_triangle(i, at);
+        const double xyz[9] = {at[0].x, at[0].y, at[0].z, at[1].x, at[1].y, at[1].z, at[2].x, at[2].y, at[2].z};
         ovoid_shape *mine = ovoid_shape_create_from_points(xyz, 3, nullptr, nullptr);
         if (pieces_[i].compare_exchange_strong(made, mine, std::memory_order_acq_rel)) return mine;
         ovoid_shape_destroy(mine);
@@ -108,14 +122,9 @@ class body {
         tree_.boxes.assign(1, box);
     }
     ovoid_box box_of_triangle(std::uint32_t i) const {
-        const double *points = ovoid_solid_get_points(solid_.get());
-        std::uint32_t corners[3];
-        ovoid_solid_get_triangle(solid_.get(), i, corners);
-        const auto at = [&](int k) {
-            const double *xyz = points + 3 * std::size_t{corners[k]};
-            return ovoid_box{{xyz[0], xyz[1], xyz[2]}, {xyz[0], xyz[1], xyz[2]}};
-        };
-        return join(join(at(0), at(1)), at(2));
+        ovoid_vec3 at[3];
+        get_triangle(i, at);
+        return join(join({at[0], at[0]}, {at[1], at[1]}), {at[2], at[2]});
     }
 
     shape_owner shape_;

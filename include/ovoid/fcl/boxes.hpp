@@ -73,24 +73,32 @@ template <class BoxOf> ovoid_box fill_boxes(std::vector<ovoid_box> &boxes, const
     return boxes[at.node] = box;
 }
 
+/// A leaf of one tree and one of another.
+struct leaf_pair {
+    std::size_t a, b;
+};
+
 /// Goes through the pairs of a leaf of one tree and one of another that `may_meet` does not part, until `take` returns
-/// true: then it returns true.
+/// true: then it returns true. `first` is taken first, then those that are in the same halves.
 template <class Test, class Take> class pair_search {
   public:
-    pair_search(const ovoid_box *a, const ovoid_box *b, const Test &may_meet, Take &take)
-        : a_(a), b_(b), may_meet_(may_meet), take_(take) {}
+    pair_search(const ovoid_box *a, const ovoid_box *b, const Test &may_meet, Take &take, leaf_pair first = {0, 0})
+        : a_(a), b_(b), may_meet_(may_meet), take_(take), first_(first) {}
 
     bool visit(const box_range &x, const box_range &y) const {
         if (!may_meet_(a_[x.node], b_[y.node])) return false;
         if (x.is_leaf() && y.is_leaf()) return take_(x.first, y.first);
-        if (is_first_halved(x, y)) return visit(x.lower(), y) || visit(x.upper(), y);
-        return visit(x, y.lower()) || visit(x, y.upper());
+        const box_range &halved = is_first_halved(x, y) ? x : y, lower = halved.lower(), upper = halved.upper();
+        if (&halved == &x)
+            return first_.a < upper.first ? visit(lower, y) || visit(upper, y) : visit(upper, y) || visit(lower, y);
+        return first_.b < upper.first ? visit(x, lower) || visit(x, upper) : visit(x, upper) || visit(x, lower);
     }
 
   private:
     const ovoid_box *a_, *b_;
     const Test &may_meet_;
     Take &take_;
+    leaf_pair first_;
 };
 
 /// Goes through the pairs of leaves whose boxes are nearer than a bound, nearer halves first, until `take` returns

@@ -6,7 +6,7 @@
 #ifndef OVOID_FCL_CONTACTS_HPP
 #define OVOID_FCL_CONTACTS_HPP
 
-#include "ovoid/fcl/body.hpp"
+#include "ovoid/fcl/parts.hpp"
 #include "ovoid/manifold.h"
 
 #include <algorithm>
@@ -35,71 +35,6 @@ template <class S> double get_part(const typed<S> &o1, const typed<S> &o2) {
     const double a = static_cast<const ::fcl::Sphere<S> *>(o1.of)->radius,
                  b = static_cast<const ::fcl::Sphere<S> *>(o2.of)->radius;
     return a + b > 0 ? a / (a + b) : 0.5;
-}
-
-/// Two bodies at their poses; shapes are prepared there.
-struct body_couple {
-    const body *a, *b;
-    ovoid_prepared_shape at_a, at_b;
-
-    const ovoid_pose &pose_a() const { return at_a.body.pose; }
-    const ovoid_pose &pose_b() const { return at_b.body.pose; }
-    ovoid_pair pieces(std::uint32_t i, std::uint32_t j) const { return {a->piece(i), b->piece(j), pose_a(), pose_b()}; }
-    ovoid_pair shapes() const { return {a->shape(), b->shape(), pose_a(), pose_b()}; }
-    ovoid_prepared_pair prepared() const { return {&at_a, &at_b}; }
-    ovoid_body_pair bodies() const {
-        return {{a->shape(), nullptr, pose_a(), a->solid()}, {b->shape(), nullptr, pose_b(), b->solid()}};
-    }
-    bool has_mesh() const { return a->solid() || b->solid(); }
-};
-
-/// A box of body b in the frame of a, as centre and half sizes of both frames' axes.
-class box_test {
-  public:
-    explicit box_test(const body_couple &of) {
-        const ovoid_pose inverse = ovoid_pose_compute_inverse(&of.pose_a());
-        const ovoid_pose b_in_a = ovoid_pose_compute_product(&inverse, &of.pose_b());
-        ovoid_pose_compute_matrix(&b_in_a, turn_);
-        const double at[3] = {b_in_a.position.x, b_in_a.position.y, b_in_a.position.z};
-        for (int i = 0; i < 3; i++) at_[i] = at[i];
-        // Rounding: a part in 1e12 of every length that enters the sums.
-        for (int i = 0; i < 9; i++) size_[i] = std::fabs(turn_[i]) + 1e-12;
-        reach_ = 1e-12 * (std::fabs(at[0]) + std::fabs(at[1]) + std::fabs(at[2]));
-    }
-    /// May the boxes have a common point? Separating axes are the axes of both frames.
-    bool operator()(const ovoid_box &a, const ovoid_box &b) const {
-        const double ca[3] = {(a.min.x + a.max.x) / 2, (a.min.y + a.max.y) / 2, (a.min.z + a.max.z) / 2};
-        const double cb[3] = {(b.min.x + b.max.x) / 2, (b.min.y + b.max.y) / 2, (b.min.z + b.max.z) / 2};
-        const double ha[3] = {a.max.x - ca[0], a.max.y - ca[1], a.max.z - ca[2]};
-        const double hb[3] = {b.max.x - cb[0], b.max.y - cb[1], b.max.z - cb[2]};
-        double between[3];
-        double far = reach_;
-        for (int i = 0; i < 3; i++) {
-            between[i] = at_[i] + turn_[3 * i] * cb[0] + turn_[3 * i + 1] * cb[1] + turn_[3 * i + 2] * cb[2] - ca[i];
-            far += 1e-12 * (std::fabs(ca[i]) + std::fabs(cb[i]) + ha[i] + hb[i]);
-        }
-        for (int i = 0; i < 3; i++)
-            if (std::fabs(between[i]) >
-                ha[i] + size_[3 * i] * hb[0] + size_[3 * i + 1] * hb[1] + size_[3 * i + 2] * hb[2] + far)
-                return false;
-        for (int i = 0; i < 3; i++) {
-            const double along = turn_[i] * between[0] + turn_[3 + i] * between[1] + turn_[6 + i] * between[2];
-            if (std::fabs(along) > hb[i] + size_[i] * ha[0] + size_[3 + i] * ha[1] + size_[6 + i] * ha[2] + 2 * far)
-                return false;
-        }
-        return true;
-    }
-
-  private:
-    double turn_[9], size_[9], at_[3], reach_;
-};
-
-/// Goes through the pairs of a triangle (or the shape) of a and one of b whose boxes meet, until `take` returns true.
-template <class Take> void search_pairs(const body_couple &of, Take take) {
-    const box_tree &a = of.a->tree(), &b = of.b->tree();
-    const auto take_leaves = [&](std::size_t i, std::size_t j) { return take(a.order[i], b.order[j]); };
-    pair_search(a.boxes.data(), b.boxes.data(), box_test(of), take_leaves)
-        .visit({0, 0, a.order.size()}, {0, 0, b.order.size()});
 }
 
 /// Adds contacts to a result of FCL.
@@ -136,9 +71,9 @@ struct measured {
     ovoid_verdict bracket;
     ovoid_witness at;
 };
-/// Where round bodies touch, a depth that is off by e has a normal that is off by the root of e: depths of contacts are
-/// nearly to rounding. Those of polyhedra are so anyway.
-constexpr ovoid_options contact_options = {0, 1e-12, 0, 0};
+/// Where round bodies touch, a depth that is off by e has a normal that is off by the root of e: 1e-4 at most here, in
+/// radians. Depths and normals of polyhedra are exact but for rounding anyway.
+constexpr ovoid_options contact_options = {0, 1e-9, 0, 0};
 inline measured ask_depth(const ovoid_prepared_pair &pair) {
     measured found;
     const ovoid_evidence evidence = {nullptr, &found.at, nullptr};
@@ -169,8 +104,10 @@ inline bool is_round(const ovoid_shape *shape) {
 /// The contacts of two polyhedra that touch: the points of their manifold, deepest first. The first one has the depth
 /// of the shapes. Where no corner of the manifold is that deep, the deepest point comes before its corners.
 template <class S> void add_contacts(contact_list<S> &to, int i, int j, const ovoid_pair &pair) {
-    const ovoid_manifold manifold = ovoid_manifold_find(&pair, nullptr, nullptr);
-    ovoid_manifold_points points = ovoid_manifold_compute_points(&pair, &manifold);
+    ovoid_manifold_points points;
+    ovoid_manifold_options options{};
+    options.points = &points;
+    const ovoid_manifold manifold = ovoid_manifold_find(&pair, &options, nullptr);
     std::uint32_t count = 0;
     for (; count < points.count && count < 4; count++)
         for (std::uint32_t at = count; at > 0 && points.points[at].separation < points.points[at - 1].separation; at--)
@@ -216,10 +153,8 @@ template <class S>
 void collide_parts(contact_list<S> &to, const body_couple &of, std::uint32_t part_a, std::uint32_t part_b) {
     const ovoid_pair pair = of.pieces(part_a, part_b);
     const int i = of.a->solid() ? static_cast<int>(part_a) : -1, j = of.b->solid() ? static_cast<int>(part_b) : -1;
-    if (!to.is_detailed()) {
-        if (is_hit(ovoid_collide(&pair, nullptr, nullptr))) to.add(i, j);
-        return;
-    }
+    if (!is_hit(ovoid_collide(&pair, nullptr, nullptr))) return;
+    if (!to.is_detailed()) return to.add(i, j);
     const measured depth = ask_depth(pair);
     if (is_hit(depth.bracket)) add_deepest(to, i, j, depth);
 }
@@ -232,7 +167,7 @@ template <class S> void collide_meshes(contact_list<S> &to, const body_couple &o
     if (!is_hit(answer.deciding)) return;
     const std::size_t before = to.room();
     if (before > 1)
-        search_pairs(of, [&](std::uint32_t i, std::uint32_t j) {
+        search_pairs(of, answer, [&](std::uint32_t i, std::uint32_t j) {
             collide_parts(to, of, i, j);
             return to.room() == 0;
         });

@@ -106,12 +106,12 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
     }
     /** Calls back with each two objects whose boxes meet. */
     void collide(void *data, ::fcl::CollisionCallBack<S> callback) const override {
-        const auto take = [&](std::size_t i, std::size_t j) {
-            return objects_[i] && objects_[j] && callback(objects_[i], objects_[j], data);
-        };
+        pair_queue queue(callback, data, objects_.size());
+        const auto take = [&](std::size_t i, std::size_t j) { return queue.push(objects_[i], objects_[j]); };
         if (tree_.find_own(take)) return;
         for (std::size_t k = leaves_; k < objects_.size(); k++)
             if (objects_[k] && find_overlaps(box_at(k), k, [&](std::size_t i) { return take(i, k); })) return;
+        queue.finish();
     }
     /** Calls back with two objects while their boxes are nearer than the least distance so far. */
     void distance(void *data, ::fcl::DistanceCallBack<S> callback) const override {
@@ -126,14 +126,15 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
      * with one of this class, as they take it for one of their own.
      */
     void collide(base *other, void *data, ::fcl::CollisionCallBack<S> callback) const override {
-        bool is_done = false;
-        const auto take = [&](object *x, object *y) { return is_done = x && y && callback(x, y, data); };
         if (other == this) return collide(data, callback);
+        pair_queue queue(callback, data, objects_.size());
+        const auto take = [&](object *x, object *y) { return queue.push(x, y); };
         const auto *ours = dynamic_cast<const BroadPhaseManager *>(other);
         if (!ours) {
             for (object *o : objects_of(*other))
                 if (find_overlaps(box_of(o), objects_.size(), [&](std::size_t i) { return take(objects_[i], o); }))
                     return;
+            queue.finish();
             return;
         }
         const auto take_leaves = [&](std::size_t i, std::size_t j) { return take(objects_[i], ours->objects_[j]); };
@@ -143,6 +144,7 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
                 return;
         for (std::size_t k = leaves_; k < objects_.size(); k++)
             if (ours->find_overlaps(box_at(k), ours->leaves_, [&](std::size_t j) { return take_leaves(k, j); })) return;
+        queue.finish();
     }
     /** Calls back with an object of each manager while their boxes are nearer than the least distance so far. */
     void distance(base *other, void *data, ::fcl::DistanceCallBack<S> callback) const override {
@@ -153,6 +155,57 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
     }
 
   private:
+    /// Pairs on the way to the callback, in their order. In a large scene objects and geometries are not in the nearer
+    /// caches: they are fetched while the pairs before them are asked. In a small one the callback is called at once.
+    class pair_queue {
+      public:
+        pair_queue(::fcl::CollisionCallBack<S> callback, void *data, std::size_t objects)
+            : callback_(callback), data_(data), is_large_(objects > 2000) {}
+        /// True if the query is over: the callback says so.
+        OVOID_FCL_INLINE bool push(object *x, object *y) {
+            if (!x || !y) return false;
+            if (!is_large_) return callback_(x, y, data_);
+            const couple &last = pairs_[(count_ - 1) % size], &middle = pairs_[(count_ - size / 2) % size];
+            // Many pairs one after the other have the same second object.
+            if (last.y != y) fetch<0, 1, 2>(y);
+            fetch<0, 1, 2>(x);
+            if (middle.x) fetch<0, 2>(middle.x->collisionGeometry().get());
+            if (middle.x && last.y != middle.y) fetch<0, 2>(middle.y->collisionGeometry().get());
+            pairs_[count_++ % size] = {x, y};
+            return count_ - done_ == size && call();
+        }
+        /// Calls back with those that are left.
+        void finish() {
+            for (bool is_over = false; !is_over && done_ < count_;) is_over = call();
+        }
+
+      private:
+        static constexpr std::size_t size = 8;
+        struct couple {
+            object *x, *y;
+        };
+
+        bool call() {
+            const couple &next = pairs_[done_++ % size];
+            return callback_(next.x, next.y, data_);
+        }
+        /// Cache lines: an object has its transform in the first three, a geometry its type in the first and its sizes
+        /// in the third.
+        template <int... line> OVOID_FCL_INLINE static void fetch(const void *from) {
+#if defined(__GNUC__)
+            (__builtin_prefetch(static_cast<const char *>(from) + 64 * line), ...);
+#else
+            (void)from;
+#endif
+        }
+
+        ::fcl::CollisionCallBack<S> callback_;
+        void *data_;
+        bool is_large_;
+        std::size_t count_ = 0, done_ = 0;
+        couple pairs_[size] = {};
+    };
+
     /// The callback of a distance query, and the least distance so far.
     class nearest {
       public:

@@ -7,6 +7,7 @@
 #define OVOID_FCL_SWEPT_HPP
 
 #include "ovoid/fcl/contacts.hpp"
+#include "ovoid/fcl/faces.hpp"
 #include "ovoid/swept.h"
 
 #include <cmath>
@@ -92,9 +93,7 @@ template <class S> OVOID_FCL_INLINE bool collide_swept(contact_list<S> &to, cons
         if (is_hit(found)) to.add(-1, -1);
         return true;
     }
-    // Of capsules and boxes a manifold may be wanted.
-    const bool is_single = to.room() == 1 || pair.a->core == OVOID_SWEPT_POINT || pair.b->core == OVOID_SWEPT_POINT;
-    if (!is_single) return ovoid_swept_collide(pair).status == OVOID_SEPARATED;
+    if (to.room() > 1 && has_faces(*pair.a) && has_faces(*pair.b)) return collide_faces<S>(to, pair);
     measured depth;
     depth.bracket = ovoid_swept_contact(pair, &depth.at);
     if (depth.bracket.status == OVOID_UNDECIDED) return false;
