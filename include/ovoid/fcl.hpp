@@ -67,14 +67,9 @@ template <class S> struct posed {
         return type == ::fcl::GEOM_SPHERE ? place_sphere<S>(shape, pose, to) : detail::place<S>(shape, pose, to);
     }
 };
-/// Two geometries that are swept spheres, at their poses; false if one is none, or their shapes answer better: a
-/// cylinder or a cone beside another type than a sphere.
+/// Two geometries that are swept spheres, at their poses; false if one is none.
 template <class S>
 OVOID_FCL_INLINE bool make_swept_pair(const posed<S> &a, const posed<S> &b, ovoid_swept_sphere (&to)[2]) {
-    const auto is_round = [](const posed<S> &x) {
-        return x.type == ::fcl::GEOM_CYLINDER || x.type == ::fcl::GEOM_CONE;
-    };
-    if (is_round(a) ? b.type != ::fcl::GEOM_SPHERE : is_round(b) && a.type != ::fcl::GEOM_SPHERE) return false;
     return make_swept<S>(a.self(), a.pose, to[0]) && make_swept<S>(b.self(), b.pose, to[1]);
 }
 template <class S> posed<S> pose_of(const ::fcl::CollisionObject<S> *o) {

@@ -41,6 +41,22 @@ bool make_round(const Round &g, ovoid_swept_core core, const ::fcl::Transform3<S
     return true;
 }
 
+/// A box or an ellipsoid, but for its centre: parts of the lengths are its half axes.
+template <class S>
+OVOID_FCL_INLINE bool make_box(const ::fcl::Vector3<S> &lengths, double part, ovoid_swept_core core,
+                               const ::fcl::Transform3<S> &t, ovoid_swept_sphere &to) {
+    const double off = off_product<S>(t, 0, 0) + off_product<S>(t, 1, 1) + off_product<S>(t, 2, 2) +
+                       off_product<S>(t, 0, 1) + off_product<S>(t, 1, 2) + off_product<S>(t, 2, 0);
+    if (!(lengths[0] > 0 && lengths[1] > 0 && lengths[2] > 0 && off <= swept_rounding)) return false;
+    to.radius = 0;
+    to.core = core;
+    for (int k = 0; k < 3; k++) {
+        to.half[k] = part * static_cast<double>(lengths[k]);
+        to.axis[k] = get_column<S>(t, k);
+    }
+    return true;
+}
+
 /// The geometry at its transform, of which no more is read than the body needs; false if it is none of these types, has
 /// a size that is not above 0, or is at a transform that is not rigid to a few roundings.
 template <class S>
@@ -59,19 +75,13 @@ OVOID_FCL_INLINE bool make_swept(const typed<S> &g, const ::fcl::Transform3<S> &
         to.axis[0] = get_column<S>(t, 2);
         break;
     }
-    case ::fcl::GEOM_BOX: {
-        const auto &side = static_cast<const ::fcl::Box<S> *>(g.of)->side;
-        const double off = off_product<S>(t, 0, 0) + off_product<S>(t, 1, 1) + off_product<S>(t, 2, 2) +
-                           off_product<S>(t, 0, 1) + off_product<S>(t, 1, 2) + off_product<S>(t, 2, 0);
-        if (!(side[0] > 0 && side[1] > 0 && side[2] > 0 && off <= swept_rounding)) return false;
-        to.radius = 0;
-        to.core = OVOID_SWEPT_BOX;
-        for (int k = 0; k < 3; k++) {
-            to.half[k] = static_cast<double>(side[k]) / 2;
-            to.axis[k] = get_column<S>(t, k);
-        }
+    case ::fcl::GEOM_BOX:
+        if (!make_box<S>(static_cast<const ::fcl::Box<S> *>(g.of)->side, 0.5, OVOID_SWEPT_BOX, t, to)) return false;
         break;
-    }
+    case ::fcl::GEOM_ELLIPSOID:
+        if (!make_box<S>(static_cast<const ::fcl::Ellipsoid<S> *>(g.of)->radii, 1, OVOID_SWEPT_ELLIPSOID, t, to))
+            return false;
+        break;
     case ::fcl::GEOM_CYLINDER:
         if (!make_round<S>(*static_cast<const ::fcl::Cylinder<S> *>(g.of), OVOID_SWEPT_CYLINDER, t, to)) return false;
         break;
