@@ -133,6 +133,31 @@ COMPILER_INLINED int measure_point(const swept_placed *p, swept_question asked, 
     return 1;
 }
 
+// ---- two segments
+
+static inline double cut_off(double t, double h) { return max2(-h, min2(h, t)); }
+
+// By the parameters s and t along the unit axes (V. J. Lumelsky, On fast computation of distance between line segments,
+// 1985): those of the lines' nearest points, cut off one after the other. 0 where the segments are nearly parallel or
+// cross, which linear/nearest.h knows to take apart.
+COMPILER_INLINED int measure_segments(const swept_placed *p, swept_question asked, ovoid_witness *witness,
+                                      ovoid_verdict *to) {
+    vec3 u = p->a->axis[0], v = p->b->axis[0];
+    double h = p->a->half[0], k = p->b->half[0];
+    double uv = vec3_dot(u, v), ud = vec3_dot(u, p->d), vd = vec3_dot(v, p->d), det = 1 - uv * uv;
+    double t = cut_off(cut_off((ud - uv * vd) * (1 / det), h) * uv - vd, k), s = cut_off(ud + t * uv, h);
+    vec3 w = vec3_add_scaled(vec3_add_scaled(p->d, v, t), u, -s);
+    double square = vec3_norm_squared(w);
+    if (!((det > 0x1p-20) & (square > 0x1p-16 * (p->size * p->size)))) return 0;
+    double distance = sqrt(square), scale = 1 / distance, tolerance = TOLERANCE * p->size;
+    nearest_pair found = {.point_a = vec3_scale(u, s), .difference = w, .normal = vec3_scale(w, scale)};
+    found.gap = (vec3_dot(w, p->d) - h * fabs(vec3_dot(w, u)) - k * fabs(vec3_dot(w, v))) * scale;
+    *to = swept_conclude(p, asked, &found, distance, tolerance);
+    if (to->status == OVOID_UNDECIDED) return 0;
+    if (witness) swept_write_witness(p, &found, found.normal, witness);
+    return 1;
+}
+
 // ---- other pairs
 
 // The half axes of a segment or a box.
@@ -150,7 +175,7 @@ COMPILER_NOINLINE static ovoid_verdict measure_nearest(const swept_placed *p, sw
     const nearest_core a = scale_axes(p->a, axes_a), b = scale_axes(p->b, axes_b);
     nearest_pair found;
     nearest_find(&a, &b, p->d, &found);
-    return swept_conclude(p, asked, &found, TOLERANCE * p->size, witness);
+    return swept_answer(p, asked, &found, TOLERANCE * p->size, witness);
 }
 
 static inline int has_half_axes(unsigned core) { return core == OVOID_SWEPT_SEGMENT || core == OVOID_SWEPT_BOX; }
@@ -171,6 +196,7 @@ COMPILER_INLINED ovoid_verdict find(ovoid_swept_pair pair, swept_question asked,
         if (v.status == OVOID_OVERLAPPING && asked & OF_CONTACT) return swept_undecided;
         if (v.status != OVOID_UNDECIDED) return v;
     }
+    if ((a == OVOID_SWEPT_SEGMENT) & (b == OVOID_SWEPT_SEGMENT) && measure_segments(&p, asked, witness, &v)) return v;
     if ((a == OVOID_SWEPT_SEGMENT && has_half_axes(b)) || (a == OVOID_SWEPT_BOX && b == OVOID_SWEPT_SEGMENT))
         return measure_nearest(&p, asked, witness);
     return swept_approach(&p, asked, witness);

@@ -120,7 +120,7 @@ ovoid_verdict swept_approach(const swept_placed *p, swept_question asked, ovoid_
     case SWEPT_INSIDE:
         if (asked & OF_CONTACT) return swept_undecided;
         return answer_overlap(p, vec3_add(p->a->center, found.point_a), found.normal, witness);
-    case SWEPT_NEAREST: return swept_conclude(p, asked, &found, tolerance, witness);
+    case SWEPT_NEAREST: return swept_answer(p, asked, &found, tolerance, witness);
     default: return swept_undecided;
     }
 }

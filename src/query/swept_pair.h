@@ -3,6 +3,7 @@
 #ifndef OVOID_QUERY_SWEPT_PAIR_H
 #define OVOID_QUERY_SWEPT_PAIR_H
 
+#include "base/compiler.h"
 #include "linear/nearest.h"
 #include "ovoid/swept.h"
 #include "pair/reject.h"
@@ -72,14 +73,21 @@ static inline void swept_write_witness(const swept_placed *p, const nearest_pair
     to->normal = vec3_clear_signs(found->normal);
 }
 
-// The answer by the gap and the distance of two points of the cores.
+// The verdict by the gap and the distance of two points of the cores.
 static inline ovoid_verdict swept_conclude(const swept_placed *p, swept_question asked, const nearest_pair *found,
-                                           double tolerance, ovoid_witness *witness) {
-    double distance = vec3_norm(found->difference);
+                                           double distance, double tolerance) {
     ovoid_verdict v = swept_make_verdict(found->gap - p->radii - p->claim, distance - p->radii + p->claim, tolerance);
     unsigned wanted = v.status == OVOID_SEPARATED ? OF_DISTANCE : v.status == OVOID_OVERLAPPING ? OF_CONTACT : OF_BOTH;
-    if (v.status == OVOID_UNDECIDED || (asked & wanted && !(v.upper - v.lower <= tolerance))) return swept_undecided;
-    if (witness) swept_write_witness(p, found, nearest_find_direction(found, distance, p->radii), witness);
+    return asked & wanted && !(v.upper - v.lower <= tolerance) ? swept_undecided : v;
+}
+
+// The verdict with its witness.
+static inline ovoid_verdict swept_answer(const swept_placed *p, swept_question asked, const nearest_pair *found,
+                                         double tolerance, ovoid_witness *witness) {
+    double distance = vec3_norm(found->difference);
+    ovoid_verdict v = swept_conclude(p, asked, found, distance, tolerance);
+    if (witness && v.status != OVOID_UNDECIDED)
+        swept_write_witness(p, found, nearest_find_direction(found, distance, p->radii), witness);
     return v;
 }
 
@@ -161,7 +169,7 @@ static inline swept_way_out leave_cone(const swept *core, vec3 y) {
     return make_way_out(core, &at, 0, is_slant ? r : r_base, is_slant ? z : z_base, 0);
 }
 
-static inline swept_way_out swept_leave_core(const swept *core, vec3 y) {
+COMPILER_INLINED swept_way_out swept_leave_core(const swept *core, vec3 y) {
     switch (core->core) {
     case OVOID_SWEPT_POINT: return (swept_way_out){0, y, 0};
     case OVOID_SWEPT_SEGMENT: return leave_segment(core, y);
