@@ -193,8 +193,7 @@ COMPILER_INLINED ovoid_verdict find(ovoid_swept_pair pair, swept_question asked,
         return measure_point(&p, asked, witness, &v) ? v : swept_undecided;
     if ((a == OVOID_SWEPT_BOX) & (b == OVOID_SWEPT_BOX) & !(p.radii > 0) & !(asked & OF_DISTANCE)) {
         v = separate_boxes(&p);
-        if (v.status == OVOID_OVERLAPPING && asked & OF_CONTACT) return swept_undecided;
-        if (v.status != OVOID_UNDECIDED) return v;
+        return v.status == OVOID_OVERLAPPING && asked & OF_CONTACT ? swept_undecided : v;
     }
     if ((a == OVOID_SWEPT_SEGMENT) & (b == OVOID_SWEPT_SEGMENT) && measure_segments(&p, asked, witness, &v)) return v;
     if ((a == OVOID_SWEPT_SEGMENT && has_half_axes(b)) || (a == OVOID_SWEPT_BOX && b == OVOID_SWEPT_SEGMENT))
