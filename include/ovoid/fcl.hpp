@@ -67,9 +67,14 @@ template <class S> struct posed {
         return type == ::fcl::GEOM_SPHERE ? place_sphere<S>(shape, pose, to) : detail::place<S>(shape, pose, to);
     }
 };
-/// Two geometries that are swept spheres, at their poses; false if one is none.
+/// Two geometries that are swept spheres, at their poses; false if one is none, or is a convex polytope beside one of
+/// those that their shapes answer faster.
 template <class S>
 OVOID_FCL_INLINE bool make_swept_pair(const posed<S> &a, const posed<S> &b, ovoid_swept_sphere (&to)[2]) {
+    const auto is_round = [](const posed<S> &x) {
+        return x.type == ::fcl::GEOM_CYLINDER || x.type == ::fcl::GEOM_CONE || x.type == ::fcl::GEOM_ELLIPSOID;
+    };
+    if ((a.type == ::fcl::GEOM_CONVEX && !is_round(b)) || (b.type == ::fcl::GEOM_CONVEX && !is_round(a))) return false;
     return make_swept<S>(a.self(), a.pose, to[0]) && make_swept<S>(b.self(), b.pose, to[1]);
 }
 template <class S> posed<S> pose_of(const ::fcl::CollisionObject<S> *o) {

@@ -1,9 +1,9 @@
 /**
  * @file swept.h
- * Swept spheres: a ball swept over a point, a segment, a box, a cylinder, a cone or an ellipsoid, given by numbers
- * alone. Spheres, capsules and boxes with or without a radius are such bodies (E. Larsen, S. Gottschalk, M. C. Lin, D.
- * Manocha, Fast proximity queries with swept sphere volumes, 1999). Nothing is created or prepared for them: for hosts
- * that hold their own geometries and ask each pair once, as a broad phase does.
+ * Swept spheres: a ball swept over a point, a segment, a box, a cylinder, a cone, an ellipsoid or the hull of points,
+ * given by numbers alone. Spheres, capsules and boxes with or without a radius are such bodies (E. Larsen, S.
+ * Gottschalk, M. C. Lin, D. Manocha, Fast proximity queries with swept sphere volumes, 1999). Nothing is created or
+ * prepared for them: for hosts that hold their own geometries and ask each pair once, as a broad phase does.
  *
  * The queries have no proof. Pairs of a point, and of a segment with a segment or a box, are closed forms; of others
  * the cores' nearest points are searched. Where the verdict is undecided, the same bodies as shapes (<ovoid/shape.h>)
@@ -21,11 +21,12 @@ extern "C" {
 /** What the ball is swept over. */
 typedef enum ovoid_swept_core {
     OVOID_SWEPT_POINT = 0,
-    OVOID_SWEPT_SEGMENT = 1,  /**< along axis[0], half[0] to either side */
-    OVOID_SWEPT_CYLINDER = 2, /**< around axis[0], half[0] to either side, of the radius half[1] */
-    OVOID_SWEPT_BOX = 3,      /**< half[k] to either side along each axis[k] */
-    OVOID_SWEPT_CONE = 4,     /**< around axis[0]: the apex is half[0] along it, the base of radius half[1] opposite */
-    OVOID_SWEPT_ELLIPSOID = 5 /**< half[k] to either side along each axis[k] */
+    OVOID_SWEPT_SEGMENT = 1,   /**< along axis[0], half[0] to either side */
+    OVOID_SWEPT_CYLINDER = 2,  /**< around axis[0], half[0] to either side, of the radius half[1] */
+    OVOID_SWEPT_BOX = 3,       /**< half[k] to either side along each axis[k] */
+    OVOID_SWEPT_CONE = 4,      /**< around axis[0]: the apex is half[0] along it, the base of radius half[1] opposite */
+    OVOID_SWEPT_ELLIPSOID = 5, /**< half[k] to either side along each axis[k] */
+    OVOID_SWEPT_POINTS = 6     /**< the hull of `points`; half: one of its points, as theirs are, about in the middle */
 } ovoid_swept_core;
 
 /** A body: all points within `radius` of its core. World axes, one unit of length. What a core does not name is not
@@ -34,8 +35,10 @@ typedef struct ovoid_swept_sphere {
     ovoid_vec3 center;
     double radius; /**< >= 0 */
     ovoid_swept_core core;
-    double half[3];     /**< lengths, > 0 */
-    ovoid_vec3 axis[3]; /**< unit, and at right angles: their products are off by 2^-48 together */
+    double half[3];       /**< lengths, > 0 */
+    ovoid_vec3 axis[3];   /**< unit, and at right angles: their products are off by 2^-48 together */
+    const double *points; /**< borrowed: x, y and z of each, along the axes from the center; finite */
+    uint32_t count;       /**< of the points, >= 1; each query reads all of them 5 to 15 times */
 } ovoid_swept_sphere;
 
 /** Two of them, borrowed. */

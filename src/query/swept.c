@@ -77,7 +77,7 @@ COMPILER_NOINLINE static ovoid_verdict separate_boxes(const swept_placed *p) {
         for (int j = 0; j < 3; j++) c[i][j] = fabs(vec3_dot(p->a->axis[i], p->b->axis[j]));
     take_faces(p, c, doubt, &found);
     for (int i = 0; i < 3 && !found.is_apart && !found.is_open; i++) take_edges(p, c, i, doubt, &found);
-    if (found.is_apart) return swept_make_verdict(p->claim, p->distance + p->claim, 0);
+    if (found.is_apart) return swept_make_verdict(p->claim, p->far + p->claim, 0);
     if (found.is_open) return swept_undecided;
     return swept_make_verdict(-p->size, -p->claim, 0);
 }
@@ -187,8 +187,8 @@ COMPILER_INLINED ovoid_verdict find(ovoid_swept_pair pair, swept_question asked,
     swept_placed p = swept_place(pair.a, pair.b);
     if (!swept_is_moderate(&p)) return swept_undecided;
     double gap = p.distance - p.reach - p.radii - p.claim;
-    if (!(asked & OF_DISTANCE) && gap > 0) return swept_make_verdict(gap, p.distance - p.radii + p.claim, 0);
-    if (a == OVOID_SWEPT_ELLIPSOID || b == OVOID_SWEPT_ELLIPSOID) return swept_approach(&p, asked, witness);
+    if (!(asked & OF_DISTANCE) && gap > 0) return swept_make_verdict(gap, p.far - p.radii + p.claim, 0);
+    if (a >= OVOID_SWEPT_ELLIPSOID || b >= OVOID_SWEPT_ELLIPSOID) return swept_approach(&p, asked, witness);
     if (a == OVOID_SWEPT_POINT || b == OVOID_SWEPT_POINT)
         return measure_point(&p, asked, witness, &v) ? v : swept_undecided;
     if ((a == OVOID_SWEPT_BOX) & (b == OVOID_SWEPT_BOX) & !(p.radii > 0) & !(asked & OF_DISTANCE)) {

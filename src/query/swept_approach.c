@@ -46,10 +46,21 @@ typedef struct approach {
     vec3 back;    ///< from there to Y's point
 } approach;
 
-// How far a point is from a core, below zero inside. *off: the way to it, zero inside.
+// A point of the core, from its centre: that itself, but of a hull.
+static inline vec3 find_middle(const swept *s) {
+    const double *h = s->half;
+    if (s->core != OVOID_SWEPT_POINTS) return (vec3){0, 0, 0};
+    return vec3_add_scaled(vec3_add_scaled(vec3_scale(s->axis[0], h[0]), s->axis[1], h[1]), s->axis[2], h[2]);
+}
+
+// Is the way to a core its distance? That to an ellipsoid and a hull is longer.
+static inline int is_measured(const swept *s) { return s->core < OVOID_SWEPT_ELLIPSOID; }
+
+// How far a point is from a core, or more, and below zero inside. *off: the way to it, zero inside.
 static inline double measure_way(const swept *core, vec3 y, double claim, vec3 *off) {
-    swept_way_out out =
-        core->core == OVOID_SWEPT_ELLIPSOID ? leave_ellipsoid(core, y, claim) : swept_leave_core(core, y);
+    swept_way_out out = core->core == OVOID_SWEPT_POINTS      ? (swept_way_out){0, vec3_sub(y, find_middle(core)), 0}
+                        : core->core == OVOID_SWEPT_ELLIPSOID ? leave_ellipsoid(core, y, claim)
+                                                              : swept_leave_core(core, y);
     if (!(out.is_inside || out.depth > 0)) {
         *off = out.off;
         return vec3_norm(out.off);
@@ -60,10 +71,10 @@ static inline double measure_way(const swept *core, vec3 y, double claim, vec3 *
 
 static inline approach find_approach(const swept_placed *p, int is_x_b) {
     approach to = {.x = is_x_b ? p->b : p->a, .y = is_x_b ? p->a : p->b, .is_x_b = is_x_b};
-    vec3 way = is_x_b ? vec3_neg(p->d) : p->d, off, next;
+    vec3 middle = find_middle(to.y), way = vec3_add(is_x_b ? vec3_neg(p->d) : p->d, middle), off, next;
     to.gap = measure_way(to.x, way, p->claim, &off);
     to.on_x = vec3_sub(way, off);
-    to.after = measure_way(to.y, vec3_neg(off), p->claim, &next);
+    to.after = measure_way(to.y, vec3_sub(middle, off), p->claim, &next);
     to.back = vec3_neg(next);
     return to;
 }
@@ -93,17 +104,20 @@ static inline swept_search make_search(const swept_placed *p, const approach *at
                           .fine = TOLERANCE * p->size - 2 * p->claim,
                           .claim = 2 * p->claim};
     // Points that are one to rounding have no direction: those at the centres have.
-    if (!(at->after > 0x1p-40 * p->size)) query.on_a = (vec3){0, 0, 0}, query.start = p->d;
+    if (!(at->after > 0x1p-40 * p->size)) {
+        query.on_a = find_middle(p->a);
+        query.start = vec3_sub(vec3_add(p->d, find_middle(p->b)), query.on_a);
+    }
     query.first = query.start;
     return query;
 }
 
 ovoid_verdict swept_approach(const swept_placed *p, swept_question asked, ovoid_witness *witness) {
     double tolerance = TOLERANCE_OF_SEARCH * p->size;
-    approach at = find_approach(p, p->a->core == OVOID_SWEPT_ELLIPSOID);
-    if (!(asked & OF_DISTANCE) && at.x->core != OVOID_SWEPT_ELLIPSOID) {
+    approach at = find_approach(p, !is_measured(p->a));
+    if (!(asked & OF_DISTANCE) && is_measured(at.x) && at.y->core != OVOID_SWEPT_POINTS) {
         double gap = at.gap - swept_find_reach(at.y) - p->radii;
-        if (gap > p->claim) return swept_make_verdict(gap - p->claim, p->distance - p->radii + p->claim, 0);
+        if (gap > p->claim) return swept_make_verdict(gap - p->claim, p->far - p->radii + p->claim, 0);
     }
     vec3 common;
     if (!(asked & OF_CONTACT) && is_overlap(p, &at, &common)) {
@@ -116,7 +130,7 @@ ovoid_verdict swept_approach(const swept_placed *p, swept_question asked, ovoid_
     if (!(vec3_norm_squared(query.start) > LEAST * LEAST)) return swept_undecided;
     switch (swept_find_nearest(&query, &found)) {
     case SWEPT_BEYOND:
-        return swept_make_verdict(found.gap - p->radii - p->claim, p->distance - p->radii + p->claim, tolerance);
+        return swept_make_verdict(found.gap - p->radii - p->claim, p->far - p->radii + p->claim, tolerance);
     case SWEPT_INSIDE:
         if (asked & OF_CONTACT) return swept_undecided;
         return answer_overlap(p, vec3_add(p->a->center, found.point_a), found.normal, witness);

@@ -26,15 +26,23 @@ typedef struct swept_placed {
     const swept *a, *b;
     vec3 d;
     double distance, reach, radii; ///< of the centres; sums of both bodies
+    double far;                    ///< two points of the cores are no farther apart
     double size, claim;
 } swept_placed;
 
 static const ovoid_verdict swept_undecided = {OVOID_UNDECIDED, OVOID_STAGE_SUPPORT, OVOID_LIMIT_PRECISION, 0, -INFINITY,
                                               INFINITY};
 
+static inline double find_reach_of_points(const swept *s) {
+    double most = 0;
+    for (size_t i = 0; i < s->count; i++) most = max2(vec3_norm_squared(vec3_at(s->points, i)), most);
+    return sqrt(most);
+}
+
 // How far a core reaches from its centre.
 static inline double swept_find_reach(const swept *s) {
     const double *h = s->half;
+    if (s->core == OVOID_SWEPT_POINTS) return find_reach_of_points(s);
     if (s->core <= OVOID_SWEPT_SEGMENT) return s->core == OVOID_SWEPT_POINT ? 0 : h[0];
     if (s->core == OVOID_SWEPT_ELLIPSOID) return max2(h[0], max2(h[1], h[2]));
     double square = h[0] * h[0] + h[1] * h[1];
@@ -44,7 +52,10 @@ static inline double swept_find_reach(const swept *s) {
 static inline swept_placed swept_place(const swept *a, const swept *b) {
     swept_placed p = {.a = a, .b = b, .d = vec3_sub(b->center, a->center)};
     p.distance = vec3_norm(p.d);
-    p.reach = swept_find_reach(a) + swept_find_reach(b);
+    double reach_a = swept_find_reach(a), reach_b = swept_find_reach(b);
+    p.reach = reach_a + reach_b;
+    // The centre of a hull may be beside it.
+    p.far = p.distance + (a->core == OVOID_SWEPT_POINTS ? reach_a : 0) + (b->core == OVOID_SWEPT_POINTS ? reach_b : 0);
     p.radii = a->radius + b->radius;
     p.size = p.distance + p.reach + p.radii;
     p.claim = FRAME_REJECT * p.size;

@@ -46,6 +46,18 @@ static inline vec3 find_round_end(const ovoid_swept_sphere *s, vec3 n, double sq
     return vec3_add_scaled(vec3_scale(axis, s->core == OVOID_SWEPT_CONE ? -h : copysign(h, z)), off, scale);
 }
 
+// The point along m, in the hull's axes.
+static inline vec3 find_farthest(const ovoid_swept_sphere *s, vec3 m) {
+    size_t best = 0;
+    double most = -INFINITY;
+    for (size_t i = 0; i < s->count; i++) {
+        double height = vec3_dot(vec3_at(s->points, i), m);
+        best = height > most ? i : best;
+        most = max2(height, most);
+    }
+    return vec3_at(s->points, best);
+}
+
 static inline vec3 find_end(const ovoid_swept_sphere *s, vec3 n, double square) {
     const double *half = s->half;
     if (s->core == OVOID_SWEPT_CYLINDER || s->core == OVOID_SWEPT_CONE) return find_round_end(s, n, square);
@@ -53,7 +65,9 @@ static inline vec3 find_end(const ovoid_swept_sphere *s, vec3 n, double square) 
     vec3 m = {vec3_dot(s->axis[0], n), 0, 0};
     if (s->core == OVOID_SWEPT_SEGMENT) return vec3_scale(s->axis[0], copysign(half[0], m.x));
     m.y = vec3_dot(s->axis[1], n), m.z = vec3_dot(s->axis[2], n);
-    if (s->core == OVOID_SWEPT_BOX) {
+    if (s->core == OVOID_SWEPT_POINTS) {
+        m = find_farthest(s, m);
+    } else if (s->core == OVOID_SWEPT_BOX) {
         m = (vec3){copysign(half[0], m.x), copysign(half[1], m.y), copysign(half[2], m.z)};
     } else {
         m = (vec3){half[0] * m.x, half[1] * m.y, half[2] * m.z};

@@ -405,6 +405,7 @@ void check_manifolds() {
 void check_swept() {
     const pose at = pose::rpy({0.3, -0.2, 0.4}, {0.5, 0.7, -0.3});
     using ovoid::swept_sphere;
+    const std::vector<double> corners = {0.3, 0, 0, 0, 0.4, 0, 0, 0, 0.5};
     struct kind {
         swept_sphere swept;
         shape same;
@@ -416,11 +417,13 @@ void check_swept() {
         case 2: return {swept_sphere::box({0.3, 0.4, 0.5}, at), shape::box({0.3, 0.4, 0.5})};
         case 3: return {swept_sphere::cylinder(0.2, 0.6, at), shape::cylinder(0.2, 0.6, 1e-3)};
         case 4: return {swept_sphere::cone(0.2, 0.6, at), shape::cone(0.2, 0.6, 1e-3)};
+        case 5:
+            return {swept_sphere::hull(corners.data(), 3, {0.1, 0.4 / 3, 0.5 / 3}, at), shape::from_points(corners)};
         default: return {swept_sphere::ellipsoid({0.3, 0.4, 0.5}, at), shape::ellipsoid({0.3, 0.4, 0.5})};
         }
     };
     const shape ball = shape::sphere(0.25);
-    for (int i = 0; i < 6; i++)
+    for (int i = 0; i < 7; i++)
         for (const vec3 &center : {vec3{0.3, -0.2, 1.4}, vec3{1.2, 0.3, 0.4}, vec3{0.3, 0.1, 0.6}}) {
             const kind of = make(i);
             const swept_sphere other = swept_sphere::sphere(0.25, center);

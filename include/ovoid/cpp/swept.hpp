@@ -8,6 +8,8 @@
 #include "ovoid/cpp/query.hpp"
 #include "ovoid/swept.h"
 
+#include <cstdint>
+
 namespace ovoid {
 
 /** A ball swept over a core, at a pose whose axes are the core's; half lengths and radii are those of the shapes. */
@@ -39,10 +41,18 @@ struct swept_sphere : ovoid_swept_sphere {
     static swept_sphere ellipsoid(const vec3 &half_axes, const pose &at = {}) noexcept {
         return swept_sphere(OVOID_SWEPT_ELLIPSOID, 0, half_axes, at);
     }
+    /** The hull of points, x, y and z of each, borrowed, and rounded by a radius. middle: one of the hull's points. */
+    static swept_sphere hull(const double *xyz, std::uint32_t count_, const vec3 &middle, const pose &at = {},
+                             double radius = 0) noexcept {
+        swept_sphere made(OVOID_SWEPT_POINTS, radius, middle, at);
+        made.points = xyz;
+        made.count = count_;
+        return made;
+    }
 
   private:
     swept_sphere(ovoid_swept_core core_, double radius_, const vec3 &half_, const pose &at) noexcept
-        : ovoid_swept_sphere{at.position, radius_, core_, {half_.x, half_.y, half_.z}, {}} {
+        : ovoid_swept_sphere{at.position, radius_, core_, {half_.x, half_.y, half_.z}, {}, nullptr, 0} {
         double m[9];
         ovoid_pose_compute_matrix(&at, m);
         for (int k = 0; k < 3; k++) axis[k] = {m[k], m[3 + k], m[6 + k]};
