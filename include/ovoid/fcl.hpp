@@ -67,14 +67,14 @@ template <class S> struct posed {
         return type == ::fcl::GEOM_SPHERE ? place_sphere<S>(shape, pose, to) : detail::place<S>(shape, pose, to);
     }
 };
-/// Two geometries that are swept spheres, at their poses; false if one is none, or their shapes answer better: a
-/// cylinder or a cone beside another type than a sphere.
+/// Two geometries that are swept spheres, at their poses; false if one is none, or is a convex polytope beside one of
+/// those that their shapes answer faster.
 template <class S>
 OVOID_FCL_INLINE bool make_swept_pair(const posed<S> &a, const posed<S> &b, ovoid_swept_sphere (&to)[2]) {
     const auto is_round = [](const posed<S> &x) {
-        return x.type == ::fcl::GEOM_CYLINDER || x.type == ::fcl::GEOM_CONE;
+        return x.type == ::fcl::GEOM_CYLINDER || x.type == ::fcl::GEOM_CONE || x.type == ::fcl::GEOM_ELLIPSOID;
     };
-    if (is_round(a) ? b.type != ::fcl::GEOM_SPHERE : is_round(b) && a.type != ::fcl::GEOM_SPHERE) return false;
+    if ((a.type == ::fcl::GEOM_CONVEX && !is_round(b)) || (b.type == ::fcl::GEOM_CONVEX && !is_round(a))) return false;
     return make_swept<S>(a.self(), a.pose, to[0]) && make_swept<S>(b.self(), b.pose, to[1]);
 }
 template <class S> posed<S> pose_of(const ::fcl::CollisionObject<S> *o) {
@@ -91,14 +91,29 @@ template <class S> bool make_couple(const posed<S> &a, const posed<S> &b, body_c
            a.place(couple.a->shape(), couple.at_a) && b.place(couple.b->shape(), couple.at_b);
 }
 
-/// A plane and another geometry: the answer from a to b, or false if FCL has to answer.
-template <class S> bool make_plane_answer(const posed<S> &a, const posed<S> &b, plane_answer &answer) {
+/// A plane and the other geometry of a call.
+template <class S> struct plane_pair {
+    const posed<S> &flat, &other;
+    plane at;
+    bool is_a; ///< the plane is the first
+    plane_answer ask() const { return ask_plane<S>(other.self(), other.pose, at); }
+};
+
+/// The pair, and whether FCL does not have to answer it.
+template <class S> std::pair<plane_pair<S>, bool> make_plane_pair(const posed<S> &a, const posed<S> &b) {
     const bool is_a = a.is_flat();
     const posed<S> &flat = is_a ? a : b, &other = is_a ? b : a;
     const bool is_sphere = other.type == ::fcl::GEOM_SPHERE;
-    if (other.is_flat() || !is_rigid<S>(flat.pose)) return false;
-    if (!(is_sphere ? is_in_range<S>(other.pose) : is_rigid<S>(other.pose))) return false;
-    answer = ask_plane<S>(other.self(), other.pose, make_plane<S>(flat.self(), flat.pose));
+    const bool is_asked = !other.is_flat() && is_rigid<S>(flat.pose) &&
+                          (is_sphere ? is_in_range<S>(other.pose) : is_rigid<S>(other.pose));
+    return {plane_pair<S>{flat, other, make_plane<S>(flat.self(), flat.pose), is_a}, is_asked};
+}
+
+/// The answer from a to b, or false if FCL has to answer.
+template <class S> bool make_plane_answer(const posed<S> &a, const posed<S> &b, plane_answer &answer) {
+    const auto asked = make_plane_pair(a, b);
+    if (!asked.second) return false;
+    answer = asked.first.ask();
     return std::isfinite(answer.distance);
 }
 
@@ -124,17 +139,23 @@ template <class S> class plane_contacts {
 
 /// The contacts with a plane: of a mesh one for each triangle, else the deepest. False if FCL has to answer.
 template <class S> bool collide_plane(contact_list<S> &to, const posed<S> &a, const posed<S> &b) {
-    plane_answer answer;
-    if (!make_plane_answer(a, b, answer)) return false;
+    const auto asked = make_plane_pair(a, b);
+    const plane_pair<S> &pair = asked.first;
+    if (!asked.second) return false;
+    const int side = find_side<S>(pair.other.self(), pair.other.pose, pair.at);
+    if (side > 0) return true;
+    if (side < 0 && !to.is_detailed()) {
+        to.add(-1, -1);
+        return true;
+    }
+    const plane_answer answer = pair.ask();
+    if (!std::isfinite(answer.distance)) return false;
     if (answer.distance > 0) return true;
-    const bool is_a = a.is_flat();
-    const posed<S> &flat = is_a ? a : b, &other = is_a ? b : a;
-    plane_contacts<S> contacts(to, is_a);
-    if (other.of->getObjectType() != ::fcl::OT_BVH || to.room() == 1)
+    plane_contacts<S> contacts(to, pair.is_a);
+    if (pair.other.of->getObjectType() != ::fcl::OT_BVH || to.room() == 1)
         contacts.add(answer);
     else
-        list_plane(other.of, other.pose, make_plane<S>(flat.self(), flat.pose),
-                   [&](const plane_answer &at) { return contacts.add(at); });
+        list_plane(pair.other.of, pair.other.pose, pair.at, [&](const plane_answer &at) { return contacts.add(at); });
     return true;
 }
 
@@ -167,8 +188,8 @@ std::size_t collide(const posed<S> &a, const posed<S> &b, const ::fcl::Collision
     if (!request.enable_cost && before > 0 && request.num_max_contacts <= before) return before;
     ovoid_swept_sphere swept[2];
     contact_list<S> to(a.self(), b.self(), request, result);
-    if (!request.enable_cost && request.num_max_contacts > 0 && make_swept_pair(a, b, swept) &&
-        collide_swept<S>(to, {&swept[0], &swept[1]}))
+    if (!a.is_flat() && !b.is_flat() && !request.enable_cost && request.num_max_contacts > 0 &&
+        make_swept_pair(a, b, swept) && collide_swept<S>(to, {&swept[0], &swept[1]}))
         return result.numContacts();
     return collide_others(to, a, b, request, result);
 }
@@ -236,19 +257,31 @@ OVOID_FCL_APART bool measure_others(const posed<S> &a, const posed<S> &b, bool i
     return true;
 }
 
+/// result.update, which is a call of libfcl. Points are written whether or not they were asked for, as FCL does.
+template <class S>
+void write_distance(const distance_answer &found, const geometry<S> *a, const geometry<S> *b,
+                    ::fcl::DistanceResult<S> &to) {
+    const S distance = static_cast<S>(found.distance);
+    if (!(to.min_distance > distance)) return;
+    to.min_distance = distance;
+    to.o1 = a, to.o2 = b;
+    to.b1 = found.i, to.b2 = found.j;
+    to.nearest_points[0] = from_vec3<S>(found.point_a);
+    to.nearest_points[1] = from_vec3<S>(found.point_b);
+}
+
 template <class S>
 S distance(const posed<S> &a, const posed<S> &b, const ::fcl::DistanceRequest<S> &request,
            ::fcl::DistanceResult<S> &result) {
-    if (request.isSatisfied(result)) return result.min_distance;
+    // request.isSatisfied(result), which is a call of libfcl.
+    if (result.min_distance <= 0) return result.min_distance;
     const bool is_signed = request.enable_signed_distance;
     distance_answer found;
     ovoid_swept_sphere swept[2];
     if (!(make_swept_pair(a, b, swept) && measure_swept({&swept[0], &swept[1]}, is_signed, found)) &&
         !measure_others(a, b, is_signed, found))
         return OVOID_FCL_ITSELF::template distance<S>(a.of, a.pose, b.of, b.pose, request, result);
-    // Points are written whether or not they were asked for, as FCL does.
-    result.update(static_cast<S>(found.distance), a.of, b.of, found.i, found.j, from_vec3<S>(found.point_a),
-                  from_vec3<S>(found.point_b));
+    write_distance(found, a.of, b.of, result);
     return result.min_distance;
 }
 

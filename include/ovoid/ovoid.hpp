@@ -28,6 +28,7 @@
 #include "ovoid/cpp/query.hpp"
 #include "ovoid/cpp/shape.hpp"
 #include "ovoid/cpp/solid.hpp"
+#include "ovoid/cpp/swept.hpp"
 #include "ovoid/cpp/world.hpp"
 #include "ovoid/ovoid.h"
 

@@ -221,6 +221,8 @@ static void run_stages(search *s, double sphere_gap, const ovoid_proof *earlier,
 static void run_exact(search *s, simplex *start, ovoid_cover *cover) {
     if (s->frame->is_true && frame_has_ellipsoid(s->frame) && cores_run(s)) return;
     int cores_apart = s->lower + s->frame->lower_radii > 0;
+    // A depth of overlapping spheres begins without a simplex; the ellipsoids' cores may have parted the bodies since.
+    if (cores_apart && start->count == 0) stage_support(s, s->normal, start);
     if (s->goal.wants_depth && !cores_apart &&
         ((!s->frame->is_true && (boxes_take_depth(s, cover) || inside_take_depth(s, cover))) ||
          epa_run(s, start, 1, cover)))

@@ -1,7 +1,7 @@
 // Queries of swept spheres (ovoid/swept.h): closed forms without shapes, frames and proofs. Of a point and another core
 // the point's coordinates along the other one's axes, cut off at its ends, of a cylinder and a cone in the plane of
 // axis and point; of segments, and of a box and a segment, the nearest points of linear/nearest.h; of two boxes the
-// separating axes.
+// separating axes. Other pairs are searched (query/swept_approach.h).
 //
 // Errors, in parts u s, u = 2^-53, s the sum of both bodies' reaches and radii and of the distance of the centres. The
 // axes are numbers that are given, so nothing is turned, and what is measured in the world (pair/reject.h, off by less
@@ -21,65 +21,10 @@
 #include "ovoid/swept.h"
 #include "base/compiler.h"
 #include "base/environment.h"
-#include "linear/nearest.h"
-#include "pair/reject.h"
+#include "query/swept_approach.h"
 
 #define SAT_DOUBT 0x1p-34
 #define SAT_PARALLEL 0x1p-40
-
-// Lengths whose squares of squares are in the range of doubles.
-#define LEAST 1e-50
-#define MOST 1e50
-// The width of a bracket that answers, as a part of the size.
-#define TOLERANCE 1e-12
-
-typedef ovoid_swept_sphere swept;
-
-// What is asked for beside the sign: as bits, the distance of bodies that are apart, and the depth of those that
-// overlap.
-typedef enum question { OF_SIGN, OF_DISTANCE, OF_CONTACT, OF_BOTH } question;
-
-// Two bodies: centres d apart, A's to B's.
-typedef struct placed {
-    const swept *a, *b;
-    vec3 d;
-    double distance, reach, radii; ///< of the centres; sums of both bodies
-    double size, claim;
-} placed;
-
-static const ovoid_verdict undecided = {OVOID_UNDECIDED, OVOID_STAGE_SUPPORT, OVOID_LIMIT_PRECISION, 0, -INFINITY,
-                                        INFINITY};
-
-// How far a core reaches from its centre.
-static inline double find_reach(const swept *s) {
-    const double *h = s->half;
-    if (s->core <= OVOID_SWEPT_SEGMENT) return s->core == OVOID_SWEPT_POINT ? 0 : h[0];
-    double square = h[0] * h[0] + h[1] * h[1];
-    return sqrt(s->core == OVOID_SWEPT_BOX ? square + h[2] * h[2] : square);
-}
-
-static inline placed place(const swept *a, const swept *b) {
-    placed p = {.a = a, .b = b, .d = vec3_sub(b->center, a->center)};
-    p.distance = vec3_norm(p.d);
-    p.reach = find_reach(a) + find_reach(b);
-    p.radii = a->radius + b->radius;
-    p.size = p.distance + p.reach + p.radii;
-    p.claim = FRAME_REJECT * p.size;
-    return p;
-}
-
-// Not so of NaN.
-static inline int is_moderate(const placed *p) {
-    return (p->size > LEAST) & (p->size < MOST) & (p->a->radius >= 0) & (p->b->radius >= 0);
-}
-
-static inline ovoid_verdict make_verdict(double lower, double upper, double tolerance) {
-    ovoid_status status = lower > 0                    ? OVOID_SEPARATED
-                          : upper < 0                  ? OVOID_OVERLAPPING
-                          : upper - lower <= tolerance ? OVOID_TOUCHING
-                                                       : OVOID_UNDECIDED;
-    return (ovoid_verdict){status, OVOID_STAGE_SUPPORT, OVOID_LIMIT_NONE, 0, lower, upper};
-}
 
 // ---- two boxes
 
@@ -94,7 +39,7 @@ static inline void take_axis(double gap, double doubt, axes_found *found) {
 }
 
 // The gaps along the boxes' own axes. c: the products of A's and B's axes, without signs.
-static inline void take_faces(const placed *of, double c[3][3], double doubt, axes_found *found) {
+static inline void take_faces(const swept_placed *of, double c[3][3], double doubt, axes_found *found) {
     const double *a = of->a->half, *b = of->b->half;
     for (int i = 0; i < 3; i++) {
         double of_b = (b[0] * c[i][0] + b[1] * c[i][1]) + b[2] * c[i][2],
@@ -107,7 +52,7 @@ static inline void take_faces(const placed *of, double c[3][3], double doubt, ax
 static int is_parallel(vec3 a, vec3 b) { return vec3_norm_squared(vec3_cross(a, b)) < SAT_PARALLEL * SAT_PARALLEL; }
 
 // The gaps along the cross products of A's axis i and B's axes.
-static inline void take_edges(const placed *of, double c[3][3], int i, double doubt, axes_found *found) {
+static inline void take_edges(const swept_placed *of, double c[3][3], int i, double doubt, axes_found *found) {
     static const int next[5] = {0, 1, 2, 0, 1};
     const double *a = of->a->half, *b = of->b->half;
     int k = next[i + 1], m = next[i + 2];
@@ -124,18 +69,17 @@ static inline void take_edges(const placed *of, double c[3][3], int i, double do
     }
 }
 
-// Of two boxes the sign alone. Radii are not asked for: two boxes with radii may be apart or not between the axes.
-COMPILER_NOINLINE static ovoid_verdict separate_boxes(const placed *p) {
+// Of two boxes without radii the sign alone: with radii they may be apart or not between the axes.
+COMPILER_NOINLINE static ovoid_verdict separate_boxes(const swept_placed *p) {
     double c[3][3], doubt = SAT_DOUBT * p->size;
     axes_found found = {0, 0};
-    if (p->radii > 0) return undecided;
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++) c[i][j] = fabs(vec3_dot(p->a->axis[i], p->b->axis[j]));
     take_faces(p, c, doubt, &found);
     for (int i = 0; i < 3 && !found.is_apart && !found.is_open; i++) take_edges(p, c, i, doubt, &found);
-    if (found.is_apart) return make_verdict(p->claim, p->distance + p->claim, 0);
-    if (found.is_open) return undecided;
-    return make_verdict(-p->size, -p->claim, 0);
+    if (found.is_apart) return swept_make_verdict(p->claim, p->far + p->claim, 0);
+    if (found.is_open) return swept_undecided;
+    return swept_make_verdict(-p->size, -p->claim, 0);
 }
 
 // ---- two points
@@ -147,7 +91,7 @@ COMPILER_INLINED int measure_points(ovoid_swept_pair pair, ovoid_witness *witnes
     double distance = vec3_norm(d), gap = distance - (a->radius + b->radius), size = distance + (a->radius + b->radius),
            claim = FRAME_REJECT * size;
     if (!((distance > LEAST) & (size < MOST) & (a->radius >= 0) & (b->radius >= 0))) return 0;
-    *to = make_verdict(gap - claim, gap + claim, TOLERANCE * size);
+    *to = swept_make_verdict(gap - claim, gap + claim, TOLERANCE * size);
     if (!witness) return 1;
     vec3 n = vec3_scale(d, 1 / distance);
     witness->normal = vec3_clear_signs(n);
@@ -158,93 +102,8 @@ COMPILER_INLINED int measure_points(ovoid_swept_pair pair, ovoid_witness *witnes
 
 // ---- a point and another core
 
-// A point y from the centre of a core: the vector to it from the nearest point of the core; or of a point in the core a
-// unit normal of its surface where that is nearest, and how far it is.
-typedef struct way_out {
-    int is_inside;
-    vec3 off;
-    double depth;
-} way_out;
-
-static inline way_out leave_segment(const swept *core, vec3 y) {
-    double along = vec3_dot(core->axis[0], y), h = core->half[0];
-    return (way_out){0, vec3_add_scaled(y, core->axis[0], -max2(-h, min2(h, along))), 0};
-}
-
-static inline way_out leave_box(const swept *core, vec3 y) {
-    way_out out = {1, {0, 0, 0}, INFINITY};
-    double along[3];
-    for (int i = 0; i < 3; i++) {
-        double h = core->half[i];
-        along[i] = vec3_dot(core->axis[i], y);
-        double excess = along[i] - max2(-h, min2(h, along[i]));
-        out.off = vec3_add_scaled(out.off, core->axis[i], excess);
-        out.is_inside &= !(fabs(excess) > 0);
-    }
-    if (!out.is_inside) return out;
-    for (int i = 0; i < 3; i++) {
-        double left = core->half[i] - fabs(along[i]);
-        if (!(left < out.depth)) continue;
-        out.depth = left;
-        out.off = along[i] < 0 ? vec3_neg(core->axis[i]) : core->axis[i];
-    }
-    return out;
-}
-
-// A point beside an axis: its coordinate along the axis, its distance from it, and the unit vector that it is off.
-typedef struct beside_axis {
-    double z, r;
-    vec3 away;
-} beside_axis;
-
-static inline beside_axis find_beside_axis(vec3 axis, vec3 y) {
-    double z = vec3_dot(axis, y);
-    vec3 off = vec3_add_scaled(y, axis, -z);
-    double r = vec3_norm(off);
-    return (beside_axis){z, r, vec3_scale(off, r > 0 ? 1 / r : 0)};
-}
-
-// By r and z outward. Inside, a direction from the axis that has no digits is not taken: the depth is none.
-static inline way_out make_way_out(const swept *core, const beside_axis *at, int is_inside, double r, double z,
-                                   double depth) {
-    vec3 off = vec3_add_scaled(vec3_scale(at->away, r), core->axis[0], z);
-    int is_vague = is_inside && fabs(r) > 0 && !(at->r > 0x1p-20 * core->half[1]);
-    return (way_out){is_inside && !is_vague, is_vague ? (vec3){0, 0, 0} : off, depth};
-}
-
-static inline way_out leave_cylinder(const swept *core, vec3 y) {
-    beside_axis at = find_beside_axis(core->axis[0], y);
-    double r = at.r - core->half[1], z = fabs(at.z) - core->half[0], side = at.z < 0 ? -1 : 1;
-    if (r <= 0 && z <= 0) return make_way_out(core, &at, 1, z > r ? 0 : 1, z > r ? side : 0, -max2(r, z));
-    return make_way_out(core, &at, 0, max2(0, r), side * max2(0, z), 0);
-}
-
-// In the plane of the axis and the point: the slant goes from the rim (R, -h) to the apex (0, h), the base to the rim.
-static inline way_out leave_cone(const swept *core, vec3 y) {
-    beside_axis at = find_beside_axis(core->axis[0], y);
-    double h = core->half[0], R = core->half[1], squared = R * R + 4 * h * h, scale = 1 / sqrt(squared);
-    double slant = (2 * h * at.r + R * (at.z - h)) * scale, base = -h - at.z;
-    if (slant <= 0 && base <= 0) {
-        int is_slant = slant > base;
-        return make_way_out(core, &at, 1, is_slant ? 2 * h * scale : 0, is_slant ? R * scale : -1, -max2(slant, base));
-    }
-    double t = max2(0, min2(1, (R * (R - at.r) + 2 * h * (at.z + h)) / squared));
-    double r = at.r - R * (1 - t), z = at.z + h - 2 * h * t, r_base = at.r - min2(at.r, R), z_base = at.z + h;
-    int is_slant = r * r + z * z < r_base * r_base + z_base * z_base;
-    return make_way_out(core, &at, 0, is_slant ? r : r_base, is_slant ? z : z_base, 0);
-}
-
-static inline way_out leave_core(const swept *core, vec3 y) {
-    switch (core->core) {
-    case OVOID_SWEPT_SEGMENT: return leave_segment(core, y);
-    case OVOID_SWEPT_BOX: return leave_box(core, y);
-    case OVOID_SWEPT_CYLINDER: return leave_cylinder(core, y);
-    default: return leave_cone(core, y);
-    }
-}
-
 // The core's point is the point less the gap along the normal, which goes to it from the core.
-static void write_points(const placed *p, vec3 normal, double gap, ovoid_witness *to) {
+static void write_points(const swept_placed *p, vec3 normal, double gap, ovoid_witness *to) {
     int is_point_b = p->b->core == 0;
     const swept *point = is_point_b ? p->b : p->a, *core = is_point_b ? p->a : p->b;
     vec3 on_point = vec3_add_scaled(point->center, normal, -point->radius),
@@ -256,20 +115,46 @@ static void write_points(const placed *p, vec3 normal, double gap, ovoid_witness
 
 // 0 if the point is so near to the core's surface or axis that no direction has digits, and more than the sign is asked
 // for where it has none here.
-COMPILER_INLINED int measure_point(const placed *p, question asked, ovoid_witness *witness, ovoid_verdict *to) {
+COMPILER_INLINED int measure_point(const swept_placed *p, swept_question asked, ovoid_witness *witness,
+                                   ovoid_verdict *to) {
     int is_point_b = p->b->core == OVOID_SWEPT_POINT;
     const swept *core = is_point_b ? p->a : p->b;
-    way_out out = leave_core(core, is_point_b ? p->d : vec3_neg(p->d));
+    swept_way_out out = swept_leave_core(core, is_point_b ? p->d : vec3_neg(p->d));
     double gap = out.is_inside ? -out.depth : vec3_norm(out.off);
     if (asked == OF_SIGN) {
         // A point that is not seen to be outside may be deep inside.
         double lower = out.is_inside || gap > p->claim ? gap - p->radii - p->claim : -p->size;
-        *to = make_verdict(lower, gap - p->radii + p->claim, TOLERANCE * p->size);
+        *to = swept_make_verdict(lower, gap - p->radii + p->claim, TOLERANCE * p->size);
         return to->status != OVOID_UNDECIDED;
     }
     if (!out.is_inside && !(gap > 0x1p-20 * p->size)) return 0;
-    *to = make_verdict(gap - p->radii - p->claim, gap - p->radii + p->claim, TOLERANCE * p->size);
+    *to = swept_make_verdict(gap - p->radii - p->claim, gap - p->radii + p->claim, TOLERANCE * p->size);
     if (witness) write_points(p, out.is_inside ? out.off : vec3_scale(out.off, 1 / gap), gap, witness);
+    return 1;
+}
+
+// ---- two segments
+
+static inline double cut_off(double t, double h) { return max2(-h, min2(h, t)); }
+
+// By the parameters s and t along the unit axes (V. J. Lumelsky, On fast computation of distance between line segments,
+// 1985): those of the lines' nearest points, cut off one after the other. 0 where the segments are nearly parallel or
+// cross, which linear/nearest.h knows to take apart.
+COMPILER_INLINED int measure_segments(const swept_placed *p, swept_question asked, ovoid_witness *witness,
+                                      ovoid_verdict *to) {
+    vec3 u = p->a->axis[0], v = p->b->axis[0];
+    double h = p->a->half[0], k = p->b->half[0];
+    double uv = vec3_dot(u, v), ud = vec3_dot(u, p->d), vd = vec3_dot(v, p->d), det = 1 - uv * uv;
+    double t = cut_off(cut_off((ud - uv * vd) * (1 / det), h) * uv - vd, k), s = cut_off(ud + t * uv, h);
+    vec3 w = vec3_add_scaled(vec3_add_scaled(p->d, v, t), u, -s);
+    double square = vec3_norm_squared(w);
+    if (!((det > 0x1p-20) & (square > 0x1p-16 * (p->size * p->size)))) return 0;
+    double distance = sqrt(square), scale = 1 / distance, tolerance = TOLERANCE * p->size;
+    nearest_pair found = {.point_a = vec3_scale(u, s), .difference = w, .normal = vec3_scale(w, scale)};
+    found.gap = (vec3_dot(w, p->d) - h * fabs(vec3_dot(w, u)) - k * fabs(vec3_dot(w, v))) * scale;
+    *to = swept_conclude(p, asked, &found, distance, tolerance);
+    if (to->status == OVOID_UNDECIDED) return 0;
+    if (witness) swept_write_witness(p, &found, found.normal, witness);
     return 1;
 }
 
@@ -284,42 +169,36 @@ static inline nearest_core scale_axes(const swept *s, vec3 *axes) {
     return (nearest_core){3, axes};
 }
 
-// No zero is negative, as in all witnesses.
-static void write_witness(const placed *p, const nearest_pair *found, vec3 along, ovoid_witness *to) {
-    vec3 a = vec3_add(p->a->center, found->point_a), b = vec3_add(a, found->difference);
-    to->point_a = vec3_clear_signs(vec3_add_scaled(a, along, p->a->radius));
-    to->point_b = vec3_clear_signs(vec3_add_scaled(b, along, -p->b->radius));
-    to->normal = vec3_clear_signs(found->normal);
-}
-
-COMPILER_NOINLINE static ovoid_verdict measure_nearest(const placed *p, question asked, ovoid_witness *witness) {
+COMPILER_NOINLINE static ovoid_verdict measure_nearest(const swept_placed *p, swept_question asked,
+                                                       ovoid_witness *witness) {
     vec3 axes_a[3], axes_b[3];
     const nearest_core a = scale_axes(p->a, axes_a), b = scale_axes(p->b, axes_b);
-    double tolerance = TOLERANCE * p->size;
     nearest_pair found;
     nearest_find(&a, &b, p->d, &found);
-    double distance = vec3_norm(found.difference);
-    ovoid_verdict v = make_verdict(found.gap - p->radii - p->claim, distance - p->radii + p->claim, tolerance);
-    unsigned wanted = v.status == OVOID_SEPARATED ? OF_DISTANCE : v.status == OVOID_OVERLAPPING ? OF_CONTACT : OF_BOTH;
-    if (v.status == OVOID_UNDECIDED || (asked & wanted && !(v.upper - v.lower <= tolerance))) return undecided;
-    if (witness) write_witness(p, &found, nearest_find_direction(&found, distance, p->radii), witness);
-    return v;
+    return swept_answer(p, asked, &found, TOLERANCE * p->size, witness);
 }
 
 static inline int has_half_axes(unsigned core) { return core == OVOID_SWEPT_SEGMENT || core == OVOID_SWEPT_BOX; }
 
-COMPILER_INLINED ovoid_verdict find(ovoid_swept_pair pair, question asked, ovoid_witness *witness) {
+COMPILER_INLINED ovoid_verdict find(ovoid_swept_pair pair, swept_question asked, ovoid_witness *witness) {
     ovoid_verdict v;
     unsigned a = pair.a->core, b = pair.b->core;
-    if ((a | b) == OVOID_SWEPT_POINT) return measure_points(pair, witness, &v) ? v : undecided;
-    placed p = place(pair.a, pair.b);
-    if (!is_moderate(&p)) return undecided;
+    if ((a | b) == OVOID_SWEPT_POINT) return measure_points(pair, witness, &v) ? v : swept_undecided;
+    swept_placed p = swept_place(pair.a, pair.b);
+    if (!swept_is_moderate(&p)) return swept_undecided;
     double gap = p.distance - p.reach - p.radii - p.claim;
-    if (!(asked & OF_DISTANCE) && gap > 0) return make_verdict(gap, p.distance - p.radii + p.claim, 0);
-    if (a == OVOID_SWEPT_POINT || b == OVOID_SWEPT_POINT) return measure_point(&p, asked, witness, &v) ? v : undecided;
-    if (a == OVOID_SWEPT_BOX && b == OVOID_SWEPT_BOX) return asked == OF_SIGN ? separate_boxes(&p) : undecided;
-    if (!(has_half_axes(a) & has_half_axes(b))) return undecided;
-    return measure_nearest(&p, asked, witness);
+    if (!(asked & OF_DISTANCE) && gap > 0) return swept_make_verdict(gap, p.far - p.radii + p.claim, 0);
+    if (a >= OVOID_SWEPT_ELLIPSOID || b >= OVOID_SWEPT_ELLIPSOID) return swept_approach(&p, asked, witness);
+    if (a == OVOID_SWEPT_POINT || b == OVOID_SWEPT_POINT)
+        return measure_point(&p, asked, witness, &v) ? v : swept_undecided;
+    if ((a == OVOID_SWEPT_BOX) & (b == OVOID_SWEPT_BOX) & !(p.radii > 0) & !(asked & OF_DISTANCE)) {
+        v = separate_boxes(&p);
+        return v.status == OVOID_OVERLAPPING && asked & OF_CONTACT ? swept_undecided : v;
+    }
+    if ((a == OVOID_SWEPT_SEGMENT) & (b == OVOID_SWEPT_SEGMENT) && measure_segments(&p, asked, witness, &v)) return v;
+    if ((a == OVOID_SWEPT_SEGMENT && has_half_axes(b)) || (a == OVOID_SWEPT_BOX && b == OVOID_SWEPT_SEGMENT))
+        return measure_nearest(&p, asked, witness);
+    return swept_approach(&p, asked, witness);
 }
 
 // One for each question, so that none does what another one needs.

@@ -115,7 +115,8 @@ static void test_deaths() {
     const auto ask_all = [&] {
         for (const auto &o : living) {
             result.clear();
-            CHECK_EQ(ovoid::fcl::collide<double>(&living[0], &o, CollisionRequestd(), result), 1u);
+            // A depth, which their shapes are asked for.
+            CHECK_EQ(ovoid::fcl::collide<double>(&living[0], &o, CollisionRequestd(1, true), result), 1u);
         }
     };
     ask_all();

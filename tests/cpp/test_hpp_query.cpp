@@ -400,9 +400,54 @@ void check_manifolds() {
         throws(OVOID_ERROR_INDEX, 0, "", [&] { ovoid::find_manifolds(ovoid::manifold_batch(bodies, couples, kept)); }));
 }
 
+// Swept spheres beside the C functions, and each kind beside the shape of the same lengths at the same pose: their
+// brackets have a common point.
+void check_swept() {
+    const pose at = pose::rpy({0.3, -0.2, 0.4}, {0.5, 0.7, -0.3});
+    using ovoid::swept_sphere;
+    const std::vector<double> corners = {0.3, 0, 0, 0, 0.4, 0, 0, 0, 0.5};
+    struct kind {
+        swept_sphere swept;
+        shape same;
+    };
+    const auto make = [&](int i) -> kind {
+        switch (i) {
+        case 0: return {swept_sphere::sphere(0.3, at.position), shape::sphere(0.3)};
+        case 1: return {swept_sphere::capsule(0.2, 0.6, at), shape::capsule(0.2, 0.6)};
+        case 2: return {swept_sphere::box({0.3, 0.4, 0.5}, at), shape::box({0.3, 0.4, 0.5})};
+        case 3: return {swept_sphere::cylinder(0.2, 0.6, at), shape::cylinder(0.2, 0.6, 1e-3)};
+        case 4: return {swept_sphere::cone(0.2, 0.6, at), shape::cone(0.2, 0.6, 1e-3)};
+        case 5:
+            return {swept_sphere::hull(corners.data(), 3, {0.1, 0.4 / 3, 0.5 / 3}, at), shape::from_points(corners)};
+        default: return {swept_sphere::ellipsoid({0.3, 0.4, 0.5}, at), shape::ellipsoid({0.3, 0.4, 0.5})};
+        }
+    };
+    const shape ball = shape::sphere(0.25);
+    for (int i = 0; i < 7; i++)
+        for (const vec3 &center : {vec3{0.3, -0.2, 1.4}, vec3{1.2, 0.3, 0.4}, vec3{0.3, 0.1, 0.6}}) {
+            const kind of = make(i);
+            const swept_sphere other = swept_sphere::sphere(0.25, center);
+            const ovoid_swept_pair c = {&of.swept, &other};
+            ovoid_witness w, v;
+            CHECK(is_same(ovoid::collide(of.swept, other), ovoid_swept_collide(c)));
+            CHECK(is_same(ovoid::distance(of.swept, other, &w), ovoid_swept_distance(c, &v)) && is_same(w, v));
+            CHECK(is_same(ovoid::contact_depth(of.swept, other), ovoid_swept_contact(c, nullptr)));
+            const ovoid::verdict found = ovoid::depth(of.swept, other);
+            CHECK(is_same(found, ovoid_swept_depth(c, nullptr)));
+            const ovoid::answer truth = ovoid::depth({of.same, ball, at, pose(center)});
+            if (found.status == OVOID_UNDECIDED) continue;
+            CHECK_LE(found.lower, truth.upper + 1e-13);
+            CHECK_LE(truth.lower, found.upper + 1e-13);
+        }
+    const swept_sphere round = swept_sphere::box({0.3, 0.4, 0.5}, at, 0.1);
+    CHECK_EQ(round.radius, 0.1);
+    CHECK_EQ(swept_sphere(ovoid_swept_sphere(round)).half[2], 0.5);
+}
+
 } // namespace
 
 int main() {
+    check_swept();
     check_manifolds();
     check_decompositions();
     check_pairs();

@@ -9,6 +9,7 @@
 
 #include "ovoid/fcl/print.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -139,10 +140,12 @@ template <class S> plane make_plane(const typed<S> &geometry, const ::fcl::Trans
         const auto *h = static_cast<const ::fcl::Plane<S> *>(geometry.of);
         n = to_vector<S>(h->n), d = static_cast<double>(h->d);
     }
-    const double length = n.norm();
+    // FCL's constructors leave a normal of length 1; whoever writes another one into the geometry means its direction.
+    const double square = n.squaredNorm();
     const placing<S> at(pose);
-    n = at.turn(n) / length;
-    return {n, d / length + n.dot(at.position()), is_halfspace};
+    n = at.turn(n);
+    if (!(std::fabs(square - 1) <= 1e-15)) n /= std::sqrt(square), d /= std::sqrt(square);
+    return {n, d + n.dot(at.position()), is_halfspace};
 }
 
 /// Where a geometry meets a plane: points and normal in the world, from the geometry to the plane.
@@ -181,6 +184,60 @@ extreme find_height(const typed<S> &g, const ::fcl::Transform3<S> &pose, const p
         e = find_extreme(g, vector(at.turn_back(p.n) * sign)), e.point = at.turn(e.point) + at.position();
     e.height = p.n.dot(e.point) - p.d;
     return e;
+}
+
+/// How far a geometry's lowest and highest points are above a plane.
+struct extent {
+    double low, high;
+};
+
+/// The extent of a geometry that is no mesh, without its points; infinite of a type that has none here.
+template <class S> extent find_extent(const typed<S> &geometry, const ::fcl::Transform3<S> &pose, const plane &p) {
+    const placing<S> at(pose);
+    const auto *g = geometry.of;
+    const double middle = p.n.dot(at.position()) - p.d;
+    const auto around = [middle](double reach) { return extent{middle - reach, middle + reach}; };
+    if (geometry.type == ::fcl::GEOM_SPHERE)
+        return around(static_cast<double>(static_cast<const ::fcl::Sphere<S> *>(g)->radius));
+    const vector n = at.turn_back(p.n);
+    switch (geometry.type) {
+    case ::fcl::GEOM_BOX: {
+        const auto &side = static_cast<const ::fcl::Box<S> *>(g)->side;
+        return around((static_cast<double>(side[0]) * std::fabs(n[0]) + static_cast<double>(side[1]) * std::fabs(n[1]) +
+                       static_cast<double>(side[2]) * std::fabs(n[2])) /
+                      2);
+    }
+    case ::fcl::GEOM_ELLIPSOID: {
+        const auto &radii = static_cast<const ::fcl::Ellipsoid<S> *>(g)->radii;
+        const double x = static_cast<double>(radii[0]) * n[0], y = static_cast<double>(radii[1]) * n[1],
+                     z = static_cast<double>(radii[2]) * n[2];
+        return around(std::sqrt(x * x + y * y + z * z));
+    }
+    case ::fcl::GEOM_CAPSULE: {
+        const auto *s = static_cast<const ::fcl::Capsule<S> *>(g);
+        return around(static_cast<double>(s->lz) / 2 * std::fabs(n[2]) + static_cast<double>(s->radius));
+    }
+    case ::fcl::GEOM_CYLINDER: {
+        const auto *s = static_cast<const ::fcl::Cylinder<S> *>(g);
+        return around(static_cast<double>(s->lz) / 2 * std::fabs(n[2]) +
+                      static_cast<double>(s->radius) * std::sqrt(n[0] * n[0] + n[1] * n[1]));
+    }
+    case ::fcl::GEOM_CONE: {
+        const auto *s = static_cast<const ::fcl::Cone<S> *>(g);
+        const double apex = static_cast<double>(s->lz) / 2 * n[2],
+                     rim = static_cast<double>(s->radius) * std::sqrt(n[0] * n[0] + n[1] * n[1]);
+        return {middle + std::min(apex, -apex - rim), middle + std::max(apex, rim - apex)};
+    }
+    default: return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    }
+}
+
+/// 1: a geometry is apart from a plane; -1: it meets it; 0: the extent does not tell, to rounding.
+template <class S> int find_side(const typed<S> &geometry, const ::fcl::Transform3<S> &pose, const plane &p) {
+    const extent e = find_extent(geometry, pose, p);
+    const double doubt = 1e-14 * (e.high - e.low + std::fabs(e.low) + std::fabs(p.d)),
+                 apart = p.is_halfspace ? e.low : std::max(e.low, -e.high);
+    return apart > doubt ? 1 : apart < -doubt ? -1 : 0;
 }
 
 /// A mesh and a plane: the height of a corner needs no transform of it.

@@ -11,6 +11,10 @@
 #include "ovoid/swept.h"
 
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <type_traits>
+#include <vector>
 
 namespace ovoid {
 namespace fcl {
@@ -30,6 +34,12 @@ template <class S> double off_product(const ::fcl::Transform3<S> &t, int i, int 
     return std::fabs(m(0, i) * m(0, k) + m(1, i) * m(1, k) + m(2, i) * m(2, k) - (i == k ? 1 : 0));
 }
 
+/// How far all columns are from those of a rotation.
+template <class S> OVOID_FCL_INLINE double off_rotation(const ::fcl::Transform3<S> &t) {
+    return off_product<S>(t, 0, 0) + off_product<S>(t, 1, 1) + off_product<S>(t, 2, 2) + off_product<S>(t, 0, 1) +
+           off_product<S>(t, 1, 2) + off_product<S>(t, 2, 0);
+}
+
 /// A cylinder or a cone around its own z axis, but for its centre.
 template <class S, class Round>
 bool make_round(const Round &g, ovoid_swept_core core, const ::fcl::Transform3<S> &t, ovoid_swept_sphere &to) {
@@ -39,6 +49,46 @@ bool make_round(const Round &g, ovoid_swept_core core, const ::fcl::Transform3<S
     to.half[0] = static_cast<double>(g.lz) / 2;
     to.half[1] = static_cast<double>(g.radius);
     to.axis[0] = get_column<S>(t, 2);
+    return true;
+}
+
+/// A box or an ellipsoid, but for its centre: parts of the lengths are its half axes.
+template <class S>
+OVOID_FCL_INLINE bool make_box(const ::fcl::Vector3<S> &lengths, double part, ovoid_swept_core core,
+                               const ::fcl::Transform3<S> &t, ovoid_swept_sphere &to) {
+    const double off = off_rotation<S>(t);
+    if (!(lengths[0] > 0 && lengths[1] > 0 && lengths[2] > 0 && off <= swept_rounding)) return false;
+    to.radius = 0;
+    to.core = core;
+    for (int k = 0; k < 3; k++) {
+        to.half[k] = part * static_cast<double>(lengths[k]);
+        to.axis[k] = get_column<S>(t, k);
+    }
+    return true;
+}
+
+/// The most vertices of a convex polytope that are read in each step of a search; of more its shape's tables answer.
+constexpr std::size_t most_swept_points = 32;
+
+/// A convex polytope, but for its centre, with the mean of its vertices as the point in the middle.
+template <class S>
+OVOID_FCL_INLINE bool make_points(const std::vector<::fcl::Vector3<S>> &vertices, const ::fcl::Transform3<S> &t,
+                                  ovoid_swept_sphere &to) {
+    // Numbers in single precision would have to be copied.
+    if (!std::is_same<S, double>::value || vertices.empty() || vertices.size() > most_swept_points) return false;
+    const double off = off_rotation<S>(t);
+    double sum[3] = {0, 0, 0};
+    for (const auto &v : vertices)
+        for (int k = 0; k < 3; k++) sum[k] += static_cast<double>(v[k]);
+    if (!(off <= swept_rounding)) return false;
+    to.radius = 0;
+    to.core = OVOID_SWEPT_POINTS;
+    to.points = reinterpret_cast<const double *>(vertices.data());
+    to.count = static_cast<std::uint32_t>(vertices.size());
+    for (int k = 0; k < 3; k++) {
+        to.half[k] = sum[k] / static_cast<double>(vertices.size());
+        to.axis[k] = get_column<S>(t, k);
+    }
     return true;
 }
 
@@ -60,19 +110,16 @@ OVOID_FCL_INLINE bool make_swept(const typed<S> &g, const ::fcl::Transform3<S> &
         to.axis[0] = get_column<S>(t, 2);
         break;
     }
-    case ::fcl::GEOM_BOX: {
-        const auto &side = static_cast<const ::fcl::Box<S> *>(g.of)->side;
-        const double off = off_product<S>(t, 0, 0) + off_product<S>(t, 1, 1) + off_product<S>(t, 2, 2) +
-                           off_product<S>(t, 0, 1) + off_product<S>(t, 1, 2) + off_product<S>(t, 2, 0);
-        if (!(side[0] > 0 && side[1] > 0 && side[2] > 0 && off <= swept_rounding)) return false;
-        to.radius = 0;
-        to.core = OVOID_SWEPT_BOX;
-        for (int k = 0; k < 3; k++) {
-            to.half[k] = static_cast<double>(side[k]) / 2;
-            to.axis[k] = get_column<S>(t, k);
-        }
+    case ::fcl::GEOM_BOX:
+        if (!make_box<S>(static_cast<const ::fcl::Box<S> *>(g.of)->side, 0.5, OVOID_SWEPT_BOX, t, to)) return false;
         break;
-    }
+    case ::fcl::GEOM_ELLIPSOID:
+        if (!make_box<S>(static_cast<const ::fcl::Ellipsoid<S> *>(g.of)->radii, 1, OVOID_SWEPT_ELLIPSOID, t, to))
+            return false;
+        break;
+    case ::fcl::GEOM_CONVEX:
+        if (!make_points<S>(static_cast<const ::fcl::Convex<S> *>(g.of)->getVertices(), t, to)) return false;
+        break;
     case ::fcl::GEOM_CYLINDER:
         if (!make_round<S>(*static_cast<const ::fcl::Cylinder<S> *>(g.of), OVOID_SWEPT_CYLINDER, t, to)) return false;
         break;

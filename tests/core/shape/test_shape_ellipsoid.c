@@ -275,7 +275,29 @@ static void test_spheres(void) {
     check_seed = 0;
 }
 
+// The enclosing spheres overlap, so that a depth begins without a simplex; the cores part the bodies, but do not reach
+// the tolerance.
+static void test_parted(void) {
+    const double radius = 101339119.83043617;
+    const ovoid_shape_options coarse = {.tolerance = 1e-3 * radius};
+    ovoid_shape *cone = ovoid_shape_create_cone(radius, 131844415.32621855, &coarse, NULL);
+    ovoid_shape *of_b =
+        ovoid_shape_create_ellipsoid((vec3){47119792.924772255, 131362769.64498395, 115408223.9957737}, NULL, NULL);
+    const double x = 8615537.4424748719, z = 137791766.41143426;
+    const ovoid_quat turn = {1, 1.8338628275278196e-15, -1.8338628275278196e-15, 9.1693141376390982e-16};
+    const ovoid_pair p = {cone, of_b, {{x, 66791126.735175282, z}, {1, 0, 0, 0}}, {{x, -142586245.53224561, z}, turn}};
+    const ovoid_options fine = {0, 1e-11, 0, 0};
+    const ovoid_answer_basis basis = {&fine, NULL};
+    ovoid_answer depth = ovoid_depth(&p, &fine, NULL, NULL), distance = ovoid_distance(&p, &fine, NULL);
+    CHECK_EQ(depth.status, OVOID_SEPARATED);
+    CHECK(depth.lower <= distance.upper && distance.lower <= depth.upper);
+    CHECK_EQ(ovoid_answer_verify(&p, &depth, &basis, NULL), OVOID_OK);
+    ovoid_shape_destroy(cone);
+    ovoid_shape_destroy(of_b);
+}
+
 int main(void) {
+    test_parted();
     test_points();
     test_numbers();
     test_polyhedra();
