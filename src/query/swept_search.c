@@ -7,6 +7,7 @@
 // unit direction by more than that; the weights of a nearest point are off by a few u.
 #include "query/swept_search.h"
 
+#include "base/compiler.h"
 #include "pair/simplex.h"
 #include "simd/corner.h"
 
@@ -29,14 +30,14 @@ typedef struct heading {
 
 // The part of n across the axis, of which z is the part along it. Where not much is left, rounding has left some of it
 // along the axis, up to 4 u |n|: of the second pass that leaves 8 u^2 |n|, which is 2 u of what is kept.
-static inline vec3 find_across(vec3 axis, vec3 n, double z, double square) {
+COMPILER_INLINED vec3 find_across(vec3 axis, vec3 n, double z, double square) {
     vec3 off = vec3_add_scaled(n, axis, -z);
     if (vec3_norm_squared(off) > 0x1p-6 * square) return off;
     off = vec3_add_scaled(off, axis, -vec3_dot(axis, off));
     return vec3_norm_squared(off) > 0x1p-102 * square ? off : (vec3){0, 0, 0};
 }
 
-static inline vec3 find_round_end(const ovoid_swept_sphere *s, vec3 n, double square) {
+COMPILER_INLINED vec3 find_round_end(const ovoid_swept_sphere *s, vec3 n, double square) {
     vec3 axis = s->axis[0];
     double z = vec3_dot(axis, n), h = s->half[0], radius = s->half[1];
     vec3 off = find_across(axis, n, z, square);
@@ -47,7 +48,7 @@ static inline vec3 find_round_end(const ovoid_swept_sphere *s, vec3 n, double sq
 }
 
 // The point along m, in the hull's axes.
-static inline vec3 find_farthest(const ovoid_swept_sphere *s, vec3 m) {
+COMPILER_NOINLINE static vec3 find_farthest(const ovoid_swept_sphere *s, vec3 m) {
     size_t best = 0;
     double most = -INFINITY;
     for (size_t i = 0; i < s->count; i++) {
@@ -58,7 +59,7 @@ static inline vec3 find_farthest(const ovoid_swept_sphere *s, vec3 m) {
     return vec3_at(s->points, best);
 }
 
-static inline vec3 find_end(const ovoid_swept_sphere *s, vec3 n, double square) {
+COMPILER_INLINED vec3 find_end(const ovoid_swept_sphere *s, vec3 n, double square) {
     const double *half = s->half;
     if (s->core == OVOID_SWEPT_CYLINDER || s->core == OVOID_SWEPT_CONE) return find_round_end(s, n, square);
     if (s->core == OVOID_SWEPT_POINT) return (vec3){0, 0, 0};

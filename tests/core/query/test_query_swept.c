@@ -300,14 +300,9 @@ static void test_rounding(void) {
     const ovoid_vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     static const ovoid_swept_core cores[3] = {OVOID_SWEPT_POINT, OVOID_SWEPT_SEGMENT, OVOID_SWEPT_BOX};
     for (int i = 0; i < 600; i++) {
-        ovoid_swept_sphere a = {random_vec3(&r, 1),
-                                random_uniform(&r, 0, 0.5),
-                                OVOID_SWEPT_POINT,
-                                {0, 0, 0},
-                                {{0, 0, 0}},
-                                NULL,
-                                0},
-                           b = a;
+        ovoid_swept_sphere
+            a = {random_vec3(&r, 1), random_uniform(&r, 0, 0.5), OVOID_SWEPT_POINT, {0, 0, 0}, {{0, 0, 0}}, NULL, 0},
+            b = a;
         b.center = random_vec3(&r, 1);
         b.core = cores[i % 3];
         for (int k = 0; k < 3; k++) b.axis[k] = axes[k], b.half[k] = random_uniform(&r, 0.01, 0.5);
