@@ -29,6 +29,8 @@ static areas_function *const areas_of[SIMD_ISA_COUNT] =
 static box_axes_function *const box_axes_of[SIMD_ISA_COUNT] =
     KERNELS(box_axes_find_scalar, box_axes_find_avx2, box_axes_find_avx512);
 static epa8_function *const epa8_of[SIMD_ISA_COUNT] = KERNELS(epa8_grow_scalar, epa8_grow_avx2, epa8_grow_avx512);
+static const float_gjk_kernels *const float_gjk_of[SIMD_ISA_COUNT] =
+    KERNELS(&float_gjk_scalar, &float_gjk_avx2, &float_gjk_avx512);
 static const group_gjk_kernels *const group_gjk_of[SIMD_ISA_COUNT] =
     KERNELS(&group_gjk_scalar, &group_gjk_avx2, &group_gjk_avx512);
 static const pair8_kernels *const pair8_of[SIMD_ISA_COUNT] = KERNELS(&pair8_scalar, &pair8_avx2, &pair8_avx512);
@@ -53,6 +55,12 @@ static inline simd_isa find_isa_of(size_t pairs) {
 void areas_compute(const simd_triangles *triangles, vec3 *areas) { areas_of[find_widest()](triangles, areas); }
 int box_axes_find(const box_axes_query *query, box_axes *out) { return box_axes_of[find_widest()](query, out); }
 epa8_end epa8_grow(epa8 *s, const epa8_query *query) { return epa8_of[find_widest()](s, query); }
+// Of sixteen lanes most would be idle for few couples.
+const float_gjk_kernels *float_gjk_get_kernels(size_t couples) {
+    simd_isa widest = find_widest();
+    if (couples <= 2) return float_gjk_of[SIMD_SCALAR];
+    return float_gjk_of[couples <= 8 && widest > SIMD_AVX2 ? SIMD_AVX2 : widest];
+}
 const group_gjk_kernels *group_gjk_get_kernels(size_t pairs) { return group_gjk_of[find_isa_of(pairs)]; }
 const pair8_kernels *pair8_get_kernels(size_t pairs) { return pair8_of[find_isa_of(pairs)]; }
 const patch_kernels *patch_get_kernels(void) { return patch_of[find_widest()]; }
@@ -80,6 +88,7 @@ void simd_find_kept(const small_gjk_query *query, const small_gjk_kept *kept, sm
 areas_function *areas_get(simd_isa isa) { return has(isa) ? areas_of[isa] : NULL; }
 box_axes_function *box_axes_get(simd_isa isa) { return has(isa) ? box_axes_of[isa] : NULL; }
 epa8_function *epa8_get(simd_isa isa) { return has(isa) ? epa8_of[isa] : NULL; }
+const float_gjk_kernels *float_gjk_get_kernels_of(simd_isa isa) { return has(isa) ? float_gjk_of[isa] : NULL; }
 const group_gjk_kernels *group_gjk_get_kernels_of(simd_isa isa) { return has(isa) ? group_gjk_of[isa] : NULL; }
 const pair8_kernels *pair8_get_kernels_of(simd_isa isa) { return has(isa) ? pair8_of[isa] : NULL; }
 const patch_kernels *patch_get_kernels_of(simd_isa isa) { return has(isa) ? patch_of[isa] : NULL; }

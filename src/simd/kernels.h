@@ -1,11 +1,12 @@
-// The kernels of each instruction set: scalar.c, avx2.c and avx512.c compile all of kernels/ once each, and kernels.c
-// chooses among them.
+// The kernels of each instruction set: scalar.c, avx2.c and avx512.c compile all of kernels/ once each, those in
+// single precision floats_scalar.c and its sisters, and kernels.c chooses among them.
 #ifndef OVOID_SIMD_KERNELS_H
 #define OVOID_SIMD_KERNELS_H
 
 #include "simd/areas.h"
 #include "simd/box_axes.h"
 #include "simd/epa8.h"
+#include "simd/float_gjk.h"
 #include "simd/group_gjk.h"
 #include "simd/patch.h"
 #include "simd/solid8.h"
@@ -13,6 +14,7 @@
 areas_function areas_compute_scalar, areas_compute_avx2;
 box_axes_function box_axes_find_scalar, box_axes_find_avx2, box_axes_find_avx512;
 epa8_function epa8_grow_scalar, epa8_grow_avx2, epa8_grow_avx512;
+extern const float_gjk_kernels float_gjk_scalar, float_gjk_avx2, float_gjk_avx512;
 extern const group_gjk_kernels group_gjk_scalar, group_gjk_avx2, group_gjk_avx512;
 extern const pair8_kernels pair8_scalar, pair8_avx2, pair8_avx512;
 extern const patch_kernels patch_scalar, patch_avx2;
