@@ -5,7 +5,8 @@
 
 #include "base/compiler.h"
 
-void batch_floats_begin(batch_floats *s) {
+static void begin(batch_floats *s) {
+    s->is_begun = 1;
     s->entry.count = 0;
     for (unsigned i = 0; i < FLOAT_GJK_BLOCKS; i++) s->queues[i].count = 0;
     memset(&s->group, 0, offsetof(float_gjk, a));
@@ -177,6 +178,7 @@ static void put_couple(batch_floats *s, const lane_group *e, unsigned k, const p
 
 void batch_floats_add(batch_floats *s, const lane_group *e, unsigned some, const pair8_floats *numbers) {
     float_queue *q = &s->entry;
+    if (!s->is_begun) begin(s);
     if (some == PAIR8_ALL)
         for (int i = 0; i < FLOAT_NUMBERS; i++)
             memcpy(q->columns[i] + q->count, numbers->numbers[i], sizeof numbers->numbers[i]);
@@ -189,6 +191,7 @@ void batch_floats_add(batch_floats *s, const lane_group *e, unsigned some, const
 }
 
 void batch_floats_end(batch_floats *s) {
+    if (!s->is_begun) return;
     if (s->entry.count) enter(s);
     for (uint32_t blocks = 1; blocks <= FLOAT_GJK_BLOCKS; blocks++)
         if (s->queues[blocks - 1].count) search_queue(s, blocks, 1);

@@ -26,6 +26,8 @@ typedef struct batch_floats {
     ovoid_verdict *verdicts;
     void (*leave_open)(void *self, size_t index);
     void *self;
+    int is_begun; ///< the caller begins with 0, and sets only the members before; what follows is written when a couple
+                  ///< comes
     float_couple couples[FLOAT_COUPLES]; ///< by the columns' ids
     uint8_t free[FLOAT_COUPLES];         ///< ids
     unsigned free_count;
@@ -33,9 +35,6 @@ typedef struct batch_floats {
     float_queue queues[FLOAT_GJK_BLOCKS]; ///< for the search, by the eights of vertices of the larger body
     float_gjk group;                      ///< at work, a quarter of it at most between calls
 } batch_floats;
-
-/// Begins: no couple waits. The caller has set the members before the queues.
-void batch_floats_begin(batch_floats *s);
 
 /// 1 for a pair that may be added.
 static inline int batch_floats_fit(const ovoid_shape *a, const ovoid_shape *b) {

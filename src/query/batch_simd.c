@@ -613,7 +613,7 @@ COMPILER_NOINLINE static size_t run_lanes(batch_state *c, size_t first) {
         floats.verdicts = c->batch->verdicts;
         floats.leave_open = leave_float_open;
         floats.self = c;
-        batch_floats_begin(&floats);
+        floats.is_begun = 0;
         c->floats = &floats;
     }
     size_t count = c->batch->couple_count;

@@ -5,40 +5,75 @@
 
 // ---- queues
 
+// The lanes of a vector side by side from its first on; numbers side by side into lanes, from the first on.
 #if LANES == 16
-LANES_TARGET static void run_float_append(const float_query *from, unsigned lanes, float_queue *to) {
-    const float_column *columns = (const float_column *)from;
-    for (int i = 0; i < FLOAT_COLUMNS; i++)
-        _mm512_storeu_ps(to->columns[i] + to->count, _mm512_maskz_compress_ps((__mmask16)lanes, get(&columns[i], 0)));
-    to->count += (unsigned)__builtin_popcount(lanes);
+typedef __mmask16 lane_order;
+LANES_INLINE lane_order find_order(unsigned lanes) { return (__mmask16)lanes; }
+LANES_INLINE void pack(float *to, lane_order order, lane v) {
+    _mm512_storeu_ps(to, _mm512_maskz_compress_ps(order, v));
 }
-
-LANES_INLINE void take_last(float_queue *from, unsigned lanes, float_query *to) {
-    float_column *columns = (float_column *)to;
-    from->count -= (unsigned)__builtin_popcount(lanes);
-    for (int i = 0; i < FLOAT_COLUMNS; i++) {
-        __m512 last = _mm512_loadu_ps(from->columns[i] + from->count);
-        put(&columns[i], 0, _mm512_mask_expand_ps(get(&columns[i], 0), (__mmask16)lanes, last));
+LANES_INLINE lane spread(const float *from, lane_order order) {
+    return _mm512_maskz_expand_ps(order, _mm512_loadu_ps(from));
+}
+#elif LANES == 8
+typedef struct lane_order {
+    _Alignas(32) int32_t packed[8], place[8];
+} lane_order;
+LANES_INLINE lane_order find_order(unsigned lanes) {
+    lane_order o = {{0}, {0}};
+    for (int count = 0; lanes; lanes &= lanes - 1, count++) {
+        int k = __builtin_ctz(lanes);
+        o.packed[count] = k;
+        o.place[k] = count;
     }
+    return o;
 }
+LANES_INLINE lane permute(lane v, const int32_t at[8]) {
+    return _mm256_permutevar8x32_ps(v, _mm256_load_si256((const __m256i *)at));
+}
+LANES_INLINE void pack(float *to, lane_order order, lane v) { _mm256_storeu_ps(to, permute(v, order.packed)); }
+LANES_INLINE lane spread(const float *from, lane_order order) { return permute(_mm256_loadu_ps(from), order.place); }
 #else
-LANES_TARGET static void run_float_append(const float_query *from, unsigned lanes, float_queue *to) {
-    const float_column *columns = (const float_column *)from;
-    for (; lanes; lanes &= lanes - 1, to->count++)
-        for (int i = 0; i < FLOAT_COLUMNS; i++)
-            to->columns[i][to->count] = columns[i].lane[(unsigned)__builtin_ctz(lanes)];
+typedef unsigned lane_order;
+LANES_INLINE lane_order find_order(unsigned lanes) { return lanes; }
+LANES_INLINE void pack(float *to, lane_order order, lane v) {
+    (void)order;
+    *to = v;
 }
-
-LANES_INLINE void take_last(float_queue *from, unsigned lanes, float_query *to) {
-    float_column *columns = (float_column *)to;
-    unsigned at = from->count -= (unsigned)__builtin_popcount(lanes);
-    for (; lanes; lanes &= lanes - 1, at++)
-        for (int i = 0; i < FLOAT_COLUMNS; i++) columns[i].lane[(unsigned)__builtin_ctz(lanes)] = from->columns[i][at];
+LANES_INLINE lane spread(const float *from, lane_order order) {
+    (void)order;
+    return *from;
 }
 #endif
 
+LANES_TARGET static void run_float_append(const float_query *from, unsigned lanes, float_queue *to) {
+    const float_column *columns = (const float_column *)from;
+    for (int at = 0; at < FLOATS; at += LANES) {
+        unsigned some = get_lanes(lanes, at);
+        if (!some) continue;
+        lane_order order = find_order(some);
+        for (int i = 0; i < FLOAT_COLUMNS; i++) pack(to->columns[i] + to->count, order, get(&columns[i], at));
+        to->count += (unsigned)__builtin_popcount(some);
+    }
+}
+
+// The last couples of a queue into lanes.
+LANES_INLINE void take_last(float_queue *from, unsigned lanes, float_gjk *to) {
+    float_column *columns = (float_column *)&to->query;
+    unsigned next = from->count -= (unsigned)__builtin_popcount(lanes);
+    for (int at = 0; at < FLOATS; at += LANES) {
+        unsigned some = get_lanes(lanes, at);
+        if (!some) continue;
+        lane_order order = find_order(some);
+        lane_mask is_new = lane_from_bits(some);
+        for (int i = 0; i < FLOAT_COLUMNS; i++)
+            put_some(&columns[i], at, is_new, spread(from->columns[i] + next, order));
+        next += (unsigned)__builtin_popcount(some);
+    }
+}
+
 LANES_TARGET static void run_float_fill(float_queue *from, unsigned lanes, float_gjk *to) {
-    take_last(from, lanes, &to->query);
+    take_last(from, lanes, to);
     to->live |= lanes;
     for (int at = 0; at < FLOATS; at += LANES) {
         if (!get_lanes(lanes, at)) continue;
@@ -54,26 +89,54 @@ LANES_TARGET static void run_float_fill(float_queue *from, unsigned lanes, float
 
 // ---- the vertices
 
-// The columns of one body of each couple. Eights beyond a body's own repeat its first.
-LANES_INLINE void load_body(const float *const bodies[FLOATS], const uint32_t own[FLOATS], const float_column *factors,
-                            float_column *to, uint32_t blocks, unsigned lanes) {
+// The bodies of one side.
+typedef struct float_side {
+    const float *const *bodies;
+    const uint32_t *own; // eights of each
+    lane factor;
+    int is_uniform; // 1 if all have as many as the group
+} float_side;
+
+// Eight columns, number i of all. Eights beyond a body's own repeat its first.
+LANES_INLINE void read_vertices(const float_side *side, uint32_t i, uint32_t blocks, int at, lane c[8]) {
     const float *rows[FLOATS];
+    for (int k = at; k < at + LANES; k++) {
+        uint32_t own = side->own[k], block = i % blocks;
+        uint32_t row = side->is_uniform ? i : i / blocks * own + (block < own ? block : 0);
+        rows[k] = side->bodies[k] + 8 * row;
+    }
+    read_eight(rows, at, c);
+    for (int j = 0; j < 8; j++) c[j] = c[j] * side->factor;
+}
+
+LANES_INLINE int is_uniform(const uint32_t own[FLOATS], uint32_t blocks, int at) {
+    uint32_t differs = 0;
+    for (int k = at; k < at + LANES; k++) differs |= own[k] ^ blocks;
+    return !differs;
+}
+
+// The columns of one body of each couple. Idle lanes that stay idle are overwritten too where no lane is kept.
+LANES_INLINE void load_body(float_side *side, const float_column *factors, float_column *to, const float_gjk *s,
+                            unsigned lanes) {
     for (int at = 0; at < FLOATS; at += LANES) {
         if (!get_lanes(lanes, at)) continue;
-        lane_mask some = lane_from_bits(get_lanes(lanes, at));
-        lane factor = get(factors, at), c[8];
-        for (uint32_t i = 0; i < 3 * blocks; i++) {
-            uint32_t d = i / blocks, block = i % blocks;
-            for (int k = at; k < at + LANES; k++) rows[k] = bodies[k] + 8 * (d * own[k] + (block < own[k] ? block : 0));
-            read_eight(rows, at, c);
-            for (int j = 0; j < 8; j++) put_some(&to[8 * i + (uint32_t)j], at, some, c[j] * factor);
+        lane_mask is_new = lane_from_bits(get_lanes(lanes, at));
+        unsigned kept = get_lanes(s->live & ~lanes, at);
+        lane c[8];
+        side->factor = get(factors, at);
+        side->is_uniform = is_uniform(side->own, s->blocks, at);
+        for (uint32_t i = 0; i < 3 * s->blocks; i++) {
+            read_vertices(side, i, s->blocks, at, c);
+            for (uint32_t j = 0; j < 8; j++)
+                put(&to[8 * i + j], at, kept ? lane_select(is_new, c[j], get(&to[8 * i + j], at)) : c[j]);
         }
     }
 }
 
 LANES_TARGET static void run_float_load(const float_points *from, unsigned lanes, float_gjk *to) {
-    load_body(from->a, from->blocks_a, &to->query.factor_a, to->a, to->blocks, lanes);
-    load_body(from->b, from->blocks_b, &to->query.factor_b, to->b, to->blocks, lanes);
+    float_side a = {from->a, from->blocks_a, lane_set(0), 0}, b = {from->b, from->blocks_b, lane_set(0), 0};
+    load_body(&a, &to->query.factor_a, to->a, to, lanes);
+    load_body(&b, &to->query.factor_b, to->b, to, lanes);
 }
 
 // ---- supports
@@ -240,7 +303,7 @@ LANES_INLINE void advance_lanes(float_gjk *s, int at, int count, float_ends *all
     // A height within the error says nothing of the sign.
     gains =
         lane_and(gains, lane_and(lane_greater(norm, lane_set(1e-30)), lane_greater(high * high, claim * claim * norm)));
-    gains = lane_and(gains, lane_at_most(steps, lane_set(s->most)));
+    gains = lane_and(gains, lane_less(steps, lane_set(s->most)));
     step.goes = lane_and(lane_and(goes, lane_not(step.inside)), lane_and(gains, lane_from_bits(live)));
     replace_corner(s, at, &step, m.w);
     put_some3(s->n, at, step.goes, step.n);
