@@ -9,7 +9,6 @@ static void begin(batch_floats *s) {
     s->is_begun = 1;
     s->entry.count = 0;
     for (unsigned i = 0; i < FLOAT_GJK_BLOCKS; i++) s->queues[i].count = 0;
-    memset(&s->group, 0, offsetof(float_gjk, a));
     s->group.blocks = 1;
     s->group.live = 0;
     s->group.most = (float)(s->goal->iterations < 24 ? s->goal->iterations : 24);

@@ -58,7 +58,7 @@ epa8_end epa8_grow(epa8 *s, const epa8_query *query) { return epa8_of[find_wides
 // Of sixteen lanes most would be idle for few couples.
 const float_gjk_kernels *float_gjk_get_kernels(size_t couples) {
     simd_isa widest = find_widest();
-    if (couples <= 2) return float_gjk_of[SIMD_SCALAR];
+    if (couples == 1) return float_gjk_of[SIMD_SCALAR];
     return float_gjk_of[couples <= 8 && widest > SIMD_AVX2 ? SIMD_AVX2 : widest];
 }
 const group_gjk_kernels *group_gjk_get_kernels(size_t pairs) { return group_gjk_of[find_isa_of(pairs)]; }

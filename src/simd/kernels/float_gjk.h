@@ -57,34 +57,47 @@ LANES_TARGET static void run_float_append(const float_query *from, unsigned lane
     }
 }
 
-// The last couples of a queue into lanes.
-LANES_INLINE void take_last(float_queue *from, unsigned lanes, float_gjk *to) {
+// The lanes of a vector that are written, and those at work whose numbers are kept: without any, all are written.
+typedef struct float_places {
+    lane_mask is_new;
+    unsigned kept;
+} float_places;
+
+LANES_INLINE float_places get_places(const float_gjk *s, unsigned lanes, int at) {
+    return (float_places){lane_from_bits(get_lanes(lanes, at)), get_lanes(s->live & ~lanes, at)};
+}
+LANES_INLINE void put_new(float_column *c, int at, const float_places *places, lane v) {
+    put(c, at, places->kept ? lane_select(places->is_new, v, get(c, at)) : v);
+}
+LANES_INLINE void put_new3(float_column *c, int at, const float_places *places, lane3 v) {
+    put_new(c, at, places, v.x);
+    put_new(c + 1, at, places, v.y);
+    put_new(c + 2, at, places, v.z);
+}
+
+LANES_TARGET static void run_float_fill(float_queue *from, unsigned lanes, float_gjk *to) {
     float_column *columns = (float_column *)&to->query;
+    lane zero = lane_set(0);
     unsigned next = from->count -= (unsigned)__builtin_popcount(lanes);
     for (int at = 0; at < FLOATS; at += LANES) {
         unsigned some = get_lanes(lanes, at);
         if (!some) continue;
         lane_order order = find_order(some);
-        lane_mask is_new = lane_from_bits(some);
+        float_places places = get_places(to, lanes, at);
         for (int i = 0; i < FLOAT_COLUMNS; i++)
-            put_some(&columns[i], at, is_new, spread(from->columns[i] + next, order));
+            put_new(&columns[i], at, &places, spread(from->columns[i] + next, order));
         next += (unsigned)__builtin_popcount(some);
-    }
-}
-
-LANES_TARGET static void run_float_fill(float_queue *from, unsigned lanes, float_gjk *to) {
-    take_last(from, lanes, to);
-    to->live |= lanes;
-    for (int at = 0; at < FLOATS; at += LANES) {
-        if (!get_lanes(lanes, at)) continue;
-        lane_mask some = lane_from_bits(get_lanes(lanes, at));
         lane3 n = get3(to->query.start, at);
-        put_some3(to->n, at, some, n);
-        put_some(&to->square, at, some, lane3_dot(n, n));
-        put_some(&to->height, at, some, lane_set(INFINITY));
-        put_some(&to->steps, at, some, lane_set(-1));
-        for (int i = 0; i < 3; i++) put_some(&to->is_valid[i], at, some, lane_set(0));
+        put_new3(to->n, at, &places, n);
+        put_new(&to->square, at, &places, lane3_dot(n, n));
+        put_new(&to->height, at, &places, lane_set(INFINITY));
+        put_new(&to->steps, at, &places, lane_set(-1));
+        for (int i = 0; i < 3; i++) {
+            put_new3(&to->old[3 * i], at, &places, (lane3){zero, zero, zero});
+            put_new(&to->is_valid[i], at, &places, zero);
+        }
     }
+    to->live |= lanes;
 }
 
 // ---- the vertices
@@ -120,15 +133,13 @@ LANES_INLINE void load_body(float_side *side, const float_column *factors, float
                             unsigned lanes) {
     for (int at = 0; at < FLOATS; at += LANES) {
         if (!get_lanes(lanes, at)) continue;
-        lane_mask is_new = lane_from_bits(get_lanes(lanes, at));
-        unsigned kept = get_lanes(s->live & ~lanes, at);
+        float_places places = get_places(s, lanes, at);
         lane c[8];
         side->factor = get(factors, at);
         side->is_uniform = is_uniform(side->own, s->blocks, at);
         for (uint32_t i = 0; i < 3 * s->blocks; i++) {
             read_vertices(side, i, s->blocks, at, c);
-            for (uint32_t j = 0; j < 8; j++)
-                put(&to[8 * i + j], at, kept ? lane_select(is_new, c[j], get(&to[8 * i + j], at)) : c[j]);
+            for (uint32_t j = 0; j < 8; j++) put_new(&to[8 * i + j], at, &places, c[j]);
         }
     }
 }
