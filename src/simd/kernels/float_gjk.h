@@ -272,21 +272,14 @@ LANES_INLINE void replace_corner(float_gjk *s, int at, const lane_step *step, la
     }
 }
 
-LANES_INLINE lane_mask equals(lane3 a, lane3 b) {
-    lane_mask x = lane_and(lane_at_least(a.x, b.x), lane_at_most(a.x, b.x));
-    lane_mask y = lane_and(lane_at_least(a.y, b.y), lane_at_most(a.y, b.y));
-    return lane_and(lane_and(x, y), lane_and(lane_at_least(a.z, b.z), lane_at_most(a.z, b.z)));
-}
-
 LANES_INLINE void advance_lanes(float_gjk *s, int at, int count, float_ends *all) {
     lane3 n = get3(s->n, at), old[3];
-    lane_mask valid[3], known = lane_none();
+    lane_mask valid[3];
     unsigned live = get_lanes(s->live, at);
     float_meeting m = meet(s, n, at, count);
     for (int i = 0; i < 3; i++) {
         old[i] = get3(&s->old[3 * i], at);
         valid[i] = lane_sign(get(&s->is_valid[i], at));
-        known = lane_or(known, lane_and(valid[i], equals(old[i], m.w)));
     }
     lane claim = get(&s->query.claim, at), near_to = get(&s->query.near, at), zero = lane_set(0);
     lane square = get(&s->square, at), height = get(&s->height, at), scale = lane_set(1) / lane_sqrt(square);
@@ -303,15 +296,15 @@ LANES_INLINE void advance_lanes(float_gjk *s, int at, int count, float_ends *all
         upper = lane_select(nearer, norm, upper);
     }
     lane_step step = step_lanes(old, valid, m.w);
-    lane_mask goes = lane_not(lane_or(lane_or(apart, near), known)), inside = lane_and(goes, step.inside);
+    lane_mask goes = lane_not(lane_or(apart, near)), inside = lane_and(goes, step.inside);
     if (lane_bits(inside) & live) {
         lane depth = measure_tetrahedron(old, m.w);
         inside = lane_and(inside, lane_greater(depth, claim));
         upper = lane_select(inside, claim - depth, upper);
     }
     lane high = lane3_dot(step.n, m.w), norm = lane3_dot(step.n, step.n);
-    lane_mask gains = lane_and(lane_less(high * high * square, height * height * norm), lane_greater(norm, step.least));
-    // A height within the error says nothing of the sign.
+    lane_mask gains = lane_less(high * high * square, height * height * norm);
+    // A support that is a corner again gains nothing. A height within the error says nothing of the sign.
     gains =
         lane_and(gains, lane_and(lane_greater(norm, lane_set(1e-30)), lane_greater(high * high, claim * claim * norm)));
     gains = lane_and(gains, lane_less(steps, lane_set(s->most)));
