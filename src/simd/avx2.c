@@ -1,7 +1,7 @@
 // The kernels for AVX2.
 #if defined(__x86_64__) && defined(__GNUC__)
 
-#include "simd/kernels.h"
+#include "simd/kernels/sets.h"
 
 #define LANES 4
 #include "simd/kernels/small_gjk_lanes.h"
@@ -48,5 +48,5 @@ LANES_TARGET void small_gjk_find_kept_avx2(const small_gjk_query *query, const s
 }
 
 #else
-#include "simd/kernels.h"
+#include "simd/kernels/sets.h"
 #endif

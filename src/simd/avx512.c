@@ -1,7 +1,7 @@
 // The kernels for AVX-512.
 #if defined(__x86_64__) && defined(__GNUC__)
 
-#include "simd/kernels.h"
+#include "simd/kernels/sets.h"
 
 #define LANES 8
 #include "simd/kernels/small_gjk_lanes.h"
@@ -34,5 +34,5 @@ LANES_TARGET void small_gjk_run_kept_avx512(const small_gjk_query *query, const 
 }
 
 #else
-#include "simd/kernels.h"
+#include "simd/kernels/sets.h"
 #endif

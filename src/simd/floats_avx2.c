@@ -1,7 +1,7 @@
 // The kernels in single precision for AVX2.
 #if defined(__x86_64__) && defined(__GNUC__)
 
-#include "simd/kernels.h"
+#include "simd/kernels/sets.h"
 
 #define LANES_ARE_FLOATS
 #define LANES 8
@@ -12,5 +12,5 @@ const float_gjk_kernels float_gjk_avx2 = {run_float_ellipsoids, run_float_append
                                           run_float_advance};
 
 #else
-#include "simd/kernels.h"
+#include "simd/kernels/sets.h"
 #endif

@@ -1,7 +1,7 @@
 // The kernels in single precision for AVX-512.
 #if defined(__x86_64__) && defined(__GNUC__)
 
-#include "simd/kernels.h"
+#include "simd/kernels/sets.h"
 
 #define LANES_ARE_FLOATS
 #define LANES 16
@@ -12,5 +12,5 @@ const float_gjk_kernels float_gjk_avx512 = {run_float_ellipsoids, run_float_appe
                                             run_float_advance};
 
 #else
-#include "simd/kernels.h"
+#include "simd/kernels/sets.h"
 #endif

@@ -1,6 +1,6 @@
 // The kernels in single precision that every processor of a build runs: the scalar twins of those in floats_avx2.c and
 // floats_avx512.c.
-#include "simd/kernels.h"
+#include "simd/kernels/sets.h"
 
 #define LANES_ARE_FLOATS
 #define LANES 1

@@ -1,5 +1,5 @@
 // The choice of a kernel, by the widest instruction set that this machine and this build have. All give the same bits.
-#include "simd/kernels.h"
+#include "simd/kernels/sets.h"
 
 #include <stddef.h>
 

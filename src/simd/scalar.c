@@ -1,5 +1,5 @@
 // The kernels that every processor of a build runs: the scalar twins of those in avx2.c and avx512.c.
-#include "simd/kernels.h"
+#include "simd/kernels/sets.h"
 
 #include "simd/kernels/baseline_lanes.h"
 #include "simd/kernels/small_gjk_scalar.h"

@@ -46,7 +46,7 @@ static void find_unbeaten_scalar(const simd_cull *by, const simd_points *points,
 
 #if defined(__x86_64__) && defined(__GNUC__)
 
-#include "simd/vectors.h"
+#include "simd/kernels/vectors.h"
 
 #define AVX2 __attribute__((target("avx2")))
 

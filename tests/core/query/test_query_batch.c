@@ -5,7 +5,6 @@
 // query, with the earlier proof that the batch was handed: the same status, brackets with a common point, an end for
 // the same reason, and a proof that ovoid_answer_verify accepts. Couples that name no body are refused.
 #include "bits.h"
-#include "widths.h"
 
 enum { SHAPES = 12, BODIES = 40, COUPLES = 300, ROUNDS = 4, QUESTIONS = 4, LENGTHS = 21 };
 
@@ -285,7 +284,7 @@ int main(void) {
     for (int i = 0; i < COUPLES; i++)
         couples[i] = (ovoid_couple){(uint32_t)(random_next(&s) % BODIES), (uint32_t)(random_next(&s) % BODIES)};
     check_all(1);
-    widths_run_narrower(check_narrower);
+    bits_run_narrower(check_narrower);
     for (int i = 0; i < SHAPES; i++) ovoid_shape_destroy(shapes[i]);
     check_needles(&s);
     check_origins();
@@ -294,7 +293,7 @@ int main(void) {
         if (!make_shapes(shapes, &s)) return check_end();
         make_bodies(shapes, &s);
         check_all(1);
-        widths_run_narrower(check_narrower);
+        bits_run_narrower(check_narrower);
         for (int i = 0; i < SHAPES; i++) ovoid_shape_destroy(shapes[i]);
     }
     check_refusals();

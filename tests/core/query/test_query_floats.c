@@ -4,7 +4,6 @@
 // bodies are hulls, needles, plates, flat polygons and bodies far from their frames' origins, large beside small, of
 // scales from 1e-46 to 1e46, at gaps and overlaps of 1e-8 to 1 of the size, touching, and in one place.
 #include "bits.h"
-#include "widths.h"
 
 enum { SHAPES = 24, COUPLES = 400, LENGTHS = 36 };
 
@@ -115,7 +114,7 @@ static void check_scale(uint64_t *s) {
             check_beside_single(asked_within, i);
         }
         check_neighbors(asked_within);
-        widths_run_narrower(check_width);
+        bits_run_narrower(check_width);
     }
     for (int i = 0; i < SHAPES; i++) ovoid_shape_destroy(shapes[i]);
 }

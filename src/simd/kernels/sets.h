@@ -1,7 +1,7 @@
 // The kernels of each instruction set: scalar.c, avx2.c and avx512.c compile all of kernels/ once each, those in
 // single precision floats_scalar.c and its sisters, and kernels.c chooses among them.
-#ifndef OVOID_SIMD_KERNELS_H
-#define OVOID_SIMD_KERNELS_H
+#ifndef OVOID_SIMD_KERNELS_SETS_H
+#define OVOID_SIMD_KERNELS_SETS_H
 
 #include "simd/areas.h"
 #include "simd/box_axes.h"
