@@ -1,13 +1,14 @@
 // Most couples of a batch are decided by their enclosing spheres or ellipsoids, which cost the same for every couple:
 // so a lane group of eight couples is taken at once, without a branch. Couples that the spheres leave open are packed
-// into full lane groups before they go on to the ellipsoids. Small ones are then searched in their group; others go on
-// to the exact search, one by one, where the supports along the ellipsoids' direction leave them open. A couple that is
-// in any way unusual (a far origin, a quaternion to be scaled, a refused pose) is queried alone, from the start; so is
-// one with an earlier proof that the spheres leave open.
+// into full lane groups before they go on to the ellipsoids. Small ones are then searched in their group; of a yes or
+// no without evidence they go on in single precision instead (batch_floats.h). Others go on to the exact search, one by
+// one, where the supports along the ellipsoids' direction leave them open. A couple that is in any way unusual (a far
+// origin, a quaternion to be scaled, a refused pose) is queried alone, from the start; so is one with an earlier proof
+// that the spheres leave open.
 //
 // No lane depends on the others, so nothing depends on which couples share a group, and a batch may be cut anywhere.
-// Working memory: six lane groups on the stack, 31 KB; they are gone while the couples that they left open are
-// searched, which takes more.
+// Working memory: six lane groups on the stack, 31 KB, and the couples in single precision, 36 KB; they are gone while
+// the couples that they left open are searched, which takes more.
 #include "query/batch_simd.h"
 
 #include "base/compiler.h"
