@@ -5,6 +5,17 @@
 
 // ---- queues
 
+// How many lanes a mask has. In plain C the builtin would call the compiler's runtime.
+LANES_INLINE unsigned count_bits(unsigned lanes) {
+#if LANES > 1
+    return (unsigned)__builtin_popcount(lanes);
+#else
+    unsigned count = 0;
+    for (; lanes; lanes &= lanes - 1) count++;
+    return count;
+#endif
+}
+
 // The lanes of a vector side by side from its first on; numbers side by side into lanes, from the first on.
 #if LANES == 16
 typedef __mmask16 lane_order;
@@ -53,7 +64,7 @@ LANES_TARGET static void run_float_append(const float_query *from, unsigned lane
         if (!some) continue;
         lane_order order = find_order(some);
         for (int i = 0; i < FLOAT_COLUMNS; i++) pack(to->columns[i] + to->count, order, get(&columns[i], at));
-        to->count += (unsigned)__builtin_popcount(some);
+        to->count += count_bits(some);
     }
 }
 
@@ -78,7 +89,7 @@ LANES_INLINE void put_new3(float_column *c, int at, const float_places *places, 
 LANES_TARGET static void run_float_fill(float_queue *from, unsigned lanes, float_gjk *to) {
     float_column *columns = (float_column *)&to->query;
     lane zero = lane_set(0);
-    unsigned next = from->count -= (unsigned)__builtin_popcount(lanes);
+    unsigned next = from->count -= count_bits(lanes);
     for (int at = 0; at < FLOATS; at += LANES) {
         unsigned some = get_lanes(lanes, at);
         if (!some) continue;
@@ -86,7 +97,7 @@ LANES_TARGET static void run_float_fill(float_queue *from, unsigned lanes, float
         float_places places = get_places(to, lanes, at);
         for (int i = 0; i < FLOAT_COLUMNS; i++)
             put_new(&columns[i], at, &places, spread(from->columns[i] + next, order));
-        next += (unsigned)__builtin_popcount(some);
+        next += count_bits(some);
         lane3 n = get3(to->query.start, at);
         put_new3(to->n, at, &places, n);
         put_new(&to->square, at, &places, lane3_dot(n, n));

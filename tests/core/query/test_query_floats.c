@@ -36,8 +36,11 @@ static ovoid_pair get_pair(int i) {
 // At a gap or an overlap of a random order; every eighth touching to rounding, every ninth in the place of the other.
 static void place(int i, uint64_t *s) {
     ovoid_posed_shape *a = &bodies[2 * i], *b = a + 1;
-    *a = (ovoid_posed_shape){shapes[random_next(s) % SHAPES], {bits_vec3(s, scale), bits_quat(s)}};
-    *b = (ovoid_posed_shape){shapes[random_next(s) % SHAPES], {bits_vec3(s, scale), bits_quat(s)}};
+    for (ovoid_posed_shape *body = a; body <= b; body++) {
+        body->shape = shapes[random_next(s) % SHAPES];
+        body->pose.position = bits_vec3(s, scale);
+        body->pose.rotation = bits_quat(s);
+    }
     couples[i] = (ovoid_couple){2 * (uint32_t)i, 2 * (uint32_t)i + 1};
     if (i % 9 == 0) *b = *a;
     if (i % 9 == 0) return;

@@ -14,6 +14,10 @@ static float_gjk truth, other;
 static long near_ends, inside_ends;
 
 static float make_number(uint64_t *s) { return (float)random_uniform(s, -1, 1); }
+static vec3 make_vec3(uint64_t *s) {
+    float x = make_number(s), y = make_number(s), z = make_number(s);
+    return (vec3){x, y, z};
+}
 
 static vec3 get_old(const float_gjk *g, int i, unsigned k) {
     return (vec3){g->old[3 * i].lane[k], g->old[3 * i + 1].lane[k], g->old[3 * i + 2].lane[k]};
@@ -27,12 +31,13 @@ static void put(float_column *c, unsigned k, vec3 v) {
 
 // A corner: random, near another, near the plane of three, or on the line of two.
 static vec3 make_corner(uint64_t *s, const vec3 c[3]) {
-    vec3 random = {make_number(s), make_number(s), make_number(s)};
+    vec3 random = make_vec3(s);
     double small = pow(10, -random_uniform(s, 1, 8));
     switch (random_next(s) % 5) {
     case 0: return vec3_add_scaled(c[0], random, small);
     case 1: {
-        vec3 on = vec3_add_scaled(vec3_scale(c[0], make_number(s)), c[1], make_number(s));
+        float first = make_number(s), second = make_number(s);
+        vec3 on = vec3_add_scaled(vec3_scale(c[0], first), c[1], second);
         return vec3_add_scaled(on, random, small);
     }
     case 2: return vec3_add_scaled(vec3_scale(c[0], 1 - random.x), c[1], random.x);
@@ -47,10 +52,11 @@ static void fill(uint64_t *s, float_gjk *g) {
     g->live = (unsigned)random_next(s) & FLOATS_ALL;
     for (unsigned k = 0; k < FLOATS; k++) {
         int asks_near = random_next(s) % 2 == 0;
-        vec3 c[3] = {{make_number(s), make_number(s), make_number(s)},
-                     {make_number(s), make_number(s), make_number(s)}};
+        vec3 c[3];
+        c[0] = make_vec3(s);
+        c[1] = make_vec3(s);
         c[2] = make_corner(s, c);
-        vec3 w = make_corner(s, c), n = {make_number(s), make_number(s), make_number(s)};
+        vec3 w = make_corner(s, c), n = make_vec3(s);
         if (random_next(s) % 2) w = vec3_scale(vec3_add(vec3_add(c[0], c[1]), c[2]), -random_uniform(s, 0.1, 1));
         if (asks_near) n = vec3_dot(n, w) > 0 ? n : vec3_neg(n);
         for (int i = 0; i < 9; i++) g->query.rotation[i].lane[k] = i % 4 == 0;
