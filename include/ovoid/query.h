@@ -228,15 +228,17 @@ typedef struct ovoid_witness {
 
 /**
  * One query of many pairs. The results of a couple follow from its bodies, its earlier proof, the question and the
- * options alone: they have the same bits whatever couples are beside it, in any order, in a batch of any length, with
- * any set of outputs, on every machine. So to use several threads, give each a part of the couples and of the arrays
- * beside them; bodies may be shared.
+ * options alone: they have the same bits whatever couples are beside it, in any order, in a batch of any length, on
+ * every machine. So to use several threads, give each a part of the couples and of the arrays beside them; bodies may
+ * be shared. They have the same bits with any set of outputs, but for a yes or no (collide, within) of which only the
+ * verdicts are wanted: couples of small bodies are then decided in single precision, and their brackets have other bits
+ * than beside answers, proofs or witnesses.
  *
  * Beside the query of the pair alone (ovoid_collide and its sisters) a batch gives the same status, a true bracket that
  * is as narrow as the question needs, and a valid proof. It may give other bits: another stage may decide, with another
  * bracket, other points and another proof. Statuses may differ only where options.iterations end a search.
  *
- * From four couples on a batch takes less time than as many single queries, of one to three up to twice as much.
+ * From six couples on a batch takes less time than as many single queries, of one to five up to three times as much.
  *
  * Earlier proofs save time for couples near each other, at no further cost if proofs are written anyway. For yes or no
  * about couples that are mostly far apart leave the proofs out: in lanes the spheres decide a couple in a quarter of

@@ -1,37 +1,45 @@
 // Most couples of a batch are decided by their enclosing spheres or ellipsoids, which cost the same for every couple:
 // so a lane group of eight couples is taken at once, without a branch. Couples that the spheres leave open are packed
-// into full lane groups before they go on to the ellipsoids. Small ones are then searched in their group; others go on
-// to the exact search, one by one, where the supports along the ellipsoids' direction leave them open. A couple that is
-// in any way unusual (a far origin, a quaternion to be scaled, a refused pose) is queried alone, from the start; so is
-// one with an earlier proof that the spheres leave open.
+// into full lane groups before they go on to the ellipsoids. Small ones are then searched in their group; of a yes or
+// no without evidence they go on in single precision instead (batch_floats.h). Others go on to the exact search, one by
+// one, where the supports along the ellipsoids' direction leave them open. A couple that is in any way unusual (a far
+// origin, a quaternion to be scaled, a refused pose) is queried alone, from the start; so is one with an earlier proof
+// that the spheres leave open.
 //
 // No lane depends on the others, so nothing depends on which couples share a group, and a batch may be cut anywhere.
-// Working memory: six lane groups on the stack, 31 KB; they are gone while the couples that they left open are
-// searched, which takes more.
+// Working memory: six lane groups on the stack, 31 KB, and the couples in single precision, 36 KB; they are gone while
+// the couples that they left open are searched, which takes more.
 #include "query/batch_simd.h"
 
 #include "base/compiler.h"
 #include "base/error.h"
 #include "exact/closed.h"
 #include "pair/reject.h"
+#include "query/batch_floats.h"
 #include "query/batch_group.h"
 
-// A couple that the lanes leave open, with what they found: alone, nothing.
+// A couple that the lanes leave open, with what they found.
 typedef struct open_couple {
     size_t index;
     double tolerance, lower, upper;
     vec3 n, w; ///< the direction of `lower`; the difference of the vertices a and b
     uint32_t a, b;
-    int is_alone;
 } open_couple;
 
 // A lane group leaves at most eight open, and those that wait are at most PAIR8_GROUPS groups and one of few small
-// ones.
-enum { OPEN_MOST = 88, OPEN_FULL = OPEN_MOST - (PAIR8_GROUPS + 2) * PAIR8 };
+// ones; those that are queried alone may also be of the couples in single precision.
+enum {
+    WAITING_MOST = (PAIR8_GROUPS + 2) * PAIR8,
+    OPEN_MOST = 88,
+    OPEN_FULL = OPEN_MOST - WAITING_MOST,
+    ALONE_MOST = OPEN_MOST + FLOAT_WAITING,
+    ALONE_FULL = ALONE_MOST - WAITING_MOST - FLOAT_WAITING
+};
 
 typedef struct open_list {
     open_couple items[OPEN_MOST];
-    unsigned count;
+    size_t alone[ALONE_MOST]; ///< couples of which nothing is known
+    unsigned count, alone_count;
 } open_list;
 
 typedef struct batch_state {
@@ -44,14 +52,11 @@ typedef struct batch_state {
     unsigned waiting_count;
     lane_group *few; ///< small couples to be searched, from groups that have few of them
     unsigned few_count;
+    batch_floats *floats; ///< of a yes or no without evidence; else NULL
     open_list *open;
 } batch_state;
 
-static void leave_alone(const batch_state *c, size_t index) {
-    open_couple *couple = &c->open->items[c->open->count++];
-    couple->index = index;
-    couple->is_alone = 1;
-}
+static void leave_alone(const batch_state *c, size_t index) { c->open->alone[c->open->alone_count++] = index; }
 
 // 1 if a couple has no earlier proof, or one that holds nothing.
 static int is_blank(const ovoid_proof *p) {
@@ -196,8 +201,7 @@ static void leave_open(const batch_state *c, group_lane at, uint32_t a, uint32_t
                                                      get3(o->n, at.k),
                                                      get3(o->w, at.k),
                                                      a,
-                                                     b,
-                                                     0};
+                                                     b};
 }
 
 // What is known after the supports.
@@ -227,7 +231,7 @@ static void end_at_support(const batch_state *c, group_lane at, uint32_t a, uint
         pair_frame frame;
         search s = get_search(c, at, OVOID_STAGE_SUPPORT, &frame);
         open_couple couple = {
-            .lower = lower, .upper = upper, .n = get3(at.e->lanes->n, at.k), .w = get3(at.e->lanes->w, at.k), a, b, 0};
+            .lower = lower, .upper = upper, .n = get3(at.e->lanes->n, at.k), .w = get3(at.e->lanes->w, at.k), a, b};
         simplex start;
         take_supports(&s, &couple, &start);
         end_search(c->batch, 1, at.e->index[at.k], &s);
@@ -252,11 +256,8 @@ static void search_open(const ovoid_batch *batch, const query_goal *of_all, int 
 
 COMPILER_NOINLINE static void search_all_open(const ovoid_batch *batch, const query_goal *goal, int wants_evidence,
                                               const open_list *open) {
-    for (unsigned i = 0; i < open->count; i++)
-        if (open->items[i].is_alone)
-            batch_query_single(batch, open->items[i].index, goal);
-        else
-            search_open(batch, goal, wants_evidence, &open->items[i]);
+    for (unsigned i = 0; i < open->count; i++) search_open(batch, goal, wants_evidence, &open->items[i]);
+    for (unsigned i = 0; i < open->alone_count; i++) batch_query_single(batch, open->alone[i], goal);
 }
 
 // ---- a lane group
@@ -544,6 +545,23 @@ static unsigned add_small(batch_state *c, const lane_group *e, unsigned open) {
     return small;
 }
 
+// A couple that floats leave open (batch_floats).
+static void leave_float_open(void *self, size_t index) { leave_alone(self, index); }
+
+// Begins the yes or no in single precision of those of the lanes `open` that allow it; their mask.
+static unsigned add_floats(const batch_state *c, const lane_group *e, unsigned open) {
+    unsigned fits = 0;
+    for (unsigned rest = open; rest; rest &= rest - 1) {
+        unsigned k = compiler_count_low_zeros(rest);
+        fits |= (unsigned)batch_floats_fit(get_a(e, k)->shape, get_b(e, k)->shape) << k;
+    }
+    if (!fits) return 0;
+    pair8_floats numbers;
+    fits &= c->kernels->floats(e->lanes, &c->numbers, &numbers);
+    if (fits) batch_floats_add(c->floats, e, fits, &numbers);
+    return fits;
+}
+
 // Takes couples through the spheres. They are placed where they would wait, so that a group that the spheres leave open
 // stays there.
 static void take_group(batch_state *c, size_t first, unsigned count, lane_group *own) {
@@ -559,6 +577,7 @@ static void take_group(batch_state *c, size_t first, unsigned count, lane_group 
     for (unsigned rest = apart; rest; rest &= rest - 1)
         end_at_spheres(c, (group_lane){e, compiler_count_low_zeros(rest)}, &found);
     if (open) open &= ~add_small(c, e, open);
+    if (open && c->floats) open &= ~add_floats(c, e, open);
     for (unsigned rest = open; rest; rest &= rest - 1) {
         unsigned k = compiler_count_low_zeros(rest);
         fetch_ellipsoids((const void *)e->at.shape_a[k]);
@@ -573,6 +592,11 @@ static void take_group(batch_state *c, size_t first, unsigned count, lane_group 
     if (c->waiting_count > PAIR8 * (PAIR8_GROUPS - 1)) settle(c);
 }
 
+// A yes or no of which only the verdicts are wanted.
+static int wants_floats(const batch_state *c) {
+    return !c->wants_evidence && c->batch->verdicts && c->goal.far < INFINITY && c->goal.beyond == OVOID_LIMIT_ANSWERED;
+}
+
 // Runs from couple `first` on, until enough couples are left open or all are done; returns the next one. The working
 // memory of the state is here.
 COMPILER_NOINLINE static size_t run_lanes(batch_state *c, size_t first) {
@@ -583,15 +607,27 @@ COMPILER_NOINLINE static size_t run_lanes(batch_state *c, size_t first) {
     c->waiting_count = 0;
     c->few = &groups[PAIR8_GROUPS + 1];
     c->few_count = 0;
+    batch_floats floats;
+    if (wants_floats(c)) {
+        floats.kernels = float_gjk_get_kernels(c->batch->couple_count);
+        floats.goal = &c->goal;
+        floats.verdicts = c->batch->verdicts;
+        floats.leave_open = leave_float_open;
+        floats.self = c;
+        floats.is_begun = 0;
+        c->floats = &floats;
+    }
     size_t count = c->batch->couple_count;
-    for (; first < count && c->open->count <= OPEN_FULL; first += PAIR8) {
+    for (; first < count && c->open->count <= OPEN_FULL && c->open->alone_count <= ALONE_FULL; first += PAIR8) {
         size_t left = count - first;
         fetch_ahead(c->batch, first);
         take_group(c, first, left < PAIR8 ? (unsigned)left : PAIR8, &groups[PAIR8_GROUPS]);
     }
     if (c->waiting_count) settle(c);
     search_few(c);
+    if (c->floats) batch_floats_end(c->floats);
     c->waiting = c->few = NULL;
+    c->floats = NULL;
     return first;
 }
 
@@ -601,14 +637,15 @@ void batch_run(const ovoid_batch *batch, const query_goal *goal, const ovoid_opt
     batch_state c = {.batch = batch,
                      .kernels = pair8_get_kernels(batch->couple_count),
                      .goal = *goal,
-                     .numbers = {goal->far, options->absolute_tolerance, options->relative_tolerance, FRAME_REJECT,
-                                 FRAME_CLAIM, OVOID_LENGTH_MIN, OVOID_LENGTH_MAX, options->iterations,
+
+                     .numbers = {goal->far, goal->near, options->absolute_tolerance, options->relative_tolerance,
+                                 FRAME_REJECT, FRAME_CLAIM, OVOID_LENGTH_MIN, OVOID_LENGTH_MAX, options->iterations,
                                  goal->far < INFINITY ? 1 : 2, wants_evidence},
                      .wants_evidence = wants_evidence,
                      .open = &open};
     c.goal.iterations = options->iterations;
     for (size_t next = 0; next < batch->couple_count;) {
-        open.count = 0;
+        open.count = open.alone_count = 0;
         next = run_lanes(&c, next);
         search_all_open(batch, &c.goal, wants_evidence, &open);
     }

@@ -12,6 +12,7 @@
 #include "linear/vec3.h"
 #include "polytope/hull.h"
 #include "shape/block.h"
+#include "shape/floats.h"
 #include "shape/loops.h"
 
 #include <string.h>
@@ -162,6 +163,7 @@ void shape_set_fits(ovoid_shape *shape, const ovoid_fit *outer, const ovoid_fit 
     shape->outer = outer->ellipsoid;
     shape->inner = inner->ellipsoid;
     shape->inside = make_inside(inner->ellipsoid.q, shape->rank);
+    shape_floats_fill_ellipsoids(shape);
 }
 
 ovoid_shape *shape_create_block(const hull *polytope, const ovoid_allocator *allocator, const ovoid_allocator *work,

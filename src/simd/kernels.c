@@ -1,5 +1,5 @@
 // The choice of a kernel, by the widest instruction set that this machine and this build have. All give the same bits.
-#include "simd/kernels.h"
+#include "simd/kernels/sets.h"
 
 #include <stddef.h>
 
@@ -33,6 +33,8 @@ static box_separation_function *const box_separation_of[SIMD_ISA_COUNT] =
 static epa8_function *const epa8_of[SIMD_ISA_COUNT] = KERNELS(epa8_grow_scalar, epa8_grow_avx2, epa8_grow_avx512);
 static simd_extents_function *const extents_of[SIMD_ISA_COUNT] =
     KERNELS(extents_find_scalar, extents_find_avx2, extents_find_avx512);
+static const float_gjk_kernels *const float_gjk_of[SIMD_ISA_COUNT] =
+    KERNELS(&float_gjk_scalar, &float_gjk_avx2, &float_gjk_avx512);
 static const group_gjk_kernels *const group_gjk_of[SIMD_ISA_COUNT] =
     KERNELS(&group_gjk_scalar, &group_gjk_avx2, &group_gjk_avx512);
 static const kept8_kernels *const kept8_of[SIMD_ISA_COUNT] = KERNELS(&kept8_scalar, &kept8_avx2, &kept8_avx512);
@@ -65,6 +67,12 @@ epa8_end epa8_grow(epa8 *s, const epa8_query *query) { return epa8_of[find_wides
 simd_extents simd_find_extents(const simd_points *points, const mat3 *rows) {
     return extents_of[find_widest()](points, rows);
 }
+// Of sixteen lanes most would be idle for few couples.
+const float_gjk_kernels *float_gjk_get_kernels(size_t couples) {
+    simd_isa widest = find_widest();
+    if (couples == 1) return float_gjk_of[SIMD_SCALAR];
+    return float_gjk_of[couples <= 8 && widest > SIMD_AVX2 ? SIMD_AVX2 : widest];
+}
 const group_gjk_kernels *group_gjk_get_kernels(size_t pairs) { return group_gjk_of[find_isa_of(pairs)]; }
 const kept8_kernels *kept8_get_kernels(size_t pairs) { return kept8_of[find_isa_of(pairs)]; }
 move8_function *move8_get(size_t bodies) { return move8_of[find_isa_of(bodies)]; }
@@ -96,6 +104,7 @@ box_separation_function *box_separation_get(simd_isa isa) { return has(isa) ? bo
 box_axes_function *box_axes_get(simd_isa isa) { return has(isa) ? box_axes_of[isa] : NULL; }
 epa8_function *epa8_get(simd_isa isa) { return has(isa) ? epa8_of[isa] : NULL; }
 simd_extents_function *simd_get_extents(simd_isa isa) { return has(isa) ? extents_of[isa] : NULL; }
+const float_gjk_kernels *float_gjk_get_kernels_of(simd_isa isa) { return has(isa) ? float_gjk_of[isa] : NULL; }
 const group_gjk_kernels *group_gjk_get_kernels_of(simd_isa isa) { return has(isa) ? group_gjk_of[isa] : NULL; }
 const kept8_kernels *kept8_get_kernels_of(simd_isa isa) { return has(isa) ? kept8_of[isa] : NULL; }
 move8_function *move8_get_of(simd_isa isa) { return has(isa) ? move8_of[isa] : NULL; }

@@ -23,7 +23,7 @@ void simd_pose_points_scalar(const simd_points *from, const double rows[9], cons
 
 #if defined(__x86_64__) && defined(__GNUC__)
 
-#include "simd/vectors.h"
+#include "simd/kernels/vectors.h"
 
 enum { MOST = 64 };
 

@@ -9,6 +9,7 @@
 #ifndef OVOID_SIMD_PAIR8_H
 #define OVOID_SIMD_PAIR8_H
 
+#include "simd/float_gjk.h"
 #include "simd/support.h"
 
 #include <stddef.h>
@@ -57,12 +58,13 @@ typedef struct pair8_ellipsoids {
 
 /// The goal of the queries, and the constants of the floor above, in parts of the size and as lengths.
 typedef struct pair8_query {
-    double far, absolute, relative; ///< answered when lower > far; the tolerance, of the size
-    double reject, claim;           ///< FRAME_REJECT, FRAME_CLAIM
-    double hidden, length_most;     ///< OVOID_LENGTH_MIN, OVOID_LENGTH_MAX
-    uint32_t iterations;            ///< most steps of a search
-    int rounds;                     ///< how often the ellipsoids' direction is improved, 1 or 2
-    int keeps_all;                  ///< `spheres` fills its columns even where the origins part all lanes
+    double far, near, absolute, relative; ///< answered when lower > far, or 0 < lower and upper <= near; the tolerance,
+                                          ///< of the size
+    double reject, claim;                 ///< FRAME_REJECT, FRAME_CLAIM
+    double hidden, length_most;           ///< OVOID_LENGTH_MIN, OVOID_LENGTH_MAX
+    uint32_t iterations;                  ///< most steps of a search
+    int rounds;                           ///< how often the ellipsoids' direction is improved, 1 or 2
+    int keeps_all;                        ///< `spheres` fills its columns even where the origins part all lanes
 } pair8_query;
 
 /// Masks of lanes.
@@ -81,6 +83,13 @@ typedef struct pair8_group {
     pair8_found found;
 } pair8_group;
 
+/// The pairs in single precision, each in its own unit, for bodies without radii: the first columns of float_query; the
+/// factors are left to the caller.
+typedef struct pair8_floats {
+    _Alignas(32) float numbers[FLOAT_NUMBERS][PAIR8];
+    lane_column unit, scale; ///< a power of two; 1 / unit
+} pair8_floats;
+
 /// Kernels of one instruction set.
 typedef struct pair8_kernels {
     /// Places both bodies in the world and computes the bounds of the enclosing spheres: lower, upper. The spheres
@@ -91,6 +100,8 @@ typedef struct pair8_kernels {
     void (*ellipsoids)(pair8_group *groups, unsigned count, const pair8_query *query);
     /// The bounds of the supports' gap and of their difference w.
     void (*supports)(pair8 *o);
+    /// The pairs in single precision, after `spheres`. The mask of those whose lengths allow it.
+    unsigned (*floats)(const pair8 *o, const pair8_query *query, pair8_floats *out);
 } pair8_kernels;
 
 /// The kernels for lane groups of so many pairs: of the widest instruction set of this machine that they fill.

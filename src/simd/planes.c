@@ -23,7 +23,7 @@ void simd_compute_cone_scalar(simd_cone *c, uint32_t count, vec3 apex) {
 
 #if defined(__x86_64__) && defined(__GNUC__)
 
-#include "simd/vectors.h"
+#include "simd/kernels/vectors.h"
 
 #define AVX2 __attribute__((target("avx2"))) static inline
 

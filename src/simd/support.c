@@ -25,7 +25,7 @@ support_result simd_find_support_scalar(const simd_points *p, vec3 n) {
 
 #if defined(__x86_64__) && defined(__GNUC__)
 
-#include "simd/vectors.h"
+#include "simd/kernels/vectors.h"
 
 /// Lowest of the indices whose lane is set in mask (not 0).
 static inline uint32_t find_lowest(const uint64_t *indices, unsigned mask) {

@@ -27,7 +27,7 @@ simd_extreme simd_find_in_cell_scalar(const simd_cell *first, const simd_cell *m
 
 #if defined(__x86_64__) && defined(__GNUC__)
 
-#include "simd/vectors.h"
+#include "simd/kernels/vectors.h"
 
 #define AVX2 __attribute__((target("avx2")))
 

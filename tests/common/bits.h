@@ -180,4 +180,24 @@ static inline int points_are_same(const ovoid_manifold_points *a, const ovoid_ma
     return is_same;
 }
 
+// ---- vector widths: what the compiler's runtime knows of the processor is made less
+
+#if defined(__x86_64__)
+/// Of libgcc and of compiler-rt alike: the first word of features, by the numbers of GCC's enum processor_features.
+extern struct cpu_model { unsigned vendor, type, subtype, features[1]; } __cpu_model;
+
+/// With the narrower ones: AVX2, then plain C.
+static inline void bits_run_narrower(void (*check)(void)) {
+    enum { AVX2 = 10, AVX512F = 15 };
+    unsigned all = __cpu_model.features[0];
+    __cpu_model.features[0] = all & ~(1u << AVX512F);
+    check();
+    __cpu_model.features[0] = all & ~(1u << AVX512F | 1u << AVX2);
+    check();
+    __cpu_model.features[0] = all;
+}
+#else
+static inline void bits_run_narrower(void (*check)(void)) { (void)check; }
+#endif
+
 #endif

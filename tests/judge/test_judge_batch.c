@@ -1,11 +1,12 @@
 // Answers of batches before the exact judge. Truth: the judge, in rationals, for bracket, status and witness points of
-// each couple; ovoid_answer_verify beside it. The bodies are hulls of 4 to 48 vertices, round ones, needles and boxes;
-// the gaps and overlaps of the couples are of every order from 1 to 1e-12 of the size. --couples N: so many couples,
-// each with three questions.
+// each couple; ovoid_answer_verify beside it; of verdicts alone the brackets of depths that the judge has accepted. The
+// bodies are hulls of 4 to 48 vertices, round ones, needles and boxes; the gaps and overlaps of the couples are of
+// every order from 1 to 1e-12 of the size. --couples N: so many couples, each with three questions.
 #include "check.h"
 #include "judge.h"
 #include "options.h"
 #include "ovoid/ovoid.h"
+#include "proofs/covers.h"
 
 enum { SHAPES = 32, COUPLES = 256, QUESTIONS = 3 };
 
@@ -64,6 +65,34 @@ static void check_answers(judge *court) {
     }
 }
 
+// The verdicts of a yes or no alone, which have bits of their own: their brackets have a common point with those of the
+// depths, which the judge has accepted, and their statuses are those of the answers.
+static void check_verdicts(int question, const ovoid_answer depths[COUPLES]) {
+    static ovoid_verdict verdicts[COUPLES];
+    ovoid_batch batch = {
+        .bodies = bodies, .body_count = 2 * COUPLES, .couples = couples, .couple_count = COUPLES, .verdicts = verdicts};
+    CHECK(ask(question, &batch) == OVOID_OK);
+    for (int i = 0; i < COUPLES; i++) {
+        const ovoid_verdict *v = &verdicts[i];
+        check_seed = (uint64_t)i;
+        CHECK(v->lower <= depths[i].upper && depths[i].lower <= v->upper);
+        CHECK(v->status == answers[i].status);
+        CHECK(v->status == (v->lower > 0 ? OVOID_SEPARATED : v->upper < 0 ? OVOID_OVERLAPPING : OVOID_TOUCHING));
+        if (question == 1)
+            CHECK((v->upper <= 0.01) - (v->lower > 0.01) == (answers[i].upper <= 0.01) - (answers[i].lower > 0.01));
+    }
+}
+
+static void find_depths(judge *court, ovoid_answer depths[COUPLES]) {
+    STATIC_COVER(cover);
+    for (int i = 0; i < COUPLES; i++) {
+        const ovoid_posed_shape *a = &bodies[2 * i], *b = &bodies[2 * i + 1];
+        ovoid_pair pair = {a->shape, b->shape, a->pose, b->pose};
+        depths[i] = ovoid_depth(&pair, NULL, NULL, &cover);
+        CHECK(judge_verify_answer(court, &pair, &depths[i], &cover, NULL) == OVOID_OK);
+    }
+}
+
 static void check_round(judge *court, ovoid_shape *const shapes[SHAPES], uint64_t *s) {
     for (uint32_t i = 0; i < COUPLES; i++) {
         ovoid_pair p = {shapes[random_next(s) % SHAPES], shapes[random_next(s) % SHAPES], make_pose(s), make_pose(s)};
@@ -74,9 +103,12 @@ static void check_round(judge *court, ovoid_shape *const shapes[SHAPES], uint64_
     }
     ovoid_batch batch = {
         .bodies = bodies, .body_count = 2 * COUPLES, .couples = couples, .couple_count = COUPLES, .answers = answers};
+    static ovoid_answer depths[COUPLES];
+    find_depths(court, depths);
     for (int question = 0; question < QUESTIONS; question++) {
         CHECK(ask(question, &batch) == OVOID_OK);
         check_answers(court);
+        if (question < 2) check_verdicts(question, depths);
     }
 }
 

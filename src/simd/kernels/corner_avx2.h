@@ -4,7 +4,7 @@
 #define OVOID_SIMD_KERNELS_CORNER_AVX2_H
 
 #include "simd/kernels/corner_pick.h"
-#include "simd/vectors.h"
+#include "simd/kernels/vectors.h"
 
 #define CORNER_AVX2 VECTORS_AVX2
 

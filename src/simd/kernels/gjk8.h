@@ -3,6 +3,7 @@
 // tests/core/simd/test_simd_gjk8.c sees the difference.
 #include "simd/gjk8.h"
 #include "simd/kernels/lane_columns.h"
+#include "simd/kernels/simplex_step.h"
 #include "simd/kernels/small_gjk.h"
 
 // ---- columns
@@ -22,62 +23,11 @@ LANES_INLINE lane_mask is_answered_at(const gjk8 *g, int at, lane lower, lane up
     return lane_and(lane_or(lane_greater(lower, zero), is_overlap), enough);
 }
 
-// What the step finds: the next heading, which old corners stay, and the least |n|^2 of a face that is no sliver.
-typedef struct lane_step {
-    lane3 n;
-    lane least;
-    lane_mask keeps[3], inside;
-    lane_mask goes; // the lanes that take it: known when its gain is
-} lane_step;
-
 // A new corner: its difference and which points it is of.
 typedef struct lane_corner {
     lane3 w;
     lane id;
 } lane_corner;
-
-LANES_INLINE lane_step step_lanes(const gjk8 *g, int at, const lane_mask valid[3], lane3 w) {
-    lane3 e[3], c[3], n[3];
-    lane_mask behind[3], first[3], next[3], before[3], flip[3], face[3], edge[3];
-    for (int i = 0; i < 3; i++) {
-        e[i] = lane3_sub(get3(&g->old[i].x, at), w);
-        c[i] = lane3_cross(w, e[i]);
-        before[i] = lane_and(lane_sign(lane3_dot(w, e[i])), valid[i]);
-    }
-    lane_mask all = lane_and(lane_and(valid[0], valid[1]), valid[2]);
-    for (int i = 0; i < 3; i++) {
-        int j = (i + 1) % 3;
-        lane_mask both = lane_and(valid[i], valid[j]);
-        n[i] = lane3_cross(e[i], e[j]);
-        flip[i] = lane_sign(lane3_dot(n[i], w));
-        lane_mask side = lane_sign(lane3_dot(n[i], e[(i + 2) % 3]));
-        behind[i] = lane_and(all, lane_or(lane_and(flip[i], lane_not(side)), lane_and(side, lane_not(flip[i]))));
-        first[i] = lane_and(both, lane_not(lane_sign(lane3_dot(n[i], c[i]))));
-        next[i] = lane_and(both, lane_sign(lane3_dot(n[i], c[j])));
-        face[i] = lane_and(lane_and(first[i], next[i]), lane_not(behind[i]));
-    }
-    lane_step s = {w,
-                   lane_set(-1),
-                   {lane_none(), lane_none(), lane_none()},
-                   lane_and(lane_and(behind[0], behind[1]), behind[2]),
-                   lane_none()};
-    // One of them, the first of the faces, else of the edges, else the new corner: the last one written.
-    for (int i = 2; i >= 0; i--) {
-        edge[i] = lane_and(before[i], lane_not(lane_or(first[i], next[(i + 2) % 3])));
-        s.n = lane3_select(edge[i], lane3_cross(e[i], c[i]), s.n);
-        for (int j = 0; j < 3; j++) s.keeps[j] = lane_and(s.keeps[j], lane_not(edge[i]));
-        s.keeps[i] = lane_or(s.keeps[i], edge[i]);
-    }
-    for (int i = 2; i >= 0; i--) {
-        int j = (i + 1) % 3, k = (i + 2) % 3;
-        s.n = lane3_select(face[i], lane3_select(flip[i], lane3_neg(n[i]), n[i]), s.n);
-        s.least = lane_select(face[i], lane_set(1e-4) * (lane3_dot(e[i], e[i]) * lane3_dot(e[j], e[j])), s.least);
-        s.keeps[i] = lane_or(s.keeps[i], face[i]);
-        s.keeps[j] = lane_or(s.keeps[j], face[i]);
-        s.keeps[k] = lane_and(s.keeps[k], lane_not(face[i]));
-    }
-    return s;
-}
 
 // In the lanes that take the step the new corner takes the place of the first that does not stay.
 LANES_INLINE void replace_corner(gjk8 *g, int at, const lane_step *s, const lane_corner *corner) {
@@ -116,13 +66,15 @@ LANES_INLINE gjk8_ends advance_lanes(gjk8 *g, int at) {
     lane3 w = get3(&g->fresh.x, at);
     lane id = get(&g->fresh.id, at), square = get(&g->square, at), height = get(&g->height, at);
     lane_tests t = test_lanes(g, at, lane3_norm(w));
+    lane3 old[3];
     lane_mask valid[3], known = lane_none();
     for (int i = 0; i < 3; i++) {
+        old[i] = get3(&g->old[i].x, at);
         valid[i] = get_truth(&g->is_valid[i], at);
         lane other = get(&g->old[i].id, at);
         known = lane_or(known, lane_and(valid[i], lane_and(lane_at_least(id, other), lane_at_most(id, other))));
     }
-    lane_step s = step_lanes(g, at, valid, w);
+    lane_step s = step_lanes(old, valid, w);
     lane_mask goes = lane_and(t.goes, lane_not(known)), inside = lane_and(goes, s.inside);
     lane high = lane3_dot(s.n, w), norm = lane3_dot(s.n, s.n);
     lane_mask gains = lane_less(high * high * square, height * height * norm);

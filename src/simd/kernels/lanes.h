@@ -1,15 +1,25 @@
 // Numbers side by side, LANES of them: 8 (AVX-512), 4 (AVX2), 2 (WebAssembly's SIMD128) or 1 (plain C, the scalar
-// twin). A kernel is written once over these (kernels/pair8.h) and compiled for each; every operation is IEEE 754's,
-// lane by lane, so all widths give the same bits. Sums and products are the operators. lane_sign is 1 of -0 too; of NaN
-// it is anything. lane_top and lane_min are b where one of them is NaN; lane_find_max is the greatest of the lanes, in
-// all of them. lane_gather reads p at LANES indices; kernels that are eight wide load columns instead.
+// twin); of single precision where LANES_ARE_FLOATS is defined (float_lanes.h). A kernel is written once over these
+// (kernels/pair8.h) and compiled for each; every operation is IEEE 754's, lane by lane, so all widths give the same
+// bits. Sums and products are the operators. lane_sign is 1 of -0 too; of NaN it is anything. lane_top and lane_min are
+// b where one of them is NaN; lane_find_max is the greatest of the lanes, in all of them. lane_get_power is the largest
+// power of two that is at most v, of positive normal numbers. lane_gather reads p at LANES indices; kernels that are
+// eight wide load columns instead.
 #ifndef OVOID_SIMD_KERNELS_LANES_H
 #define OVOID_SIMD_KERNELS_LANES_H
 
 #include <math.h>
 #include <stdint.h>
+#include <string.h>
 
-#if LANES == 8
+/// The exponent's bits of a double.
+#define LANES_EXPONENT 0x7ff0000000000000
+
+#ifdef LANES_ARE_FLOATS
+
+#include "simd/kernels/float_lanes.h"
+
+#elif LANES == 8
 
 #include <immintrin.h>
 
@@ -45,6 +55,9 @@ LANES_INLINE lane lane_find_max(lane m) {
 }
 LANES_INLINE lane lane_min(lane a, lane b) { return _mm512_min_pd(a, b); }
 LANES_INLINE double lane_first(lane v) { return _mm512_cvtsd_f64(v); }
+LANES_INLINE lane lane_get_power(lane v) {
+    return _mm512_castsi512_pd(_mm512_and_si512(_mm512_castpd_si512(v), _mm512_set1_epi64(LANES_EXPONENT)));
+}
 
 #elif LANES == 4
 
@@ -83,6 +96,9 @@ LANES_INLINE lane lane_find_max(lane m) {
 }
 LANES_INLINE lane lane_min(lane a, lane b) { return _mm256_min_pd(a, b); }
 LANES_INLINE double lane_first(lane v) { return _mm256_cvtsd_f64(v); }
+LANES_INLINE lane lane_get_power(lane v) {
+    return _mm256_and_pd(v, _mm256_castsi256_pd(_mm256_set1_epi64x(LANES_EXPONENT)));
+}
 
 #elif LANES == 2
 
@@ -117,6 +133,7 @@ LANES_INLINE lane lane_top(lane a, lane b) { return lane_select(lane_greater(a, 
 LANES_INLINE lane lane_find_max(lane m) { return lane_top(m, (lane){m[1], m[0]}); }
 LANES_INLINE lane lane_min(lane a, lane b) { return lane_select(lane_greater(b, a), a, b); }
 LANES_INLINE double lane_first(lane v) { return v[0]; }
+LANES_INLINE lane lane_get_power(lane v) { return (lane)((lane_mask)v & LANES_EXPONENT); }
 
 #else
 
@@ -147,6 +164,13 @@ LANES_INLINE lane lane_top(lane a, lane b) { return a > b ? a : b; }
 LANES_INLINE lane lane_find_max(lane m) { return m; }
 LANES_INLINE lane lane_min(lane a, lane b) { return a < b ? a : b; }
 LANES_INLINE double lane_first(lane v) { return v; }
+LANES_INLINE lane lane_get_power(lane v) {
+    int64_t bits;
+    memcpy(&bits, &v, sizeof bits);
+    bits &= LANES_EXPONENT;
+    memcpy(&v, &bits, sizeof v);
+    return v;
+}
 
 #endif
 

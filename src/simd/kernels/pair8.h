@@ -463,3 +463,56 @@ LANES_INLINE void compute_supports(pair8 *o, int at) {
 LANES_TARGET static void run_supports(pair8 *o) {
     for (int at = 0; at < get_end(o); at += LANES) compute_supports(o, at);
 }
+
+// ---- single precision
+
+LANES_INLINE void put_floats(float *to, lane v) {
+#if LANES == 8
+    _mm256_store_ps(to, _mm512_cvtpd_ps(v));
+#elif LANES == 4
+    _mm_store_ps(to, _mm256_cvtpd_ps(v));
+#else
+    double x[LANES];
+    lane_store(x, v);
+    for (int i = 0; i < LANES; i++) to[i] = (float)x[i];
+#endif
+}
+
+LANES_INLINE void put_floats3(float (*to)[PAIR8], int at, lane3 v) {
+    put_floats(to[0] + at, v.x);
+    put_floats(to[1] + at, v.y);
+    put_floats(to[2] + at, v.z);
+}
+
+// B in the axes of A, about the spheres' centres, and the numbers of the query in a unit of the pair's own. Of sizes
+// far above the bodies' doubles' own errors are above those of floats.
+LANES_INLINE unsigned compute_floats(const pair8 *o, const pair8_query *query, pair8_floats *out, int at) {
+    lane9 a = get9(o->world_a, at), m = lane9_mul_transposed(a, get9(o->world_b, at));
+    lane3 between = get3(o->between, at);
+    lane size = get(&o->size, at), length = get(&o->reach, at) + lane3_norm(between);
+    lane_mask good = lane_and(lane_greater(length, lane_set(0x1p-150)), lane_less(length, lane_set(0x1p150)));
+    good = lane_and(good, lane_less(size, lane_set(0x1p20) * length));
+    length = lane_select(good, length, lane_set(1));
+    lane unit = lane_get_power(length), scale = lane_set(1) / unit;
+    lane claim = lane_set(FLOAT_CLAIM) * length + (lane_set(query->reject) * size + lane_set(2 * query->hidden));
+    // Rounded outward, and in the range of floats: a pair's bounds are below 4.
+    lane far = lane_min(lane_set(query->far) * scale * lane_set(1 + 0x1p-22), lane_set(8));
+    lane near = lane_max(lane_min(lane_set(query->near) * scale * lane_set(1 - 0x1p-22), lane_set(8)), lane_set(-1));
+    float(*numbers)[PAIR8] = out->numbers;
+    put_floats3(numbers, at, m.r0);
+    put_floats3(numbers + 3, at, m.r1);
+    put_floats3(numbers + 6, at, m.r2);
+    put_floats3(numbers + 9, at, lane3_scale(lane9_mul3_transposed(a, between), scale));
+    put_floats(numbers[12] + at, lane_select(good, claim * scale * lane_set(1 + 0x1p-22), lane_set(1)));
+    put_floats(numbers[13] + at, far);
+    put_floats(numbers[14] + at, near);
+    put(&out->unit, at, unit);
+    put(&out->scale, at, scale);
+    return lane_bits(good);
+}
+
+LANES_TARGET static unsigned run_floats(const pair8 *o, const pair8_query *query, pair8_floats *out) {
+    unsigned good = 0;
+    for (int at = 0; at < get_end(o); at += LANES) good |= compute_floats(o, query, out, at) << at;
+    return good;
+}

@@ -146,9 +146,17 @@ int main(void) {
     for (int round = 0; round < ROUNDS; round++) {
         check_seed = (uint64_t)round;
         fill(&s);
-        pair8_query ask = {
-            round % 3 * 0.25, 0, 1e-9, FRAME_REJECT, FRAME_CLAIM, OVOID_LENGTH_MIN, OVOID_LENGTH_MAX, 1000,
-            1 + round % 2,    0};
+        pair8_query ask = {round % 3 * 0.25,
+                           round % 3 * 0.25,
+                           0,
+                           1e-9,
+                           FRAME_REJECT,
+                           FRAME_CLAIM,
+                           OVOID_LENGTH_MIN,
+                           OVOID_LENGTH_MAX,
+                           1000,
+                           1 + round % 2,
+                           0};
         for (simd_isa isa = SIMD_SCALAR; isa <= SIMD_ISA_COUNT; isa++) {
             const pair8_kernels *kernels =
                 isa == SIMD_ISA_COUNT ? pair8_get_kernels(truth[0].count) : pair8_get_kernels_of(isa);

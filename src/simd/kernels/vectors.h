@@ -1,7 +1,7 @@
 // Vectors side by side, four in AVX2 and eight in AVX-512: x, y and z of each in lanes. Included only where these sets
 // are compiled for; every operation is that of linear/vec3.h, in its order.
-#ifndef OVOID_SIMD_VECTORS_H
-#define OVOID_SIMD_VECTORS_H
+#ifndef OVOID_SIMD_KERNELS_VECTORS_H
+#define OVOID_SIMD_KERNELS_VECTORS_H
 
 #include "linear/vec3.h"
 

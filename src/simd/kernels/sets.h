@@ -1,11 +1,12 @@
-// The kernels of each instruction set: scalar.c, avx2.c and avx512.c compile all of kernels/ once each, and kernels.c
-// chooses among them.
-#ifndef OVOID_SIMD_KERNELS_H
-#define OVOID_SIMD_KERNELS_H
+// The kernels of each instruction set: scalar.c, avx2.c and avx512.c compile all of kernels/ once each, those in
+// single precision floats/scalar.c and its sisters, and kernels.c chooses among them.
+#ifndef OVOID_SIMD_KERNELS_SETS_H
+#define OVOID_SIMD_KERNELS_SETS_H
 
 #include "simd/areas.h"
 #include "simd/box_axes.h"
 #include "simd/epa8.h"
+#include "simd/float_gjk.h"
 #include "simd/group_gjk.h"
 #include "simd/kept8.h"
 #include "simd/move8.h"
@@ -17,6 +18,7 @@ box_separation_function box_separation_find_scalar, box_separation_find_avx2;
 box_axes_function box_axes_find_scalar, box_axes_find_avx2, box_axes_find_avx512;
 epa8_function epa8_grow_scalar, epa8_grow_avx2, epa8_grow_avx512;
 simd_extents_function extents_find_scalar, extents_find_avx2, extents_find_avx512;
+extern const float_gjk_kernels float_gjk_scalar, float_gjk_avx2, float_gjk_avx512;
 extern const group_gjk_kernels group_gjk_scalar, group_gjk_avx2, group_gjk_avx512;
 extern const kept8_kernels kept8_scalar, kept8_avx2, kept8_avx512;
 move8_function move8_run_scalar, move8_run_avx2, move8_run_avx512;

@@ -1,0 +1,122 @@
+// The yes or no of small bodies in single precision, sixteen couples side by side: ellipsoids, then GJK. Each couple
+// ends proven apart, proven within the margin, proven to overlap, or open. The vertices are columns too, so a support
+// is a maximum over them without an index: no gather, no load that waits for an index.
+//
+// Lengths are in the couple's own unit, a power of two, so that its size z = ra + rb + |t| is in [1, 2): ra, rb the
+// radii of the enclosing spheres, t from A's centre to B's. Everything is in the axes of A about its sphere's centre: a
+// point of B is M x + t. Nothing overflows, and what underflows is below 2^-100.
+//
+// Errors, in parts of u z with u = 2^-24, |n| = 1 (docs/error-analysis.md has the sums): a gap along n 19, a difference
+// 11, a convex combination of differences and its norm 22. FLOAT_CLAIM is above each.
+//
+// Cost, a couple, one core at 2.8 GHz, AVX-512: 6 ns and 1 ns a step at 8 vertices, 9 ns and 3 ns at 32.
+#ifndef OVOID_SIMD_FLOAT_GJK_H
+#define OVOID_SIMD_FLOAT_GJK_H
+
+#include "simd/support.h"
+
+#include <stddef.h>
+
+enum { FLOATS = 16, FLOATS_ALL = 0xffff };
+
+/// Most vertices of a body, and most eights of them.
+enum { FLOAT_GJK_POINTS = 32, FLOAT_GJK_BLOCKS = FLOAT_GJK_POINTS / 8 };
+
+/// The error of all bounds, of the size.
+#define FLOAT_CLAIM (32 * 0x1p-24)
+
+/// One number of each couple.
+typedef struct float_column {
+    _Alignas(64) float lane[FLOATS];
+} float_column;
+
+/// What is asked of each couple, in its unit.
+typedef struct float_query {
+    float_column rotation[9], translation[3]; ///< M by rows, t
+    float_column claim;                       ///< FLOAT_CLAIM z, and what doubles add to it
+    float_column far, near;                   ///< ends apart when lower > far, near when 0 < lower and upper <= near
+    float_column factor_a, factor_b;          ///< from the shapes' units: powers of two, or 0
+    float_column id;                          ///< of the caller; is only moved
+    float_column start[3];                    ///< the first direction; written by `ellipsoids`
+} float_query;
+
+/// The columns of a query, those that the caller sets at first, and of these the first ones.
+enum {
+    FLOAT_COLUMNS = sizeof(float_query) / sizeof(float_column),
+    FLOAT_GIVEN = FLOAT_COLUMNS - 3,
+    FLOAT_NUMBERS = FLOAT_GIVEN - 3
+};
+
+/// Columns of couples that wait, the first `count`: room for a group, and for those that are added to fifteen.
+typedef struct float_queue {
+    _Alignas(64) float columns[FLOAT_COLUMNS][2 * FLOATS];
+    unsigned count;
+} float_queue;
+
+/// What a shape has in single precision, in a unit of its own. The columns of its vertices follow: x of padded_count
+/// vertices, y, z.
+typedef struct float_shape {
+    _Alignas(32) float row[24]; ///< by FLOAT_OUTER and its sisters
+    double unit;                ///< a power of two
+} float_shape;
+
+/// The places of the ellipsoids' numbers: outer: centre xyz, Q (xx xy xz yy yz zz); inner: centre, W (shape_inner), a
+/// lower bound of its least radius or, where W must not be used, 0.
+enum { FLOAT_OUTER = 0, FLOAT_OUTER_Q = 3, FLOAT_INNER = 9, FLOAT_INNER_W = 12, FLOAT_LEAST = 18 };
+
+/// The shapes of the lanes at work; the others repeat some of them.
+typedef struct float_shapes {
+    const float_shape *a[FLOATS], *b[FLOATS];
+} float_shapes;
+
+/// The vertices of couples, and how many eights each body has.
+typedef struct float_points {
+    const float *a[FLOATS], *b[FLOATS];
+    uint32_t blocks_a[FLOATS], blocks_b[FLOATS];
+} float_points;
+
+/// What the ellipsoids say. The bounds of the others are not written.
+typedef struct float_bounds {
+    float_column lower, upper; ///< lower of lanes apart, upper of those that overlap
+    unsigned apart, inside;
+} float_bounds;
+
+/// Sixteen searches, each at a step of its own.
+typedef struct float_gjk {
+    float_query query;
+    float_column old[9], is_valid[3]; ///< the simplex's differences; its truth values in the sign bits
+    float_column n[3], height, square;
+    float_column steps;        ///< the supports after the first
+    float_column lower, upper; ///< the bounds of lanes that ended; lower not of those that overlap
+    float_column a[3 * FLOAT_GJK_POINTS], b[3 * FLOAT_GJK_POINTS]; ///< vertices: x of 8 blocks, then y, then z
+    uint32_t blocks; ///< of both bodies of all couples, 1 to FLOAT_GJK_BLOCKS: set by the caller
+    unsigned live;   ///< lanes that are at work
+    float most;      ///< steps; set by the caller
+} float_gjk;
+
+/// How lanes ended; the others go on.
+typedef struct float_ends {
+    unsigned apart, near, inside, open;
+} float_ends;
+
+/// Kernels of one instruction set; `lanes` is a mask. Lanes cost nothing where a whole vector of them is idle.
+typedef struct float_gjk_kernels {
+    /// The ellipsoids of the lanes, and the directions from which their searches begin.
+    void (*ellipsoids)(const float_shapes *from, unsigned lanes, float_query *query, float_bounds *out);
+    /// Appends the lanes to a queue of less than FLOATS couples.
+    void (*append)(const float_query *from, unsigned lanes, float_queue *to);
+    /// Moves the last couples of a queue, in their order, into the lanes, which were idle and are at work now.
+    void (*fill)(float_queue *from, unsigned lanes, float_gjk *to);
+    /// Reads the vertices of the lanes. The rows of the others are of some body.
+    void (*load)(const float_points *from, unsigned lanes, float_gjk *to);
+    /// A support and a step of all lanes at work. Lanes that end are idle.
+    float_ends (*advance)(float_gjk *s);
+} float_gjk_kernels;
+
+/// The kernels for so many couples: of the widest instruction set of this machine that they fill.
+const float_gjk_kernels *float_gjk_get_kernels(size_t couples);
+
+/// The kernels of one instruction set, for tests; NULL where this machine or build lacks them.
+const float_gjk_kernels *float_gjk_get_kernels_of(simd_isa isa);
+
+#endif

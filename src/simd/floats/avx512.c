@@ -1,0 +1,16 @@
+// The kernels in single precision for AVX-512.
+#if defined(__x86_64__) && defined(__GNUC__)
+
+#include "simd/kernels/sets.h"
+
+#define LANES_ARE_FLOATS
+#define LANES 16
+#include "simd/kernels/float_ellipsoids.h"
+#include "simd/kernels/float_gjk.h"
+
+const float_gjk_kernels float_gjk_avx512 = {run_float_ellipsoids, run_float_append, run_float_fill, run_float_load,
+                                            run_float_advance};
+
+#else
+#include "simd/kernels/sets.h"
+#endif

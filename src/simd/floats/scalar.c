@@ -1,0 +1,10 @@
+// The kernels in single precision that every processor of a build runs: the scalar twins of those in avx2.c and avx512.c.
+#include "simd/kernels/sets.h"
+
+#define LANES_ARE_FLOATS
+#define LANES 1
+#include "simd/kernels/float_ellipsoids.h"
+#include "simd/kernels/float_gjk.h"
+
+const float_gjk_kernels float_gjk_scalar = {run_float_ellipsoids, run_float_append, run_float_fill, run_float_load,
+                                            run_float_advance};

@@ -1,0 +1,163 @@
+// The yes or no of small bodies in single precision: batches of which only the verdicts are wanted. Truth: the signed
+// distance of the single query, whose bracket must have a common point with the verdict's; the status, and within or
+// not, of the single query; the same bits from every vector width, in another order, in batches of every length. The
+// bodies are hulls, needles, plates, flat polygons and bodies far from their frames' origins, large beside small, of
+// scales from 1e-46 to 1e46, at gaps and overlaps of 1e-8 to 1 of the size, touching, and in one place.
+#include "bits.h"
+
+enum { SHAPES = 24, COUPLES = 400, LENGTHS = 36 };
+
+static ovoid_shape *shapes[SHAPES];
+static ovoid_posed_shape bodies[2 * COUPLES];
+static ovoid_couple couples[COUPLES];
+static ovoid_verdict verdicts[COUPLES];
+static double scale, margin;
+static long stages[16];
+
+static ovoid_shape *make_shape(int i, uint64_t *s) {
+    double xyz[3 * 32], thin = pow(10, -random_uniform(s, 1, 7)), own = i % 6 == 5 ? 1e-3 * scale : scale;
+    size_t count = 4 + random_next(s) % 29;
+    for (size_t k = 0; k < count; k++) {
+        double x = random_normal(s), y = random_normal(s), z = random_normal(s),
+               norm = own / sqrt(x * x + y * y + z * z);
+        xyz[3 * k] = x * norm + (i % 6 == 4 ? 50 * scale : 0);
+        xyz[3 * k + 1] = y * norm * (i % 6 == 1 ? thin : 1);
+        xyz[3 * k + 2] = i % 12 == 3 ? 0 : z * norm * (i % 3 == 1 ? thin : 1);
+    }
+    if (i % 6 == 2) return ovoid_shape_create_box((ovoid_vec3){0.5 * scale, 0.75 * scale, scale}, NULL, NULL);
+    return ovoid_shape_create_from_points(xyz, count, NULL, NULL);
+}
+
+static ovoid_pair get_pair(int i) {
+    const ovoid_posed_shape *a = &bodies[2 * i], *b = &bodies[2 * i + 1];
+    return (ovoid_pair){a->shape, b->shape, a->pose, b->pose};
+}
+
+// At a gap or an overlap of a random order; every eighth touching to rounding, every ninth in the place of the other.
+static void place(int i, uint64_t *s) {
+    ovoid_posed_shape *a = &bodies[2 * i], *b = a + 1;
+    for (ovoid_posed_shape *body = a; body <= b; body++) {
+        body->shape = shapes[random_next(s) % SHAPES];
+        body->pose.position = bits_vec3(s, scale);
+        body->pose.rotation = bits_quat(s);
+    }
+    couples[i] = (ovoid_couple){2 * (uint32_t)i, 2 * (uint32_t)i + 1};
+    if (i % 9 == 0) *b = *a;
+    if (i % 9 == 0) return;
+    ovoid_pair pair = get_pair(i);
+    ovoid_answer now = ovoid_depth(&pair, NULL, NULL, NULL);
+    double sign = random_next(s) % 2 ? 1 : -1, wanted = i % 8 ? sign * scale * pow(10, -random_uniform(s, 0, 8)) : 0;
+    double step = wanted - now.lower;
+    b->pose.position.x += step * now.normal.x;
+    b->pose.position.y += step * now.normal.y;
+    b->pose.position.z += step * now.normal.z;
+}
+
+static ovoid_code ask(int is_within, const ovoid_batch *batch) {
+    return is_within ? ovoid_within_batch(batch, margin, NULL) : ovoid_collide_batch(batch, NULL);
+}
+
+static int is_within_margin(const ovoid_verdict *v) { return v->upper <= margin ? 1 : v->lower > margin ? 0 : -1; }
+
+static void check_beside_single(int is_within, int i) {
+    const ovoid_verdict *v = &verdicts[i];
+    ovoid_pair pair = get_pair(i);
+    ovoid_answer depth = ovoid_depth(&pair, NULL, NULL, NULL);
+    ovoid_answer single = is_within ? ovoid_within(&pair, margin, NULL, NULL) : ovoid_collide(&pair, NULL, NULL);
+    CHECK(v->lower <= depth.upper && depth.lower <= v->upper);
+    CHECK(v->status == single.status);
+    CHECK(v->status != OVOID_SEPARATED || v->lower > 0);
+    CHECK(v->status != OVOID_OVERLAPPING || v->upper < 0);
+    if (is_within) CHECK(is_within_margin(v) == ovoid_answer_is_within(&single, margin));
+    stages[v->stage]++;
+}
+
+// In another order, and in batches of every length up to two groups and more.
+static void check_neighbors(int is_within) {
+    static ovoid_couple other[COUPLES];
+    static ovoid_verdict found[COUPLES];
+    for (int i = 0; i < COUPLES; i++) other[i] = couples[(i * 7 + 3) % COUPLES];
+    ovoid_batch batch = {
+        .bodies = bodies, .body_count = 2 * COUPLES, .couples = other, .couple_count = COUPLES, .verdicts = found};
+    CHECK(ask(is_within, &batch) == OVOID_OK);
+    for (int i = 0; i < COUPLES; i++) CHECK(memcmp(&found[i], &verdicts[(i * 7 + 3) % COUPLES], sizeof *found) == 0);
+    for (size_t count = 1; count < LENGTHS; count++)
+        for (size_t from = 0; from + count <= COUPLES; from += 5 * count) {
+            memset(found, 7, sizeof found);
+            batch.couples = couples + from;
+            batch.couple_count = count;
+            CHECK(ask(is_within, &batch) == OVOID_OK);
+            CHECK(memcmp(found, verdicts + from, count * sizeof *found) == 0);
+            CHECK(found[count].iterations == 0x07070707);
+        }
+}
+
+static int asked_within;
+
+static void check_width(void) {
+    static ovoid_verdict found[COUPLES];
+    ovoid_batch batch = {
+        .bodies = bodies, .body_count = 2 * COUPLES, .couples = couples, .couple_count = COUPLES, .verdicts = found};
+    CHECK(ask(asked_within, &batch) == OVOID_OK);
+    CHECK(memcmp(found, verdicts, sizeof found) == 0);
+    check_neighbors(asked_within);
+}
+
+static void check_scale(uint64_t *s) {
+    margin = 1e-3 * scale;
+    for (int i = 0; i < SHAPES; i++)
+        if (!CHECK((shapes[i] = make_shape(i, s)) != NULL)) return;
+    for (int i = 0; i < COUPLES; i++) place(i, s);
+    ovoid_batch batch = {
+        .bodies = bodies, .body_count = 2 * COUPLES, .couples = couples, .couple_count = COUPLES, .verdicts = verdicts};
+    for (asked_within = 0; asked_within < 2; asked_within++) {
+        CHECK(ask(asked_within, &batch) == OVOID_OK);
+        for (int i = 0; i < COUPLES; i++) {
+            check_seed = (uint64_t)i;
+            check_beside_single(asked_within, i);
+        }
+        check_neighbors(asked_within);
+        bits_run_narrower(check_width);
+    }
+    for (int i = 0; i < SHAPES; i++) ovoid_shape_destroy(shapes[i]);
+}
+
+// Options: few iterations end a search as they end the single query's; a tolerance above all gaps.
+static void check_options(uint64_t *s) {
+    const ovoid_options all[] = {{.iterations = 1}, {.iterations = 2}, {.absolute_tolerance = 1}};
+    scale = 1;
+    for (int i = 0; i < SHAPES; i++)
+        if (!CHECK((shapes[i] = make_shape(i, s)) != NULL)) return;
+    for (int i = 0; i < COUPLES; i++) place(i, s);
+    ovoid_batch batch = {
+        .bodies = bodies, .body_count = 2 * COUPLES, .couples = couples, .couple_count = COUPLES, .verdicts = verdicts};
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        batch.options = &all[k];
+        CHECK(ovoid_collide_batch(&batch, NULL) == OVOID_OK);
+        for (int i = 0; i < COUPLES; i++) {
+            const ovoid_verdict *v = &verdicts[i];
+            ovoid_pair pair = get_pair(i);
+            ovoid_answer single = ovoid_collide(&pair, &all[k], NULL);
+            check_seed = (uint64_t)i;
+            CHECK(v->status == single.status || all[k].iterations);
+            CHECK(!all[k].iterations || v->iterations <= all[k].iterations || v->iterations == single.iterations);
+            double tolerance = all[k].absolute_tolerance;
+            if (tolerance > 0) CHECK((v->upper - v->lower <= tolerance) == (v->limit == OVOID_LIMIT_NONE));
+        }
+    }
+    for (int i = 0; i < SHAPES; i++) ovoid_shape_destroy(shapes[i]);
+}
+
+int main(void) {
+    static const double scales[] = {1, 1e-9, 1e9, 1e-30, 1e30, 1e-46, 1e46};
+    uint64_t s = 31;
+    for (size_t i = 0; i < sizeof scales / sizeof *scales; i++) {
+        scale = scales[i];
+        check_scale(&s);
+    }
+    printf("spheres %ld, outer %ld, inner %ld, supports %ld, gjk %ld, others %ld\n", stages[OVOID_STAGE_SPHERE],
+           stages[OVOID_STAGE_OUTER], stages[OVOID_STAGE_INNER], stages[OVOID_STAGE_SUPPORT], stages[OVOID_STAGE_GJK],
+           stages[OVOID_STAGE_EPA] + stages[OVOID_STAGE_REFINE]);
+    check_options(&s);
+    return check_end();
+}
