@@ -106,7 +106,7 @@ parallelepiped parallelepiped_find(const double *vertices, uint32_t count, doubl
                 p.center = compute_mean(vertices, &p, 3);
                 for (int axis = 0; axis < 3; axis++) p.axis[axis] = compute_mean(vertices, &p, axis);
                 if (!is_exact(vertices, &p, CORNER_FLATNESS * extent)) return none;
-                p.is_right = is_right(&p, extent);
+                p.is_right = (uint16_t)is_right(&p, extent);
                 if (p.is_right) set_units(&p);
                 return p;
             }

@@ -10,8 +10,8 @@ typedef struct parallelepiped {
     ovoid_vec3 axis[3];  ///< half edges, right-handed or left-handed
     uint8_t corner[8];   ///< the vertex whose coefficient of axis[k] is positive where bit k is set
     uint32_t is_present; ///< 0: the body is not a parallelepiped; then all other fields are zero
-    uint32_t is_right;   ///< 1: a box, whose axes are at right angles, to rounding; else what follows is zero
-    uint32_t is_upright; ///< 1: the unit vectors are those of the frame
+    uint16_t is_right;   ///< 1: a box, whose axes are at right angles, to rounding; else what follows is zero
+    uint16_t is_upright; ///< 1: the unit vectors are those of the frame
     double half[3];      ///< lengths of the half edges
     ovoid_vec3 unit[3];  ///< axis[k] is half[k] unit[k], to rounding
 } parallelepiped;

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -19,7 +20,7 @@ static const double pi = std::acos(-1.0);
 /// than 0.
 struct body {
     geometry_of<double> of;
-    ovoid_shape *shape;
+    std::shared_ptr<ovoid_shape> shape;
     Vector3d half; ///< of a box; of a capsule 0, 0 and the half length
     double radius;
 
@@ -29,13 +30,16 @@ struct body {
         return (outside > 0 || radius > 0 ? outside : off.maxCoeff()) - radius;
     }
 };
+static std::shared_ptr<ovoid_shape> own(ovoid_shape *shape) {
+    return std::shared_ptr<ovoid_shape>(shape, ovoid_shape_destroy);
+}
 static body make_box(double x, double y, double z) {
-    return {std::make_shared<Boxd>(x, y, z), ovoid_shape_create_box({x / 2, y / 2, z / 2}, nullptr, nullptr),
+    return {std::make_shared<Boxd>(x, y, z), own(ovoid_shape_create_box({x / 2, y / 2, z / 2}, nullptr, nullptr)),
             Vector3d(x, y, z) / 2, 0};
 }
 static body make_capsule(double radius, double length) {
     return {std::make_shared<Capsuled>(radius, length),
-            ovoid_shape_create_capsule(radius, length / 2, nullptr, nullptr), Vector3d(0, 0, length / 2), radius};
+            own(ovoid_shape_create_capsule(radius, length / 2, nullptr, nullptr)), Vector3d(0, 0, length / 2), radius};
 }
 
 static ovoid_answer ask(const body &a, const Transform3d &s, const body &b, const Transform3d &t) {
@@ -44,7 +48,7 @@ static ovoid_answer ask(const body &a, const Transform3d &s, const body &b, cons
         return ovoid_pose{{at.translation()[0], at.translation()[1], at.translation()[2]},
                           {q.w(), q.x(), q.y(), q.z()}};
     };
-    const ovoid_pair pair = {a.shape, b.shape, pose(s), pose(t)};
+    const ovoid_pair pair = {a.shape.get(), b.shape.get(), pose(s), pose(t)};
     ovoid_options tight{};
     tight.relative_tolerance = 1e-12;
     return ovoid_depth(&pair, &tight, nullptr, nullptr);
@@ -231,6 +235,5 @@ int main() {
     test_crossing();
     test_long_crossing();
     test_capsules();
-    for (const body &x : all) ovoid_shape_destroy(x.shape);
     return check_end();
 }
