@@ -113,11 +113,14 @@ template <class S> void add_contacts(contact_list<S> &to, int i, int j, const ov
         for (std::uint32_t at = count; at > 0 && points.points[at].separation < points.points[at - 1].separation; at--)
             std::swap(points.points[at], points.points[at - 1]);
     // The points are of the polyhedra, the bracket of the bodies with their allowances, which are in its width.
-    const double depth = (manifold.lower + manifold.upper) / 2;
+    const double width = manifold.upper - manifold.lower, depth = (manifold.lower + manifold.upper) / 2;
     double off = count == 0 ? INFINITY : points.points[0].separation - depth;
-    if (!(off <= manifold.upper - manifold.lower)) {
+    if (!(off <= width)) {
         add_deepest(to, i, j, ask_depth(pair));
         off = 0;
+    } else if (width > 1e-9 * -depth) {
+        // Of edges that are nearly parallel the manifold's bracket may be wider than that of the depth.
+        off += depth - contact_distance(ask_depth(pair).bracket);
     }
     for (std::uint32_t n = 0; n < count && to.room() > 0; n++) {
         points.points[n].separation -= off;
