@@ -1,4 +1,5 @@
-// The kernels in single precision that every processor of a build runs: the scalar twins of those in avx2.c and avx512.c.
+// The kernels in single precision that every processor of a build runs: the scalar twins of those in avx2.c and
+// avx512.c.
 #include "simd/kernels/sets.h"
 
 #define LANES_ARE_FLOATS
