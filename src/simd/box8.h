@@ -68,6 +68,9 @@ uint32_t box8_find_leaves(box8_walk *walk, uint32_t *leaves, uint32_t room);
 /// box8_find_leaves without leaves that certainly overlap the other box too, except fresh ones.
 uint32_t box8_find_new_leaves(box8_walk *walk, uint32_t *leaves, uint32_t room);
 
+/// How a walk goes on: either of these two.
+typedef uint32_t box8_next(box8_walk *walk, uint32_t *leaves, uint32_t room);
+
 /// The kernels of one instruction set, for tests; NULL where this machine or build lacks them, or has no use for them.
 box8_function *box8_get(simd_isa isa);
 box8_function *box8_get_new(simd_isa isa);

@@ -164,7 +164,7 @@ enum { PART = 512, AHEAD = 12 };
 
 // Removes pairs whose boxes no longer overlap; the rest keeps its order.
 static size_t drop_pairs(ovoid_world *w) {
-    uint16_t changed[PART];
+    uint16_t changed[PART] = {0};
     size_t to = 0, stays = 0; // pairs from `stays` on are to be moved
     for (size_t first = 0; first < w->pair_count; first += PART) {
         const world_pair *pairs = &w->pairs[first];

@@ -115,10 +115,10 @@ LANES_TARGET static void run_float_fill(float_queue *from, unsigned lanes, float
 
 // The bodies of one side.
 typedef struct float_side {
+    lane factor;
     const float *const *bodies;
     const uint32_t *own; // eights of each
-    lane factor;
-    int is_uniform; // 1 if all have as many as the group
+    int is_uniform;      // 1 if all have as many as the group
 } float_side;
 
 // Eight columns, number i of all. Eights beyond a body's own repeat its first.
@@ -156,7 +156,7 @@ LANES_INLINE void load_body(float_side *side, const float_column *factors, float
 }
 
 LANES_TARGET static void run_float_load(const float_points *from, unsigned lanes, float_gjk *to) {
-    float_side a = {from->a, from->blocks_a, lane_set(0), 0}, b = {from->b, from->blocks_b, lane_set(0), 0};
+    float_side a = {lane_set(0), from->a, from->blocks_a, 0}, b = {lane_set(0), from->b, from->blocks_b, 0};
     load_body(&a, &to->query.factor_a, to->a, to, lanes);
     load_body(&b, &to->query.factor_b, to->b, to, lanes);
 }

@@ -30,17 +30,12 @@ int dynamic_tree_find_overlaps_below(const dynamic_tree *t, const box *bounds, u
 /// The number of leaves that the wide nodes return at once.
 enum { TREE_LEAVES = 64 };
 
-/// The traversal by the wide nodes. Their boxes are larger by a rounding, so each leaf's own box is compared too. seen:
-/// that of dynamic_tree_find_new; NULL: all leaves are wanted.
-static inline int dynamic_tree_find_wide(const dynamic_tree *t, const box *bounds, const box *seen, tree_touch *touch,
-                                         void *context) {
-    box8_walk walk;
+/// The traversal by the wide nodes, begun by the caller; `next` goes on with it. The wide nodes' boxes are larger by a
+/// rounding, so each leaf's own box is compared too.
+static inline int dynamic_tree_find_wide(const dynamic_tree *t, const box *bounds, box8_walk *walk, box8_next *next,
+                                         tree_touch *touch, void *context) {
     uint32_t leaves[TREE_LEAVES], count;
-    if (seen)
-        box8_begin_new(&walk, t->wide, &bounds->min.x, &seen->min.x);
-    else
-        box8_begin(&walk, t->wide, &bounds->min.x);
-    while ((count = (seen ? box8_find_new_leaves : box8_find_leaves)(&walk, leaves, TREE_LEAVES)) > 0)
+    while ((count = next(walk, leaves, TREE_LEAVES)) > 0)
         for (uint32_t i = 0; i < count; i++) {
             const tree_node *leaf = &t->nodes[leaves[i]];
             if (box_is_overlapping(bounds, &leaf->bounds) && !touch(context, leaf)) return 0;
@@ -74,16 +69,20 @@ static inline int dynamic_tree_find_narrow(const dynamic_tree *t, const box *bou
 /// Inline, so that `touch` is inlined too.
 static inline int dynamic_tree_find_overlaps(const dynamic_tree *t, const box *bounds, tree_touch *touch,
                                              void *context) {
-    return t->wide_count ? dynamic_tree_find_wide(t, bounds, NULL, touch, context)
-                         : dynamic_tree_find_narrow(t, bounds, touch, context);
+    if (!t->wide_count) return dynamic_tree_find_narrow(t, bounds, touch, context);
+    box8_walk walk;
+    box8_begin(&walk, t->wide, &bounds->min.x);
+    return dynamic_tree_find_wide(t, bounds, &walk, box8_find_leaves, touch, context);
 }
 
 /// dynamic_tree_find_overlaps, but leaves that overlap `seen` too may be left out, except those that
 /// wide_tree_set_fresh has named: mostly these are not even read.
 static inline int dynamic_tree_find_new(const dynamic_tree *t, const box *bounds, const box *seen, tree_touch *touch,
                                         void *context) {
-    return t->wide_count ? dynamic_tree_find_wide(t, bounds, seen, touch, context)
-                         : dynamic_tree_find_narrow(t, bounds, touch, context);
+    if (!t->wide_count) return dynamic_tree_find_narrow(t, bounds, touch, context);
+    box8_walk walk;
+    box8_begin_new(&walk, t->wide, &bounds->min.x, &seen->min.x);
+    return dynamic_tree_find_wide(t, bounds, &walk, box8_find_new_leaves, touch, context);
 }
 
 #endif
