@@ -125,10 +125,10 @@ static void check_batch(const ovoid_pair *p, const ovoid_proof *earlier) {
 }
 
 /// A world answers in lanes, in another order of steps: the brackets have a point in common, and the signs agree,
-/// unless both brackets are within a few roundings of zero, where each may or may not reach it.
+/// unless both brackets are within some roundings of zero, where each may or may not reach it.
 static void check_verdict(const ovoid_verdict *verdict, const ovoid_answer *alone) {
     CHECK(verdict->lower <= alone->upper && alone->lower <= verdict->upper);
-    double most = 0x1p-50;
+    double most = 0x1p-48;
     int is_near = fmax(fabs(verdict->lower), fabs(verdict->upper)) <= most &&
                   fmax(fabs(alone->lower), fabs(alone->upper)) <= most;
     if (!is_near) CHECK_EQ(verdict->status, alone->status);
