@@ -610,6 +610,7 @@ COMPILER_NOINLINE static size_t run_lanes(batch_state *c, size_t first) {
     batch_floats floats;
     if (wants_floats(c)) {
         floats.kernels = float_gjk_get_kernels(c->batch->couple_count);
+        floats.alone = float_gjk_get_kernels(1);
         floats.goal = &c->goal;
         floats.verdicts = c->batch->verdicts;
         floats.leave_open = leave_float_open;
