@@ -103,14 +103,14 @@ static void search_each(batch_floats *s, float_queue *q) {
     }
 }
 
-// Fewer couples are searched one by one.
-enum { FEW = 4 };
+// Couples of so many eights are searched one by one if they are at most so many: those of more vertices gain more.
+static unsigned get_few(uint32_t blocks) { return 2 + blocks / 2; }
 
 // Searches the couples of a queue until less than `least` wait and few lanes are live. The lanes of a group have bodies
 // of like sizes. To fill a group when half of it is idle took a tenth longer, as vertices are read for all lanes.
 static void search_queue(batch_floats *s, uint32_t blocks, unsigned least) {
     float_queue *q = &s->queues[blocks - 1];
-    int is_few = q->count < FEW;
+    int is_few = q->count <= get_few(blocks);
     if (s->group.blocks != blocks || is_few) run(s, s->kernels, 0);
     s->group.blocks = blocks;
     if (is_few) search_each(s, q);
@@ -140,11 +140,15 @@ static uint32_t get_blocks(const float_couple *couple) {
     return (a > b ? a : b) / 8;
 }
 
-// Takes the last couples of a queue as a query.
+// Takes the last couples of a queue as a query. Of one couple the numbers may have been stored just now: a load of
+// sixteen would wait for them.
 static void take_last(float_queue *q, unsigned count, float_query *to) {
     float_column *columns = (float_column *)to;
     q->count -= count;
-    for (int i = 0; i < FLOAT_COLUMNS; i++) memcpy(columns[i].lane, q->columns[i] + q->count, sizeof columns[i].lane);
+    if (count == 1)
+        for (int i = 0; i < FLOAT_GIVEN; i++) columns[i].lane[0] = q->columns[i][q->count];
+    else
+        for (int i = 0; i < FLOAT_GIVEN; i++) memcpy(columns[i].lane, q->columns[i] + q->count, sizeof columns[i].lane);
 }
 
 // Takes couples through the ellipsoids to the queues of the search.

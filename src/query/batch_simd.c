@@ -45,7 +45,7 @@ typedef struct open_list {
 typedef struct batch_state {
     const ovoid_batch *batch;
     const pair8_kernels *kernels;
-    query_goal goal; ///< without the tolerance, which is each couple's own
+    const query_goal *goal; ///< without the tolerance, which is each couple's own
     pair8_query numbers;
     int wants_evidence;  ///< answers, proofs or points, not only verdicts
     lane_group *waiting; ///< couples on their way to the ellipsoids: PAIR8_GROUPS groups
@@ -99,7 +99,7 @@ static pair_frame get_frame(group_lane at) {
 }
 
 static query_goal get_goal(const batch_state *c, group_lane at) {
-    query_goal goal = c->goal;
+    query_goal goal = *c->goal;
     goal.tolerance = at.e->lanes->tolerance.lane[at.k];
     return goal;
 }
@@ -108,7 +108,7 @@ static query_goal get_goal(const batch_state *c, group_lane at) {
 static void write_bounds(const batch_state *c, group_lane at, ovoid_stage stage, unsigned narrow) {
     double lower = at.e->lanes->lower.lane[at.k], upper = at.e->lanes->upper.lane[at.k];
     ovoid_status status = lower > 0 ? OVOID_SEPARATED : OVOID_OVERLAPPING;
-    ovoid_limit wide = lower > c->goal.far ? c->goal.beyond : OVOID_LIMIT_ANSWERED;
+    ovoid_limit wide = lower > c->goal->far ? c->goal->beyond : OVOID_LIMIT_ANSWERED;
     ovoid_limit limit = narrow >> at.k & 1 ? OVOID_LIMIT_NONE : wide;
     write_verdict(c->batch, at.e->index[at.k], (ovoid_verdict){status, stage, limit, 0, lower, upper});
 }
@@ -340,9 +340,9 @@ static void append(lane_group *to, unsigned at, const lane_group *e, unsigned k)
 // Searches the lanes `some` of a group.
 static void search_group(batch_state *c, const lane_group *e, unsigned some) {
     const ovoid_batch *to = c->batch;
-    const group_search task = {.goal = &c->goal,
+    const group_search task = {.goal = c->goal,
                                .numbers = &c->numbers,
-                               .is_along_n = c->goal.far < INFINITY,
+                               .is_along_n = c->goal->far < INFINITY,
                                .owner = {end_small, c, c->wants_evidence},
                                .wants_corners = to->proofs || to->answers,
                                .verdicts = to->verdicts,
@@ -371,7 +371,7 @@ static void search_or_wait(batch_state *c, const lane_group *e, unsigned some) {
     }
     for (; some; some &= some - 1) {
         unsigned k = compiler_count_low_zeros(some);
-        if (c->goal.far < INFINITY) put3(c->few->lanes->n, c->few_count, get3(e->lanes->n, k));
+        if (c->goal->far < INFINITY) put3(c->few->lanes->n, c->few_count, get3(e->lanes->n, k));
         append(c->few, c->few_count++, e, k);
         if (c->few_count == PAIR8) search_few(c);
     }
@@ -382,10 +382,10 @@ static void search_or_wait(batch_state *c, const lane_group *e, unsigned some) {
 // The small couples of a yes or no among the lanes `open`: their search begins along the ellipsoids' direction.
 static unsigned find_small(const batch_state *c, const lane_group *e, unsigned open) {
     unsigned small = 0;
-    if (c->goal.far == INFINITY) return 0;
+    if (c->goal->far == INFINITY) return 0;
     for (unsigned rest = open; rest; rest &= rest - 1) {
         unsigned k = compiler_count_low_zeros(rest);
-        small |= (unsigned)small_fits(&c->goal, get_a(e, k)->shape, get_b(e, k)->shape, 0) << k;
+        small |= (unsigned)small_fits(c->goal, get_a(e, k)->shape, get_b(e, k)->shape, 0) << k;
     }
     return small;
 }
@@ -411,7 +411,7 @@ static void end_group(batch_state *c, lane_group *e, unsigned some, const pair8_
 // Distances of bodies far apart start from the line of centres.
 static void choose_directions(const batch_state *c, pair8 *o) {
     for (unsigned k = 0; k < PAIR8; k++)
-        o->line.lane[k] = c->goal.far == INFINITY && o->lower.lane[k] > o->reach.lane[k];
+        o->line.lane[k] = c->goal->far == INFINITY && o->lower.lane[k] > o->reach.lane[k];
 }
 
 // Takes all waiting couples through the ellipsoids to their answers.
@@ -525,15 +525,15 @@ static int end_early(batch_state *c, group_lane at, int is_closed) {
 // too large for lanes, are left to be queried alone. The mask of all these.
 static unsigned add_small(batch_state *c, const lane_group *e, unsigned open) {
     unsigned small = 0, searched = 0;
-    int is_distance = c->goal.far == INFINITY;
+    int is_distance = c->goal->far == INFINITY;
     for (unsigned rest = open; rest; rest &= rest - 1) {
         unsigned k = compiler_count_low_zeros(rest);
         const ovoid_shape *a = get_a(e, k)->shape, *b = get_b(e, k)->shape;
         double sphere_gap = e->lanes->lower.lane[k];
         int is_closed = closed_fits(a, b);
-        if (!is_closed && !(is_distance && small_takes(&c->goal, a, b, sphere_gap))) continue;
+        if (!is_closed && !(is_distance && small_takes(c->goal, a, b, sphere_gap))) continue;
         small |= 1u << k;
-        if (!is_closed && !small_fits(&c->goal, a, b, sphere_gap)) {
+        if (!is_closed && !small_fits(c->goal, a, b, sphere_gap)) {
             leave_alone(c, e->index[k]);
             continue;
         }
@@ -594,7 +594,7 @@ static void take_group(batch_state *c, size_t first, unsigned count, lane_group 
 
 // A yes or no of which only the verdicts are wanted.
 static int wants_floats(const batch_state *c) {
-    return !c->wants_evidence && c->batch->verdicts && c->goal.far < INFINITY && c->goal.beyond == OVOID_LIMIT_ANSWERED;
+    return !c->wants_evidence && c->batch->verdicts && c->goal->far < INFINITY && c->goal->beyond == OVOID_LIMIT_ANSWERED;
 }
 
 // Runs from couple `first` on, until enough couples are left open or all are done; returns the next one. The working
@@ -611,7 +611,7 @@ COMPILER_NOINLINE static size_t run_lanes(batch_state *c, size_t first) {
     if (wants_floats(c)) {
         floats.kernels = float_gjk_get_kernels(c->batch->couple_count);
         floats.alone = float_gjk_get_kernels(1);
-        floats.goal = &c->goal;
+        floats.goal = c->goal;
         floats.verdicts = c->batch->verdicts;
         floats.leave_open = leave_float_open;
         floats.self = c;
@@ -632,22 +632,21 @@ COMPILER_NOINLINE static size_t run_lanes(batch_state *c, size_t first) {
     return first;
 }
 
-void batch_run(const ovoid_batch *batch, const query_goal *goal, const ovoid_options *options) {
+void batch_run(const ovoid_batch *batch, query_goal *goal, const ovoid_options *options) {
     open_list open;
     int wants_evidence = batch->answers || batch->proofs || batch->witnesses;
     batch_state c = {.batch = batch,
                      .kernels = pair8_get_kernels(batch->couple_count),
-                     .goal = *goal,
-
+                     .goal = goal,
                      .numbers = {goal->far, goal->near, options->absolute_tolerance, options->relative_tolerance,
                                  FRAME_REJECT, FRAME_CLAIM, OVOID_LENGTH_MIN, OVOID_LENGTH_MAX, options->iterations,
                                  goal->far < INFINITY ? 1 : 2, wants_evidence},
                      .wants_evidence = wants_evidence,
                      .open = &open};
-    c.goal.iterations = options->iterations;
+    goal->iterations = options->iterations;
     for (size_t next = 0; next < batch->couple_count;) {
         open.count = open.alone_count = 0;
         next = run_lanes(&c, next);
-        search_all_open(batch, &c.goal, wants_evidence, &open);
+        search_all_open(batch, goal, wants_evidence, &open);
     }
 }
