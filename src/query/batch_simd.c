@@ -507,40 +507,73 @@ COMPILER_NOINLINE static unsigned find_warm(const ovoid_batch *batch, const lane
 
 // ---- the spheres
 
-// Answers a couple of small bodies by its closed form, or else by the inner ellipsoids, where these have a common
-// point: 1 if it is answered or left to be queried alone.
-static int end_early(batch_state *c, group_lane at, int is_closed) {
+// The query of a lane as it stands after the spheres; the frame and the goal must outlive it.
+static placed_query place_query(const batch_state *c, group_lane at, pair_frame *frame, query_goal *goal) {
+    *goal = get_goal(c, at);
+    place_frame(at, frame);
+    return (placed_query){frame, goal, NULL, at.e->lanes->lower.lane[at.k], 0};
+}
+
+// Answers a couple that has a closed form, or leaves it to be queried alone.
+static void end_at_closed(batch_state *c, group_lane at) {
     pair_frame frame;
-    query_goal goal = get_goal(c, at);
-    const placed_query query = {&frame, &goal, NULL, at.e->lanes->lower.lane[at.k], 0};
+    query_goal goal;
     small_end end;
-    place_frame(at, &frame);
-    int is_answered = is_closed ? closed_run(&query, &end) : small_run_inner(&query, &end);
-    if (is_closed || is_answered) end_small(c, at.e->index[at.k], &query, is_answered ? &end : NULL);
-    return is_closed || is_answered;
+    placed_query query = place_query(c, at, &frame, &goal);
+    end_small(c, at.e->index[at.k], &query, closed_run(&query, &end) ? &end : NULL);
+}
+
+// Fewer lanes are tried at their inner ellipsoids one by one.
+enum { FEW_DEEP = 4 };
+
+// Ends those of the lanes `deep` whose inner ellipsoids have a common point; their mask.
+static unsigned end_at_common(batch_state *c, const lane_group *e, unsigned deep) {
+    int is_few = count_lanes(deep) < FEW_DEEP;
+    unsigned tried = deep, ended = 0;
+    pair8_common common;
+    if (!is_few) {
+        pair8_ellipsoids rows = find_ellipsoids(e);
+        tried &= c->kernels->inner(&rows, &c->numbers, e->lanes, &common);
+    }
+    for (; tried; tried &= tried - 1) {
+        unsigned k = compiler_count_low_zeros(tried);
+        pair_frame frame;
+        query_goal goal;
+        small_end end;
+        placed_query query = place_query(c, (group_lane){e, k}, &frame, &goal);
+        if (!is_few)
+            small_end_at_inner(&query, get3(common.x, k), common.upper.lane[k], &end);
+        else if (!small_run_inner(&query, &end))
+            continue;
+        end_small(c, e->index[k], &query, &end);
+        ended |= 1u << k;
+    }
+    return ended;
 }
 
 // Answers those of the lanes `open` that have a closed form, and searches the small ones from the line of centres where
 // a distance is asked for, which needs no ellipsoids, unless the inner ones decide it. Those that are small alone, but
 // too large for lanes, are left to be queried alone. The mask of all these.
 static unsigned add_small(batch_state *c, const lane_group *e, unsigned open) {
-    unsigned small = 0, searched = 0;
+    unsigned small = 0, searched = 0, deep = 0;
     int is_distance = c->goal->far == INFINITY;
     for (unsigned rest = open; rest; rest &= rest - 1) {
-        unsigned k = compiler_count_low_zeros(rest);
+        unsigned k = compiler_count_low_zeros(rest), lane = 1u << k;
         const ovoid_shape *a = get_a(e, k)->shape, *b = get_b(e, k)->shape;
         double sphere_gap = e->lanes->lower.lane[k];
-        int is_closed = closed_fits(a, b);
-        if (!is_closed && !(is_distance && small_takes(c->goal, a, b, sphere_gap))) continue;
-        small |= 1u << k;
-        if (!is_closed && !small_fits(c->goal, a, b, sphere_gap)) {
-            leave_alone(c, e->index[k]);
+        if (closed_fits(a, b))
+            end_at_closed(c, (group_lane){e, k});
+        else if (!is_distance || !small_takes(c->goal, a, b, sphere_gap))
             continue;
-        }
-        int is_early = is_closed || small_tries_inner(sphere_gap, e->lanes->reach.lane[k]);
-        if (is_early && end_early(c, (group_lane){e, k}, is_closed)) continue;
-        searched |= 1u << k;
+        else if (!small_fits(c->goal, a, b, sphere_gap))
+            leave_alone(c, e->index[k]);
+        else
+            searched |= lane;
+        small |= lane;
+        if (small_tries_inner(sphere_gap, e->lanes->reach.lane[k])) deep |= lane;
     }
+    deep &= searched;
+    if (deep) searched &= ~end_at_common(c, e, deep);
     if (searched) search_or_wait(c, e, searched);
     return small;
 }
