@@ -87,8 +87,7 @@ static void fill(batch_floats *s, float_queue *q) {
     unsigned any = compiler_count_low_zeros(lanes);
     float_points points;
     s->kernels->fill(q, lanes, g);
-    for (unsigned k = 0; k < FLOATS; k++)
-        put_points(get_couple(s, &g->query, lanes >> k & 1 ? k : any), &points, k);
+    for (unsigned k = 0; k < FLOATS; k++) put_points(get_couple(s, &g->query, lanes >> k & 1 ? k : any), &points, k);
     s->kernels->load(&points, lanes, g);
 }
 

@@ -627,7 +627,8 @@ static void take_group(batch_state *c, size_t first, unsigned count, lane_group 
 
 // A yes or no of which only the verdicts are wanted.
 static int wants_floats(const batch_state *c) {
-    return !c->wants_evidence && c->batch->verdicts && c->goal->far < INFINITY && c->goal->beyond == OVOID_LIMIT_ANSWERED;
+    return !c->wants_evidence && c->batch->verdicts && c->goal->far < INFINITY &&
+           c->goal->beyond == OVOID_LIMIT_ANSWERED;
 }
 
 // Runs from couple `first` on, until enough couples are left open or all are done; returns the next one. The working

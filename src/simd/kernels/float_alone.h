@@ -37,7 +37,8 @@ LANES_INLINE float_support find_extreme(const float *p, int count, lane3 n, int 
     __m256 v[FLOAT_GJK_BLOCKS], most = _mm256_set1_ps(-INFINITY);
     unsigned equal = 0;
     for (int i = 0; i < count; i += 8) {
-        __m256 xy = _mm256_add_ps(_mm256_mul_ps(_mm256_load_ps(p + i), x), _mm256_mul_ps(_mm256_load_ps(p + count + i), y));
+        __m256 xy =
+            _mm256_add_ps(_mm256_mul_ps(_mm256_load_ps(p + i), x), _mm256_mul_ps(_mm256_load_ps(p + count + i), y));
         v[i / 8] = _mm256_add_ps(xy, _mm256_mul_ps(_mm256_load_ps(p + 2 * count + i), z));
         most = _mm256_max_ps(most, v[i / 8]);
     }
@@ -92,8 +93,8 @@ LANES_INLINE float_step pick_heading(const float_headings *all, unsigned faces, 
 // old: lane i the corner i of those in `valid`.
 LANES_INLINE float_step take_step(edges4 old, unsigned valid, lane3 w) {
     // Of each set of corners in use the corners, and the faces that two of them make with the new one.
-    static const _Alignas(16) int32_t corners[8][4] = {{0, 0, 0, 0},   {-1, 0, 0, 0},  {0, -1, 0, 0},  {-1, -1, 0, 0},
-                                                       {0, 0, -1, 0},  {-1, 0, -1, 0}, {0, -1, -1, 0}, {-1, -1, -1, 0}};
+    static const _Alignas(16) int32_t corners[8][4] = {{0, 0, 0, 0},  {-1, 0, 0, 0},  {0, -1, 0, 0},  {-1, -1, 0, 0},
+                                                       {0, 0, -1, 0}, {-1, 0, -1, 0}, {0, -1, -1, 0}, {-1, -1, -1, 0}};
     static const _Alignas(16) int32_t faces[8][4] = {{0, 0, 0, 0}, {0, 0, 0, 0},  {0, 0, 0, 0},  {-1, 0, 0, 0},
                                                      {0, 0, 0, 0}, {0, 0, -1, 0}, {0, -1, 0, 0}, {-1, -1, -1, 0}};
     __m128 has_corner = _mm_load_ps((const float *)corners[valid]), has_face = _mm_load_ps((const float *)faces[valid]);
