@@ -74,13 +74,19 @@ static void end_at_overlap(const placed_query *q, double upper, ovoid_stage stag
 // The line of centres has a direction.
 static int has_line(const pair_frame *f) { return vec3_norm_squared(f->between) > 1e-150; }
 
-int small_run_inner(const placed_query *q, small_end *end) {
-    if (!has_line(q->frame)) return 0;
-    double upper = inner_compute_upper_in_world(q->frame, &end->inner);
-    if (!(upper < 0)) return 0;
+void small_end_at_inner(const placed_query *q, vec3 common, double upper, small_end *end) {
+    end->inner = common;
     clear_points(&end->points);
     end->kind = OVOID_PROOF_INNER;
     end_at_overlap(q, upper, OVOID_STAGE_INNER, end);
+}
+
+int small_run_inner(const placed_query *q, small_end *end) {
+    vec3 common;
+    if (!has_line(q->frame)) return 0;
+    double upper = inner_compute_upper_in_world(q->frame, &common);
+    if (!(upper < 0)) return 0;
+    small_end_at_inner(q, common, upper, end);
     return 1;
 }
 

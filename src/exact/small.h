@@ -69,9 +69,10 @@ static inline int small_tries_inner(double sphere_gap, double reach) { return sp
 small_gjk_query small_make_query(const pair_frame *frame, const query_goal *goal);
 
 /// small_run in parts, for searches in lanes. Before the kernel's search: 1 if the inner ellipsoids have a common
-/// point, which answers the query. After it: 1: answered, 0: unusual. Of the frame small_finish reads the size, what is
-/// hidden and the radii.
+/// point, which answers the query; the end at one that is known, in A's body frame. After it: 1: answered, 0: unusual.
+/// Of the frame small_end_at_inner reads the line of centres, small_finish the size, what is hidden and the radii.
 int small_run_inner(const placed_query *query, small_end *end);
+void small_end_at_inner(const placed_query *query, vec3 common, double upper, small_end *end);
 int small_finish(const pair_frame *frame, const query_goal *goal, const small_gjk_result *result, small_end *end);
 
 typedef enum small_outcome {

@@ -14,7 +14,7 @@ static size_t find_bad_couple(const ovoid_batch *batch) {
     return i;
 }
 
-static ovoid_code find_answers(const ovoid_batch *batch, const query_goal *goal, ovoid_error *error) {
+static ovoid_code find_answers(const ovoid_batch *batch, query_goal *goal, ovoid_error *error) {
     OVOID_ASSERT(batch && (batch->couples || !batch->couple_count));
     size_t bad = find_bad_couple(batch);
     if (bad < batch->couple_count)
@@ -29,22 +29,27 @@ static ovoid_code find_answers(const ovoid_batch *batch, const query_goal *goal,
     return OVOID_OK;
 }
 
-static ovoid_code run(const ovoid_batch *batch, query_goal goal, ovoid_error *error) {
-    ENVIRONMENT_RETURN(ovoid_code, goal, find_answers(batch, &goal, error));
+// The goal is not copied: it was just stored, and a wider load would wait for that.
+static ovoid_code run(const ovoid_batch *batch, query_goal *goal, ovoid_error *error) {
+    ENVIRONMENT_RETURN(ovoid_code, *goal, find_answers(batch, goal, error));
 }
 
 ovoid_code ovoid_collide_batch(const ovoid_batch *batch, ovoid_error *error) {
-    return run(batch, query_goal_make_collide(), error);
+    query_goal goal = query_goal_make_collide();
+    return run(batch, &goal, error);
 }
 
 ovoid_code ovoid_within_batch(const ovoid_batch *batch, double margin, ovoid_error *error) {
-    return run(batch, query_goal_make_within(margin), error);
+    query_goal goal = query_goal_make_within(margin);
+    return run(batch, &goal, error);
 }
 
 ovoid_code ovoid_distance_batch(const ovoid_batch *batch, ovoid_error *error) {
-    return run(batch, query_goal_make_distance(batch->options), error);
+    query_goal goal = query_goal_make_distance(batch->options);
+    return run(batch, &goal, error);
 }
 
 ovoid_code ovoid_depth_batch(const ovoid_batch *batch, ovoid_error *error) {
-    return run(batch, query_goal_make_depth(batch->options), error);
+    query_goal goal = query_goal_make_depth(batch->options);
+    return run(batch, &goal, error);
 }

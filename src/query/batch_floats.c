@@ -59,9 +59,9 @@ static void end_lanes(batch_floats *s, const float_gjk *g, const float_ends *end
 // ---- the search
 
 // Advances the group until at most `few` lanes are live.
-static void run(batch_floats *s, unsigned few) {
+static void run(batch_floats *s, const float_gjk_kernels *kernels, unsigned few) {
     while (count_lanes(s->group.live) > few) {
-        float_ends ends = s->kernels->advance(&s->group);
+        float_ends ends = kernels->advance(&s->group);
         end_lanes(s, &s->group, &ends);
     }
 }
@@ -73,6 +73,13 @@ static unsigned find_idle(const float_gjk *g, unsigned count) {
     return found;
 }
 
+static void put_points(const float_couple *couple, float_points *to, unsigned k) {
+    to->a[k] = shape_get_float_columns(couple->a);
+    to->b[k] = shape_get_float_columns(couple->b);
+    to->blocks_a[k] = couple->a->padded_count / 8;
+    to->blocks_b[k] = couple->b->padded_count / 8;
+}
+
 // Fills idle lanes of the group with the last couples of a queue. The rows of the other lanes repeat one of these.
 static void fill(batch_floats *s, float_queue *q) {
     float_gjk *g = &s->group;
@@ -80,25 +87,35 @@ static void fill(batch_floats *s, float_queue *q) {
     unsigned any = compiler_count_low_zeros(lanes);
     float_points points;
     s->kernels->fill(q, lanes, g);
-    for (unsigned k = 0; k < FLOATS; k++) {
-        const float_couple *couple = get_couple(s, &g->query, lanes >> k & 1 ? k : any);
-        points.a[k] = shape_get_float_columns(couple->a);
-        points.b[k] = shape_get_float_columns(couple->b);
-        points.blocks_a[k] = couple->a->padded_count / 8;
-        points.blocks_b[k] = couple->b->padded_count / 8;
-    }
+    for (unsigned k = 0; k < FLOATS; k++) put_points(get_couple(s, &g->query, lanes >> k & 1 ? k : any), &points, k);
     s->kernels->load(&points, lanes, g);
 }
+
+// Searches the couples of a queue one by one. The group is idle.
+static void search_each(batch_floats *s, float_queue *q) {
+    float_points points;
+    while (q->count) {
+        s->alone->fill(q, 1, &s->group);
+        put_points(get_couple(s, &s->group.query, 0), &points, 0);
+        s->alone->load(&points, 1, &s->group);
+        run(s, s->alone, 0);
+    }
+}
+
+// Couples of so many eights are searched one by one if they are at most so many: those of more vertices gain more.
+static unsigned get_few(uint32_t blocks) { return 2 + blocks / 2; }
 
 // Searches the couples of a queue until less than `least` wait and few lanes are live. The lanes of a group have bodies
 // of like sizes. To fill a group when half of it is idle took a tenth longer, as vertices are read for all lanes.
 static void search_queue(batch_floats *s, uint32_t blocks, unsigned least) {
     float_queue *q = &s->queues[blocks - 1];
-    if (s->group.blocks != blocks) run(s, 0);
+    int is_few = q->count <= get_few(blocks);
+    if (s->group.blocks != blocks || is_few) run(s, s->kernels, 0);
     s->group.blocks = blocks;
+    if (is_few) search_each(s, q);
     while (q->count >= least) {
         fill(s, q);
-        run(s, FLOATS / 4);
+        run(s, s->kernels, FLOATS / 4);
     }
 }
 
@@ -122,11 +139,15 @@ static uint32_t get_blocks(const float_couple *couple) {
     return (a > b ? a : b) / 8;
 }
 
-// Takes the last couples of a queue as a query.
+// Takes the last couples of a queue as a query. Of one couple the numbers may have been stored just now: a load of
+// sixteen would wait for them.
 static void take_last(float_queue *q, unsigned count, float_query *to) {
     float_column *columns = (float_column *)to;
     q->count -= count;
-    for (int i = 0; i < FLOAT_COLUMNS; i++) memcpy(columns[i].lane, q->columns[i] + q->count, sizeof columns[i].lane);
+    if (count == 1)
+        for (int i = 0; i < FLOAT_GIVEN; i++) columns[i].lane[0] = q->columns[i][q->count];
+    else
+        for (int i = 0; i < FLOAT_GIVEN; i++) memcpy(columns[i].lane, q->columns[i] + q->count, sizeof columns[i].lane);
 }
 
 // Takes couples through the ellipsoids to the queues of the search.
@@ -136,20 +157,21 @@ static void enter(batch_floats *s) {
     float_shapes shapes;
     unsigned count = s->entry.count < FLOATS ? s->entry.count : FLOATS, all = (1u << count) - 1;
     unsigned of[FLOAT_GJK_BLOCKS] = {0};
+    const float_gjk_kernels *kernels = count == 1 ? s->alone : s->kernels;
     take_last(&s->entry, count, &query);
-    for (unsigned k = 0; k < FLOATS; k++) {
+    for (unsigned k = 0; k < (count == 1 ? 1 : FLOATS); k++) {
         const float_couple *couple = get_couple(s, &query, k < count ? k : 0);
         shapes.a[k] = shape_get_floats(couple->a);
         shapes.b[k] = shape_get_floats(couple->b);
         of[get_blocks(couple) - 1] |= 1u << k;
     }
-    s->kernels->ellipsoids(&shapes, all, &query, &found);
+    kernels->ellipsoids(&shapes, all, &query, &found);
     unsigned ended = found.apart | found.inside;
     for (unsigned rest = ended; rest; rest &= rest - 1) write_bounds(s, &query, &found, compiler_count_low_zeros(rest));
     for (uint32_t i = 0; i < FLOAT_GJK_BLOCKS; i++) {
         unsigned open = of[i] & all & ~ended;
         if (!open) continue;
-        s->kernels->append(&query, open, &s->queues[i]);
+        kernels->append(&query, open, &s->queues[i]);
         if (s->queues[i].count >= FLOATS) search_queue(s, i + 1, FLOATS);
     }
 }
@@ -194,5 +216,5 @@ void batch_floats_end(batch_floats *s) {
     if (s->entry.count) enter(s);
     for (uint32_t blocks = 1; blocks <= FLOAT_GJK_BLOCKS; blocks++)
         if (s->queues[blocks - 1].count) search_queue(s, blocks, 1);
-    run(s, 0);
+    run(s, s->kernels, 0);
 }

@@ -21,7 +21,7 @@ enum { FLOAT_WAITING = (FLOAT_GJK_BLOCKS + 1) * (FLOATS - 1) + FLOATS, FLOAT_COU
 
 /// The state of a batch: 36 KB.
 typedef struct batch_floats {
-    const float_gjk_kernels *kernels;
+    const float_gjk_kernels *kernels, *alone;
     const query_goal *goal; ///< without the tolerance
     ovoid_verdict *verdicts;
     void (*leave_open)(void *self, size_t index);

@@ -197,7 +197,7 @@ static int is_apart(const group_work *w, unsigned k, const small_gjk_result *r) 
 }
 
 // Fewer lanes are searched one by one, each in less time than the steps of eight take.
-enum { FEW = 4 };
+enum { FEW = 3 };
 
 // The searches of the lanes at work, each by itself. What ended apart or inside is answered; the others are left as
 // run_rounds leaves them.

@@ -45,7 +45,7 @@ typedef struct open_list {
 typedef struct batch_state {
     const ovoid_batch *batch;
     const pair8_kernels *kernels;
-    query_goal goal; ///< without the tolerance, which is each couple's own
+    const query_goal *goal; ///< without the tolerance, which is each couple's own
     pair8_query numbers;
     int wants_evidence;  ///< answers, proofs or points, not only verdicts
     lane_group *waiting; ///< couples on their way to the ellipsoids: PAIR8_GROUPS groups
@@ -99,7 +99,7 @@ static pair_frame get_frame(group_lane at) {
 }
 
 static query_goal get_goal(const batch_state *c, group_lane at) {
-    query_goal goal = c->goal;
+    query_goal goal = *c->goal;
     goal.tolerance = at.e->lanes->tolerance.lane[at.k];
     return goal;
 }
@@ -108,7 +108,7 @@ static query_goal get_goal(const batch_state *c, group_lane at) {
 static void write_bounds(const batch_state *c, group_lane at, ovoid_stage stage, unsigned narrow) {
     double lower = at.e->lanes->lower.lane[at.k], upper = at.e->lanes->upper.lane[at.k];
     ovoid_status status = lower > 0 ? OVOID_SEPARATED : OVOID_OVERLAPPING;
-    ovoid_limit wide = lower > c->goal.far ? c->goal.beyond : OVOID_LIMIT_ANSWERED;
+    ovoid_limit wide = lower > c->goal->far ? c->goal->beyond : OVOID_LIMIT_ANSWERED;
     ovoid_limit limit = narrow >> at.k & 1 ? OVOID_LIMIT_NONE : wide;
     write_verdict(c->batch, at.e->index[at.k], (ovoid_verdict){status, stage, limit, 0, lower, upper});
 }
@@ -340,9 +340,9 @@ static void append(lane_group *to, unsigned at, const lane_group *e, unsigned k)
 // Searches the lanes `some` of a group.
 static void search_group(batch_state *c, const lane_group *e, unsigned some) {
     const ovoid_batch *to = c->batch;
-    const group_search task = {.goal = &c->goal,
+    const group_search task = {.goal = c->goal,
                                .numbers = &c->numbers,
-                               .is_along_n = c->goal.far < INFINITY,
+                               .is_along_n = c->goal->far < INFINITY,
                                .owner = {end_small, c, c->wants_evidence},
                                .wants_corners = to->proofs || to->answers,
                                .verdicts = to->verdicts,
@@ -371,7 +371,7 @@ static void search_or_wait(batch_state *c, const lane_group *e, unsigned some) {
     }
     for (; some; some &= some - 1) {
         unsigned k = compiler_count_low_zeros(some);
-        if (c->goal.far < INFINITY) put3(c->few->lanes->n, c->few_count, get3(e->lanes->n, k));
+        if (c->goal->far < INFINITY) put3(c->few->lanes->n, c->few_count, get3(e->lanes->n, k));
         append(c->few, c->few_count++, e, k);
         if (c->few_count == PAIR8) search_few(c);
     }
@@ -382,10 +382,10 @@ static void search_or_wait(batch_state *c, const lane_group *e, unsigned some) {
 // The small couples of a yes or no among the lanes `open`: their search begins along the ellipsoids' direction.
 static unsigned find_small(const batch_state *c, const lane_group *e, unsigned open) {
     unsigned small = 0;
-    if (c->goal.far == INFINITY) return 0;
+    if (c->goal->far == INFINITY) return 0;
     for (unsigned rest = open; rest; rest &= rest - 1) {
         unsigned k = compiler_count_low_zeros(rest);
-        small |= (unsigned)small_fits(&c->goal, get_a(e, k)->shape, get_b(e, k)->shape, 0) << k;
+        small |= (unsigned)small_fits(c->goal, get_a(e, k)->shape, get_b(e, k)->shape, 0) << k;
     }
     return small;
 }
@@ -411,7 +411,7 @@ static void end_group(batch_state *c, lane_group *e, unsigned some, const pair8_
 // Distances of bodies far apart start from the line of centres.
 static void choose_directions(const batch_state *c, pair8 *o) {
     for (unsigned k = 0; k < PAIR8; k++)
-        o->line.lane[k] = c->goal.far == INFINITY && o->lower.lane[k] > o->reach.lane[k];
+        o->line.lane[k] = c->goal->far == INFINITY && o->lower.lane[k] > o->reach.lane[k];
 }
 
 // Takes all waiting couples through the ellipsoids to their answers.
@@ -507,40 +507,73 @@ COMPILER_NOINLINE static unsigned find_warm(const ovoid_batch *batch, const lane
 
 // ---- the spheres
 
-// Answers a couple of small bodies by its closed form, or else by the inner ellipsoids, where these have a common
-// point: 1 if it is answered or left to be queried alone.
-static int end_early(batch_state *c, group_lane at, int is_closed) {
+// The query of a lane as it stands after the spheres; the frame and the goal must outlive it.
+static placed_query place_query(const batch_state *c, group_lane at, pair_frame *frame, query_goal *goal) {
+    *goal = get_goal(c, at);
+    place_frame(at, frame);
+    return (placed_query){frame, goal, NULL, at.e->lanes->lower.lane[at.k], 0};
+}
+
+// Answers a couple that has a closed form, or leaves it to be queried alone.
+static void end_at_closed(batch_state *c, group_lane at) {
     pair_frame frame;
-    query_goal goal = get_goal(c, at);
-    const placed_query query = {&frame, &goal, NULL, at.e->lanes->lower.lane[at.k], 0};
+    query_goal goal;
     small_end end;
-    place_frame(at, &frame);
-    int is_answered = is_closed ? closed_run(&query, &end) : small_run_inner(&query, &end);
-    if (is_closed || is_answered) end_small(c, at.e->index[at.k], &query, is_answered ? &end : NULL);
-    return is_closed || is_answered;
+    placed_query query = place_query(c, at, &frame, &goal);
+    end_small(c, at.e->index[at.k], &query, closed_run(&query, &end) ? &end : NULL);
+}
+
+// Fewer lanes are tried at their inner ellipsoids one by one.
+enum { FEW_DEEP = 4 };
+
+// Ends those of the lanes `deep` whose inner ellipsoids have a common point; their mask.
+static unsigned end_at_common(batch_state *c, const lane_group *e, unsigned deep) {
+    int is_few = count_lanes(deep) < FEW_DEEP;
+    unsigned tried = deep, ended = 0;
+    pair8_common common;
+    if (!is_few) {
+        pair8_ellipsoids rows = find_ellipsoids(e);
+        tried &= c->kernels->inner(&rows, &c->numbers, e->lanes, &common);
+    }
+    for (; tried; tried &= tried - 1) {
+        unsigned k = compiler_count_low_zeros(tried);
+        pair_frame frame;
+        query_goal goal;
+        small_end end;
+        placed_query query = place_query(c, (group_lane){e, k}, &frame, &goal);
+        if (!is_few)
+            small_end_at_inner(&query, get3(common.x, k), common.upper.lane[k], &end);
+        else if (!small_run_inner(&query, &end))
+            continue;
+        end_small(c, e->index[k], &query, &end);
+        ended |= 1u << k;
+    }
+    return ended;
 }
 
 // Answers those of the lanes `open` that have a closed form, and searches the small ones from the line of centres where
 // a distance is asked for, which needs no ellipsoids, unless the inner ones decide it. Those that are small alone, but
 // too large for lanes, are left to be queried alone. The mask of all these.
 static unsigned add_small(batch_state *c, const lane_group *e, unsigned open) {
-    unsigned small = 0, searched = 0;
-    int is_distance = c->goal.far == INFINITY;
+    unsigned small = 0, searched = 0, deep = 0;
+    int is_distance = c->goal->far == INFINITY;
     for (unsigned rest = open; rest; rest &= rest - 1) {
-        unsigned k = compiler_count_low_zeros(rest);
+        unsigned k = compiler_count_low_zeros(rest), lane = 1u << k;
         const ovoid_shape *a = get_a(e, k)->shape, *b = get_b(e, k)->shape;
         double sphere_gap = e->lanes->lower.lane[k];
-        int is_closed = closed_fits(a, b);
-        if (!is_closed && !(is_distance && small_takes(&c->goal, a, b, sphere_gap))) continue;
-        small |= 1u << k;
-        if (!is_closed && !small_fits(&c->goal, a, b, sphere_gap)) {
-            leave_alone(c, e->index[k]);
+        if (closed_fits(a, b))
+            end_at_closed(c, (group_lane){e, k});
+        else if (!is_distance || !small_takes(c->goal, a, b, sphere_gap))
             continue;
-        }
-        int is_early = is_closed || small_tries_inner(sphere_gap, e->lanes->reach.lane[k]);
-        if (is_early && end_early(c, (group_lane){e, k}, is_closed)) continue;
-        searched |= 1u << k;
+        else if (!small_fits(c->goal, a, b, sphere_gap))
+            leave_alone(c, e->index[k]);
+        else
+            searched |= lane;
+        small |= lane;
+        if (small_tries_inner(sphere_gap, e->lanes->reach.lane[k])) deep |= lane;
     }
+    deep &= searched;
+    if (deep) searched &= ~end_at_common(c, e, deep);
     if (searched) search_or_wait(c, e, searched);
     return small;
 }
@@ -594,7 +627,8 @@ static void take_group(batch_state *c, size_t first, unsigned count, lane_group 
 
 // A yes or no of which only the verdicts are wanted.
 static int wants_floats(const batch_state *c) {
-    return !c->wants_evidence && c->batch->verdicts && c->goal.far < INFINITY && c->goal.beyond == OVOID_LIMIT_ANSWERED;
+    return !c->wants_evidence && c->batch->verdicts && c->goal->far < INFINITY &&
+           c->goal->beyond == OVOID_LIMIT_ANSWERED;
 }
 
 // Runs from couple `first` on, until enough couples are left open or all are done; returns the next one. The working
@@ -610,7 +644,8 @@ COMPILER_NOINLINE static size_t run_lanes(batch_state *c, size_t first) {
     batch_floats floats;
     if (wants_floats(c)) {
         floats.kernels = float_gjk_get_kernels(c->batch->couple_count);
-        floats.goal = &c->goal;
+        floats.alone = float_gjk_get_kernels(1);
+        floats.goal = c->goal;
         floats.verdicts = c->batch->verdicts;
         floats.leave_open = leave_float_open;
         floats.self = c;
@@ -631,22 +666,21 @@ COMPILER_NOINLINE static size_t run_lanes(batch_state *c, size_t first) {
     return first;
 }
 
-void batch_run(const ovoid_batch *batch, const query_goal *goal, const ovoid_options *options) {
+void batch_run(const ovoid_batch *batch, query_goal *goal, const ovoid_options *options) {
     open_list open;
     int wants_evidence = batch->answers || batch->proofs || batch->witnesses;
     batch_state c = {.batch = batch,
                      .kernels = pair8_get_kernels(batch->couple_count),
-                     .goal = *goal,
-
+                     .goal = goal,
                      .numbers = {goal->far, goal->near, options->absolute_tolerance, options->relative_tolerance,
                                  FRAME_REJECT, FRAME_CLAIM, OVOID_LENGTH_MIN, OVOID_LENGTH_MAX, options->iterations,
                                  goal->far < INFINITY ? 1 : 2, wants_evidence},
                      .wants_evidence = wants_evidence,
                      .open = &open};
-    c.goal.iterations = options->iterations;
+    goal->iterations = options->iterations;
     for (size_t next = 0; next < batch->couple_count;) {
         open.count = open.alone_count = 0;
         next = run_lanes(&c, next);
-        search_all_open(batch, &c.goal, wants_evidence, &open);
+        search_all_open(batch, goal, wants_evidence, &open);
     }
 }

@@ -21,7 +21,7 @@ void batch_write(const ovoid_batch *batch, size_t i, const ovoid_answer *answer)
 /// The query of couple i alone.
 void batch_query_single(const ovoid_batch *batch, size_t i, const query_goal *goal);
 
-/// All couples. The goal is no depth, and the options are valid.
-void batch_run(const ovoid_batch *batch, const query_goal *goal, const ovoid_options *options);
+/// All couples. The goal is no depth, and the options are valid; it is given their iterations.
+void batch_run(const ovoid_batch *batch, query_goal *goal, const ovoid_options *options);
 
 #endif

@@ -99,7 +99,8 @@ typedef struct float_ends {
     unsigned apart, near, inside, open;
 } float_ends;
 
-/// Kernels of one instruction set; `lanes` is a mask. Lanes cost nothing where a whole vector of them is idle.
+/// Kernels of one instruction set; `lanes` is a mask. Lanes cost nothing where a whole vector of them is idle. Those
+/// for one couple have its lane 0 alone, and `advance` searches it to its end.
 typedef struct float_gjk_kernels {
     /// The ellipsoids of the lanes, and the directions from which their searches begin.
     void (*ellipsoids)(const float_shapes *from, unsigned lanes, float_query *query, float_bounds *out);

@@ -35,6 +35,8 @@ static simd_extents_function *const extents_of[SIMD_ISA_COUNT] =
     KERNELS(extents_find_scalar, extents_find_avx2, extents_find_avx512);
 static const float_gjk_kernels *const float_gjk_of[SIMD_ISA_COUNT] =
     KERNELS(&float_gjk_scalar, &float_gjk_avx2, &float_gjk_avx512);
+static const float_gjk_kernels *const float_gjk_alone_of[SIMD_ISA_COUNT] =
+    KERNELS(&float_gjk_scalar, &float_gjk_alone, &float_gjk_alone);
 static const group_gjk_kernels *const group_gjk_of[SIMD_ISA_COUNT] =
     KERNELS(&group_gjk_scalar, &group_gjk_avx2, &group_gjk_avx512);
 static const kept8_kernels *const kept8_of[SIMD_ISA_COUNT] = KERNELS(&kept8_scalar, &kept8_avx2, &kept8_avx512);
@@ -70,7 +72,7 @@ simd_extents simd_find_extents(const simd_points *points, const mat3 *rows) {
 // Of sixteen lanes most would be idle for few couples.
 const float_gjk_kernels *float_gjk_get_kernels(size_t couples) {
     simd_isa widest = find_widest();
-    if (couples == 1) return float_gjk_of[SIMD_SCALAR];
+    if (couples == 1) return float_gjk_alone_of[widest];
     return float_gjk_of[couples <= 8 && widest > SIMD_AVX2 ? SIMD_AVX2 : widest];
 }
 const group_gjk_kernels *group_gjk_get_kernels(size_t pairs) { return group_gjk_of[find_isa_of(pairs)]; }

@@ -76,6 +76,11 @@ typedef struct pair8_found {
     unsigned narrow; ///< upper - lower is within the tolerance
 } pair8_found;
 
+/// Common points of the inner ellipsoids, in the body frame of A, and the upper bounds that they prove.
+typedef struct pair8_common {
+    lane_column x[3], upper;
+} pair8_common;
+
 /// A lane group on its way through the ellipsoids.
 typedef struct pair8_group {
     pair8_ellipsoids from;
@@ -95,6 +100,9 @@ typedef struct pair8_kernels {
     /// Places both bodies in the world and computes the bounds of the enclosing spheres: lower, upper. The spheres
     /// around the frames' origins come first, as they need no rotation.
     pair8_found (*spheres)(const pair8_places *from, const pair8_query *query, pair8 *o);
+    /// Inner ellipsoids in the world, after `spheres`, as inner_compute_upper_in_world has them: the mask of the pairs
+    /// that have a common point. Of `from` the outer ellipsoids' numbers are not read.
+    unsigned (*inner)(const pair8_ellipsoids *from, const pair8_query *query, const pair8 *o, pair8_common *out);
     /// B in the frame of A, inner and outer ellipsoids: lower and upper where these decide, the direction for the other
     /// lanes. For `count` lane groups, at most PAIR8_GROUPS: together they are faster.
     void (*ellipsoids)(pair8_group *groups, unsigned count, const pair8_query *query);

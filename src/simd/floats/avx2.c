@@ -6,7 +6,7 @@
 #define LANES_ARE_FLOATS
 #define LANES 8
 #include "simd/kernels/float_ellipsoids.h"
-#include "simd/kernels/float_gjk.h"
+#include "simd/kernels/float_rounds.h"
 
 const float_gjk_kernels float_gjk_avx2 = {run_float_ellipsoids, run_float_append, run_float_fill, run_float_load,
                                           run_float_advance};

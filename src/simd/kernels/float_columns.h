@@ -28,6 +28,26 @@ LANES_INLINE void put_some3(float_column *c, int at, lane_mask some, lane3 v) {
 enum { LANES_ALL = (int)((1ull << LANES) - 1) };
 // The lanes of a mask from `at` on.
 static inline unsigned get_lanes(unsigned lanes, int at) { return lanes >> at & LANES_ALL; }
+// 1 if a mask has lanes from `at` on.
+static inline int has_more(unsigned lanes, int at) { return at < FLOATS && lanes >> at; }
+
+// The lanes of a vector that are written, and those at work whose numbers are kept: without any, all are written.
+typedef struct float_places {
+    lane_mask is_new;
+    unsigned kept;
+} float_places;
+
+LANES_INLINE float_places get_places(const float_gjk *s, unsigned lanes, int at) {
+    return (float_places){lane_from_bits(get_lanes(lanes, at)), get_lanes(s->live & ~lanes, at)};
+}
+LANES_INLINE void put_new(float_column *c, int at, const float_places *places, lane v) {
+    put(c, at, places->kept ? lane_select(places->is_new, v, get(c, at)) : v);
+}
+LANES_INLINE void put_new3(float_column *c, int at, const float_places *places, lane3 v) {
+    put_new(c, at, places, v.x);
+    put_new(c + 1, at, places, v.y);
+    put_new(c + 2, at, places, v.z);
+}
 
 // LANES rows of eight floats each, from the lane `at` on, as eight columns.
 #if LANES == 16

@@ -139,7 +139,7 @@ LANES_TARGET static void run_float_ellipsoids(const float_shapes *from, unsigned
                                               float_bounds *out) {
     float_body a, b;
     out->apart = out->inside = 0;
-    for (int at = 0; at < FLOATS; at += LANES) {
+    for (int at = 0; has_more(lanes, at); at += LANES) {
         unsigned open = get_lanes(lanes, at);
         if (!open) continue;
         // The inner ones are worth a look where the spheres overlap by 0.4 of their radii: |t| < 0.6 (z - |t|), and z

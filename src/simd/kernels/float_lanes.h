@@ -74,8 +74,10 @@ LANES_INLINE lane lane_min(lane a, lane b) { return _mm256_min_ps(a, b); }
 
 #else
 
+#ifndef LANES_TARGET
 #define LANES_TARGET
 #define LANES_INLINE static inline
+#endif
 
 typedef float lane;
 typedef int lane_mask;

@@ -321,6 +321,51 @@ LANES_INLINE common_point find_common(const inner_columns *a, const inner_column
     return (common_point){is_proven, x, upper};
 }
 
+// inner_compute_upper_in_world, and small_run_inner's test of the line of centres.
+LANES_INLINE unsigned find_common_in_world(const inner_columns *a, const inner_columns *b, const pair8_query *query,
+                                           const pair8 *o, pair8_common *out, int at) {
+    lane zero = lane_set(0), one = lane_set(1), most = lane_set(1 - 1e-5), radii = get(&o->radii, at);
+    lane claim = lane_set(query->claim) * get(&o->size, at) + lane_set(2 * query->hidden);
+    lane least_a = get(a->w + 6, at), least_b = get(b->w + 6, at), reach = get(a->w + 7, at) + get(b->w + 7, at);
+    lane3 center = get3(a->center, at), center_b = get3(b->center, at), offset = get3(o->offset, at);
+    lane3 line = get3(o->between, at);
+    lane9 world = get9(o->world_a, at), world_b = get9(o->world_b, at);
+    lane3 d = lane3_add(offset, lane3_sub(lane9_mul3(world_b, center_b), lane9_mul3(world, center)));
+    lane_mask near = lane_and(lane_greater(least_a, zero), lane_greater(least_b, zero));
+    near = lane_and(near, lane_less(lane3_dot(d, d), reach * reach));
+    near = lane_and(near, lane_greater(lane3_dot(line, line), lane_set(1e-150)));
+    if (!lane_bits(near)) return 0;
+    lane3 segment = lane9_mul3_transposed(world, d);
+    lane ka = norm_of(a->w, segment, at), kb = norm_of(b->w, lane9_mul3_transposed(world_b, d), at);
+    near = lane_and(near, lane_less(ka * kb, lane_set(0.999) * (ka + kb)));
+    lane3 x = lane3_add_scaled(center, segment, kb / (ka + kb));
+    lane3 in_b = lane9_mul3_transposed(world_b, lane3_sub(lane9_mul3(world, x), offset));
+    lane na = norm_in(a->w, center, x, at), nb = norm_in(b->w, center_b, in_b, at) + lane_set(2) * claim / least_b;
+    lane upper = lane_set(-0.999) * ((one - na) * least_a + (one - nb) * least_b) - radii;
+    lane_mask inside = lane_and(lane_less(na, most), lane_less(nb, most));
+    put3(out->x, at, x);
+    put(&out->upper, at, upper);
+    return lane_bits(lane_and(lane_and(near, inside), lane_less(upper, zero)));
+}
+
+LANES_INLINE void read_inner(const pair8_ellipsoids *from, int end, inner_columns *a, inner_columns *b) {
+    // The tenth number is the first one of the inner centre, which follows.
+    read_columns((lane_rows){from->outer_a, 9, end}, 4, a->center);
+    read_columns((lane_rows){from->outer_b, 9, end}, 4, b->center);
+    read_columns((lane_rows){from->inner_a, 0, end}, 8, a->w);
+    read_columns((lane_rows){from->inner_b, 0, end}, 8, b->w);
+}
+
+LANES_TARGET static unsigned run_inner(const pair8_ellipsoids *from, const pair8_query *query, const pair8 *o,
+                                       pair8_common *out) {
+    inner_columns a, b;
+    int end = get_end(o);
+    unsigned all = 0;
+    read_inner(from, end, &a, &b);
+    for (int at = 0; at < end; at += LANES) all |= find_common_in_world(&a, &b, query, o, out, at) << at;
+    return all;
+}
+
 // The gap of the enclosing spheres along the line of centres (take_spheres in answer.c).
 LANES_INLINE lane compute_sphere_gap(const pair8 *o, const related *f, int at, lane_mask *good) {
     lane3 d = lane3_sub(get_b(f, get3(o->center_b, at)), get3(o->center_a, at));
@@ -410,11 +455,7 @@ LANES_INLINE void start_ellipsoids(const pair8_ellipsoids *from, ellipsoid_work 
     read_columns((lane_rows){from->outer_a, 0, end}, 10, outer_a);
     read_columns((lane_rows){from->outer_b, 0, end}, 10, outer_b);
     for (int at = 0; at < end; at += LANES) relate(w, outer_a, outer_b, at);
-    // The tenth number is the first one of the inner centre, which follows.
-    read_columns((lane_rows){from->outer_a, 9, end}, 4, a.center);
-    read_columns((lane_rows){from->outer_b, 9, end}, 4, b.center);
-    read_columns((lane_rows){from->inner_a, 0, end}, 8, a.w);
-    read_columns((lane_rows){from->inner_b, 0, end}, 8, b.w);
+    read_inner(from, end, &a, &b);
     unsigned inner = 0, line = 0, all = (1u << end) - 1;
     for (int at = 0; at < end; at += LANES) {
         inner |= compute_inner(w, &a, &b, at) << at;

@@ -72,7 +72,7 @@ static void check_beside_single(int is_within, int i) {
     stages[v->stage]++;
 }
 
-// In another order, and in batches of every length up to two groups and more.
+// In another order, and in batches of every length up to two groups and more; each couple alone, too.
 static void check_neighbors(int is_within) {
     static ovoid_couple other[COUPLES];
     static ovoid_verdict found[COUPLES];
@@ -82,7 +82,7 @@ static void check_neighbors(int is_within) {
     CHECK(ask(is_within, &batch) == OVOID_OK);
     for (int i = 0; i < COUPLES; i++) CHECK(memcmp(&found[i], &verdicts[(i * 7 + 3) % COUPLES], sizeof *found) == 0);
     for (size_t count = 1; count < LENGTHS; count++)
-        for (size_t from = 0; from + count <= COUPLES; from += 5 * count) {
+        for (size_t from = 0; from + count <= COUPLES; from += count == 1 ? 1 : 5 * count) {
             memset(found, 7, sizeof found);
             batch.couples = couples + from;
             batch.couple_count = count;

@@ -5,6 +5,7 @@
 
 #include "check.h"
 #include "ovoid/ovoid.h"
+#include "pair/inner.h"
 #include "pair/reject.h"
 
 enum { SHAPES = 24, ROUNDS = 400 };
@@ -19,6 +20,8 @@ static ovoid_posed_shape bodies[PAIR8_GROUPS][2][PAIR8];
 static pair8_places places[PAIR8_GROUPS];
 static pair8 truth[PAIR8_GROUPS], other[PAIR8_GROUPS];
 static pair8_group expected[PAIR8_GROUPS], found[PAIR8_GROUPS];
+
+static uint64_t common_count;
 
 static int make_shapes(uint64_t *s) {
     for (int i = 0; i < SHAPES; i++) {
@@ -127,6 +130,26 @@ static void check_part(const pair8_kernels *scalar, const pair8_kernels *kernels
     }
 }
 
+// Common points in the world, beside those of the single query.
+static void check_common(const pair8_kernels *kernels, const pair8_query *ask, unsigned odd) {
+    pair8_common common;
+    unsigned proven = kernels->inner(&expected[0].from, ask, &truth[0], &common);
+    for (unsigned rest = get_lanes(&truth[0]) & ~odd; rest; rest &= rest - 1) {
+        unsigned k = (unsigned)__builtin_ctz(rest);
+        const ovoid_posed_shape *a = &bodies[0][0][k], *b = &bodies[0][1][k];
+        ovoid_pair pair = {a->shape, b->shape, a->pose, b->pose};
+        pair_frame f;
+        vec3 x;
+        if (frame_place(&pair, &f) != OVOID_LIMIT_NONE) continue;
+        double upper = vec3_norm_squared(f.between) > 1e-150 ? inner_compute_upper_in_world(&f, &x) : 0;
+        CHECK((proven >> k & 1) == (upper < 0));
+        if (!(upper < 0)) continue;
+        common_count++;
+        CHECK_EQ(common.upper.lane[k], upper);
+        CHECK(common.x[0].lane[k] == x.x && common.x[1].lane[k] == x.y && common.x[2].lane[k] == x.z);
+    }
+}
+
 static void check_meet(const pair8_kernels *scalar, const pair8_kernels *kernels, uint64_t *s) {
     lane_column *x = &truth[0].high_value;
     for (int i = 0; i < 8; i++)
@@ -165,6 +188,7 @@ int main(void) {
             check_place(scalar, kernels, &ask);
             ask.keeps_all = 1;
             check_place(scalar, kernels, &ask);
+            check_common(kernels, &ask, scalar->spheres(&places[0], &ask, &truth[0]).odd);
             check_part(scalar, kernels, &ask, 1 + (unsigned)round % PAIR8_GROUPS);
             check_meet(scalar, kernels, &s);
         }
@@ -174,7 +198,7 @@ int main(void) {
         odd += (uint64_t)__builtin_popcount(expected[0].found.odd & lanes);
     }
     // Every way was gone.
-    CHECK(apart > 100 && inner > 100 && odd > 10);
+    CHECK(apart > 100 && inner > 100 && odd > 10 && common_count > 100);
     CHECK(strcmp(simd_isa_get_name(SIMD_AVX512), "avx512") == 0);
     for (int i = 0; i < SHAPES; i++) ovoid_shape_destroy(shapes[i]);
     return check_end();

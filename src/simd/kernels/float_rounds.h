@@ -1,0 +1,171 @@
+// The search of float_gjk.h in lanes, written once over lanes of floats: simd/floats/scalar.c, avx2.c and avx512.c
+// include this. The vertices are columns, and a support is a maximum over them.
+#include "simd/kernels/float_gjk.h"
+#include "simd/kernels/simplex_step.h"
+
+// The bodies of one side.
+typedef struct float_side {
+    lane factor;
+    const float *const *bodies;
+    const uint32_t *own; // eights of each
+    int is_uniform;      // 1 if all have as many as the group
+} float_side;
+
+// Eight columns, number i of all. Eights beyond a body's own repeat its first.
+LANES_INLINE void read_vertices(const float_side *side, uint32_t i, uint32_t blocks, int at, lane c[8]) {
+    const float *rows[FLOATS];
+    for (int k = at; k < at + LANES; k++) {
+        uint32_t own = side->own[k], block = i % blocks;
+        uint32_t row = side->is_uniform ? i : i / blocks * own + (block < own ? block : 0);
+        rows[k] = side->bodies[k] + 8 * row;
+    }
+    read_eight(rows, at, c);
+    for (int j = 0; j < 8; j++) c[j] = c[j] * side->factor;
+}
+
+LANES_INLINE int is_uniform(const uint32_t own[FLOATS], uint32_t blocks, int at) {
+    uint32_t differs = 0;
+    for (int k = at; k < at + LANES; k++) differs |= own[k] ^ blocks;
+    return !differs;
+}
+
+// The columns of one body of each couple. Idle lanes that stay idle are overwritten too where no lane is kept.
+LANES_INLINE void load_body(float_side *side, const float_column *factors, float_column *to, const float_gjk *s,
+                            unsigned lanes) {
+    for (int at = 0; has_more(lanes, at); at += LANES) {
+        if (!get_lanes(lanes, at)) continue;
+        float_places places = get_places(s, lanes, at);
+        lane c[8];
+        side->factor = get(factors, at);
+        side->is_uniform = is_uniform(side->own, s->blocks, at);
+        for (uint32_t i = 0; i < 3 * s->blocks; i++) {
+            read_vertices(side, i, s->blocks, at, c);
+            for (uint32_t j = 0; j < 8; j++) put_new(&to[8 * i + j], at, &places, c[j]);
+        }
+    }
+}
+
+LANES_TARGET static void run_float_load(const float_points *from, unsigned lanes, float_gjk *to) {
+    float_side a = {lane_set(0), from->a, from->blocks_a, 0}, b = {lane_set(0), from->b, from->blocks_b, 0};
+    load_body(&a, &to->query.factor_a, to->a, to, lanes);
+    load_body(&b, &to->query.factor_b, to->b, to, lanes);
+}
+
+// ---- supports
+
+LANES_INLINE lane3 get_vertex(const float_column *p, int count, int i, int at) {
+    return (lane3){get(&p[i], at), get(&p[count + i], at), get(&p[2 * count + i], at)};
+}
+
+LANES_INLINE void take_better(float_support *best, float_support other, int is_least) {
+    lane_mask is_better = is_least ? lane_less(other.value, best->value) : lane_greater(other.value, best->value);
+    best->value = is_least ? lane_min(other.value, best->value) : lane_top(other.value, best->value);
+    best->at = lane3_select(is_better, other.at, best->at);
+}
+
+LANES_INLINE float_support measure(const float_column *p, int count, int i, lane3 n, int at) {
+    lane3 v = get_vertex(p, count, i, at);
+    return (float_support){lane3_dot(v, n), v};
+}
+
+// The greatest of `count` vertices, or the least. Two chains, as each comparison waits for the one before.
+LANES_INLINE float_support find_extreme(const float_column *p, int count, lane3 n, int at, int is_least) {
+    float_support even = measure(p, count, 0, n, at), odd = measure(p, count, 1, n, at);
+    for (int i = 2; i < count; i += 2) {
+        take_better(&even, measure(p, count, i, n, at), is_least);
+        take_better(&odd, measure(p, count, i + 1, n, at), is_least);
+    }
+    take_better(&even, odd, is_least);
+    return even;
+}
+
+// ---- rounds
+
+// Adds what a vector of lanes found.
+LANES_INLINE void add_ends(float_ends *all, const lane_mask ends[3], lane_mask goes, unsigned live, int at) {
+    unsigned apart = lane_bits(ends[0]) & live, near = lane_bits(ends[1]) & live, inside = lane_bits(ends[2]) & live;
+    all->apart |= apart << at;
+    all->near |= near << at;
+    all->inside |= inside << at;
+    all->open |= (live & ~(apart | near | inside | lane_bits(goes))) << at;
+}
+
+// In the lanes that go on the new corner takes the place of the first that does not stay.
+LANES_INLINE void replace_corner(float_gjk *s, int at, const lane_step *step, lane3 w) {
+    lane_mask taken = lane_not(step->goes);
+    for (int i = 0; i < 3; i++) {
+        lane_mask here = lane_and(lane_not(taken), lane_not(step->keeps[i]));
+        taken = lane_or(taken, here);
+        put_some3(&s->old[3 * i], at, here, w);
+        lane_mask stays = lane_or(here, step->keeps[i]), was = lane_sign(get(&s->is_valid[i], at));
+        stays = lane_or(lane_and(step->goes, stays), lane_and(lane_not(step->goes), was));
+        lane_store_mask(s->is_valid[i].lane + at, stays);
+    }
+}
+
+LANES_INLINE void advance_lanes(float_gjk *s, int at, int count, float_ends *all) {
+    lane3 n = get3(s->n, at), old[3];
+    lane_mask valid[3];
+    unsigned live = get_lanes(s->live, at);
+    float_support high_a = find_extreme(s->a, count, n, at, 0);
+    float_support low_b = find_extreme(s->b, count, turn_to_b(s, n, at), at, 1);
+    float_meeting m = meet(s, n, at, high_a, low_b);
+    for (int i = 0; i < 3; i++) {
+        old[i] = get3(&s->old[3 * i], at);
+        valid[i] = lane_sign(get(&s->is_valid[i], at));
+    }
+    lane claim = get(&s->query.claim, at), near_to = get(&s->query.near, at), zero = lane_set(0);
+    lane square = get(&s->square, at), height = get(&s->height, at), scale = lane_set(1) / lane_sqrt(square);
+    lane lower = m.gap * scale - claim, upper = lane3_norm(m.w) + claim, steps = get(&s->steps, at) + lane_set(1);
+    lane_mask apart = lane_greater(lower, get(&s->query.far, at));
+    lane_mask positive = lane_and(lane_greater(lower, zero), lane_not(apart)), near = lane_at_most(upper, near_to);
+    lane_mask nearer = lane_and(lane_at_most(height * scale + claim, near_to), lane_not(near));
+    near = lane_and(positive, near);
+    nearer = lane_and(positive, nearer);
+    if (lane_bits(nearer) & live) {
+        lane norm = compute_norm(old, valid) + claim;
+        nearer = lane_and(nearer, lane_at_most(norm, near_to));
+        near = lane_or(near, nearer);
+        upper = lane_select(nearer, norm, upper);
+    }
+    lane_step step = step_lanes(old, valid, m.w);
+    lane_mask goes = lane_not(lane_or(apart, near)), inside = lane_and(goes, step.inside);
+    if (lane_bits(inside) & live) {
+        lane depth = measure_tetrahedron(old, m.w);
+        inside = lane_and(inside, lane_greater(depth, claim));
+        upper = lane_select(inside, claim - depth, upper);
+    }
+    lane high = lane3_dot(step.n, m.w), norm = lane3_dot(step.n, step.n);
+    lane_mask gains = lane_less(high * high * square, height * height * norm);
+    // A support that is a corner again gains nothing. A height within the error says nothing of the sign.
+    gains =
+        lane_and(gains, lane_and(lane_greater(norm, lane_set(1e-30)), lane_greater(high * high, claim * claim * norm)));
+    gains = lane_and(gains, lane_less(steps, lane_set(s->most)));
+    step.goes = lane_and(lane_and(goes, lane_not(step.inside)), lane_and(gains, lane_from_bits(live)));
+    replace_corner(s, at, &step, m.w);
+    put_some3(s->n, at, step.goes, step.n);
+    put(&s->height, at, lane_select(step.goes, high, height));
+    put(&s->square, at, lane_select(step.goes, norm, square));
+    put(&s->steps, at, steps);
+    put(&s->lower, at, lower);
+    put(&s->upper, at, upper);
+    add_ends(all, (lane_mask[3]){apart, near, inside}, step.goes, live, at);
+}
+
+LANES_INLINE float_ends advance_all(float_gjk *s, int count) {
+    float_ends all = {0, 0, 0, 0};
+    for (int at = 0; has_more(s->live, at); at += LANES)
+        if (get_lanes(s->live, at)) advance_lanes(s, at, count, &all);
+    s->live &= ~(all.apart | all.near | all.inside | all.open);
+    return all;
+}
+
+// Loops of a known length.
+LANES_TARGET static float_ends run_float_advance(float_gjk *s) {
+    switch (s->blocks) {
+    case 1: return advance_all(s, 8);
+    case 2: return advance_all(s, 16);
+    case 3: return advance_all(s, 24);
+    default: return advance_all(s, 32);
+    }
+}
