@@ -238,8 +238,8 @@ typedef struct ovoid_witness {
  * is as narrow as the question needs, and a valid proof. It may give other bits: another stage may decide, with another
  * bracket, other points and another proof. Statuses may differ only where options.iterations end a search.
  *
- * From four couples on a batch takes no more time than as many single queries; of three it takes up to 1.2 times as
- * much, of two up to 1.5, of one up to 1.9.
+ * From four couples on a batch takes less time than as many single queries, or at most 1.07 times as much; of three it
+ * takes up to 1.2 times as much, of two up to 1.5, of one up to 1.9.
  *
  * Earlier proofs save time for couples near each other, at no further cost if proofs are written anyway. For yes or no
  * about couples that are mostly far apart leave the proofs out: in lanes the spheres decide a couple in a quarter of
