@@ -141,6 +141,9 @@ template <class S> OVOID_FCL_INLINE bool collide_swept(contact_list<S> &to, cons
         return true;
     }
     if (to.room() > 1 && has_faces(*pair.a) && has_faces(*pair.b)) return collide_faces<S>(to, pair);
+    // The one contact of two boxes is in the middle of the faces that meet, which their shapes know.
+    if (pair.a->core == OVOID_SWEPT_BOX && pair.b->core == OVOID_SWEPT_BOX)
+        return ovoid_swept_collide(pair).status == OVOID_SEPARATED;
     measured depth;
     depth.bracket = ovoid_swept_contact(pair, &depth.at);
     if (depth.bracket.status == OVOID_UNDECIDED) return false;

@@ -5,10 +5,11 @@
 //
 // Errors, as in swept.c: a support point is one of its core to 60 u s, and no point of the core is farther along the
 // unit direction by more than that; the weights of a nearest point are off by a few u.
-#include "query/swept_search.h"
+#include "query/swept/search.h"
 
 #include "base/compiler.h"
 #include "pair/simplex.h"
+#include "query/swept/patch.h"
 #include "simd/corner.h"
 
 enum { SEARCH_STEPS = 60, IDLE_STEPS = 3 };
@@ -25,58 +26,6 @@ typedef struct heading {
     vec3 n;
     double square, distance;
 } heading;
-
-// ---- supports: a core's point, from its centre, that is the farthest along n, of any length. square: of that length
-
-// The part of n across the axis, of which z is the part along it. Where not much is left, rounding has left some of it
-// along the axis, up to 4 u |n|: of the second pass that leaves 8 u^2 |n|, which is 2 u of what is kept.
-COMPILER_INLINED vec3 find_across(vec3 axis, vec3 n, double z, double square) {
-    vec3 off = vec3_add_scaled(n, axis, -z);
-    if (vec3_norm_squared(off) > 0x1p-6 * square) return off;
-    off = vec3_add_scaled(off, axis, -vec3_dot(axis, off));
-    return vec3_norm_squared(off) > 0x1p-102 * square ? off : (vec3){0, 0, 0};
-}
-
-COMPILER_INLINED vec3 find_round_end(const ovoid_swept_sphere *s, vec3 n, double square) {
-    vec3 axis = s->axis[0];
-    double z = vec3_dot(axis, n), h = s->half[0], radius = s->half[1];
-    vec3 off = find_across(axis, n, z, square);
-    double across = sqrt(vec3_norm_squared(off)), scale = across > 0 ? radius / across : 0;
-    // The apex of a cone, or the rim of its base.
-    if (s->core == OVOID_SWEPT_CONE && 2 * h * z >= radius * across) return vec3_scale(axis, h);
-    return vec3_add_scaled(vec3_scale(axis, s->core == OVOID_SWEPT_CONE ? -h : copysign(h, z)), off, scale);
-}
-
-// The point along m, in the hull's axes.
-COMPILER_NOINLINE static vec3 find_farthest(const ovoid_swept_sphere *s, vec3 m) {
-    size_t best = 0;
-    double most = -INFINITY;
-    for (size_t i = 0; i < s->count; i++) {
-        double height = vec3_dot(vec3_at(s->points, i), m);
-        best = height > most ? i : best;
-        most = max2(height, most);
-    }
-    return vec3_at(s->points, best);
-}
-
-COMPILER_INLINED vec3 find_end(const ovoid_swept_sphere *s, vec3 n, double square) {
-    const double *half = s->half;
-    if (s->core == OVOID_SWEPT_CYLINDER || s->core == OVOID_SWEPT_CONE) return find_round_end(s, n, square);
-    if (s->core == OVOID_SWEPT_POINT) return (vec3){0, 0, 0};
-    vec3 m = {vec3_dot(s->axis[0], n), 0, 0};
-    if (s->core == OVOID_SWEPT_SEGMENT) return vec3_scale(s->axis[0], copysign(half[0], m.x));
-    m.y = vec3_dot(s->axis[1], n), m.z = vec3_dot(s->axis[2], n);
-    if (s->core == OVOID_SWEPT_POINTS) {
-        m = find_farthest(s, m);
-    } else if (s->core == OVOID_SWEPT_BOX) {
-        m = (vec3){copysign(half[0], m.x), copysign(half[1], m.y), copysign(half[2], m.z)};
-    } else {
-        m = (vec3){half[0] * m.x, half[1] * m.y, half[2] * m.z};
-        double length = vec3_norm(m), scale = length > 0 ? 1 / length : 0;
-        m = (vec3){half[0] * (m.x * scale), half[1] * (m.y * scale), half[2] * (m.z * scale)};
-    }
-    return vec3_add(vec3_add_scaled(vec3_scale(s->axis[0], m.x), s->axis[1], m.y), vec3_scale(s->axis[2], m.z));
-}
 
 // ---- the simplex
 
@@ -188,7 +137,8 @@ swept_end swept_find_nearest(const swept_search *query, nearest_pair *found) {
     int idle = 0;
     set_corner(&c, query->start, query->on_a);
     for (int k = 0; k < SEARCH_STEPS; k++) {
-        vec3 on_a = find_end(query->a, to.n, to.square), on_b = find_end(query->b, vec3_neg(to.n), to.square);
+        vec3 on_a = patch_find_end(query->a, to.n, to.square),
+             on_b = patch_find_end(query->b, vec3_neg(to.n), to.square);
         vec3 w = vec3_sub(vec3_add(query->d, on_b), on_a);
         double length = sqrt(to.square), gap = vec3_dot(to.n, w) / length;
         found->gap = gap;

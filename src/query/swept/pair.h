@@ -102,6 +102,13 @@ static inline ovoid_verdict swept_answer(const swept_placed *p, swept_question a
     return v;
 }
 
+// A point of the core, from its centre: that itself, but of a hull.
+static inline vec3 swept_find_middle(const swept *s) {
+    const double *h = s->half;
+    if (s->core != OVOID_SWEPT_POINTS) return (vec3){0, 0, 0};
+    return vec3_add_scaled(vec3_add_scaled(vec3_scale(s->axis[0], h[0]), s->axis[1], h[1]), s->axis[2], h[2]);
+}
+
 // ---- the way from a core to a point
 
 // A point y from the centre of a core: the vector to it from the nearest point of the core; or of a point in the core a

@@ -1,9 +1,10 @@
 // Swept spheres without a closed form. The centre of one body has a nearest point of the other one's core, and that a
-// nearest point of the first core: these show most overlaps, and most other pairs' search (query/swept_search.h) starts
+// nearest point of the first core: these show most overlaps, and most other pairs' search (query/swept/search.h) starts
 // near its end.
-#include "query/swept_approach.h"
+#include "query/swept/approach.h"
 
-#include "query/swept_search.h"
+#include "query/swept/overlap.h"
+#include "query/swept/search.h"
 
 // A length that is within the core from its centre in all directions.
 static inline double find_inner_reach(const swept *s) {
@@ -46,19 +47,12 @@ typedef struct approach {
     vec3 back;    ///< from there to Y's point
 } approach;
 
-// A point of the core, from its centre: that itself, but of a hull.
-static inline vec3 find_middle(const swept *s) {
-    const double *h = s->half;
-    if (s->core != OVOID_SWEPT_POINTS) return (vec3){0, 0, 0};
-    return vec3_add_scaled(vec3_add_scaled(vec3_scale(s->axis[0], h[0]), s->axis[1], h[1]), s->axis[2], h[2]);
-}
-
 // Is the way to a core its distance? That to an ellipsoid and a hull is longer.
 static inline int is_measured(const swept *s) { return s->core < OVOID_SWEPT_ELLIPSOID; }
 
 // How far a point is from a core, or more, and below zero inside. *off: the way to it, zero inside.
 static inline double measure_way(const swept *core, vec3 y, double claim, vec3 *off) {
-    swept_way_out out = core->core == OVOID_SWEPT_POINTS      ? (swept_way_out){0, vec3_sub(y, find_middle(core)), 0}
+    swept_way_out out = core->core == OVOID_SWEPT_POINTS ? (swept_way_out){0, vec3_sub(y, swept_find_middle(core)), 0}
                         : core->core == OVOID_SWEPT_ELLIPSOID ? leave_ellipsoid(core, y, claim)
                                                               : swept_leave_core(core, y);
     if (!(out.is_inside || out.depth > 0)) {
@@ -71,7 +65,7 @@ static inline double measure_way(const swept *core, vec3 y, double claim, vec3 *
 
 static inline approach find_approach(const swept_placed *p, int is_x_b) {
     approach to = {.x = is_x_b ? p->b : p->a, .y = is_x_b ? p->a : p->b, .is_x_b = is_x_b};
-    vec3 middle = find_middle(to.y), way = vec3_add(is_x_b ? vec3_neg(p->d) : p->d, middle), off, next;
+    vec3 middle = swept_find_middle(to.y), way = vec3_add(is_x_b ? vec3_neg(p->d) : p->d, middle), off, next;
     to.gap = measure_way(to.x, way, p->claim, &off);
     to.on_x = vec3_sub(way, off);
     to.after = measure_way(to.y, vec3_sub(middle, off), p->claim, &next);
@@ -105,8 +99,8 @@ static inline swept_search make_search(const swept_placed *p, const approach *at
                           .claim = 2 * p->claim};
     // Points that are one to rounding have no direction: those at the centres have.
     if (!(at->after > 0x1p-40 * p->size)) {
-        query.on_a = find_middle(p->a);
-        query.start = vec3_sub(vec3_add(p->d, find_middle(p->b)), query.on_a);
+        query.on_a = swept_find_middle(p->a);
+        query.start = vec3_sub(vec3_add(p->d, swept_find_middle(p->b)), query.on_a);
     }
     query.first = query.start;
     return query;
@@ -124,7 +118,7 @@ ovoid_verdict swept_approach(const swept_placed *p, swept_question asked, ovoid_
         vec3 n = vec3_unit(p->d);
         return answer_overlap(p, common, vec3_norm_squared(n) > 0.5 ? n : (vec3){1, 0, 0}, witness);
     }
-    if (asked & OF_CONTACT && min2(at.gap, at.after) < -p->claim) return swept_undecided;
+    if (asked & OF_CONTACT && min2(at.gap, at.after) < -p->claim) return swept_measure_overlap(p, witness);
     const swept_search query = make_search(p, &at, asked, tolerance);
     nearest_pair found;
     if (!(vec3_norm_squared(query.start) > LEAST * LEAST)) return swept_undecided;
@@ -132,7 +126,7 @@ ovoid_verdict swept_approach(const swept_placed *p, swept_question asked, ovoid_
     case SWEPT_BEYOND:
         return swept_make_verdict(found.gap - p->radii - p->claim, p->far - p->radii + p->claim, tolerance);
     case SWEPT_INSIDE:
-        if (asked & OF_CONTACT) return swept_undecided;
+        if (asked & OF_CONTACT) return swept_measure_overlap(p, witness);
         return answer_overlap(p, vec3_add(p->a->center, found.point_a), found.normal, witness);
     case SWEPT_NEAREST: return swept_answer(p, asked, &found, tolerance, witness);
     default: return swept_undecided;

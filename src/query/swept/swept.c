@@ -1,7 +1,7 @@
 // Queries of swept spheres (ovoid/swept.h): closed forms without shapes, frames and proofs. Of a point and another core
 // the point's coordinates along the other one's axes, cut off at its ends, of a cylinder and a cone in the plane of
 // axis and point; of segments, and of a box and a segment, the nearest points of linear/nearest.h; of two boxes the
-// separating axes. Other pairs are searched (query/swept_approach.h).
+// separating axes. Other pairs are searched (query/swept/approach.h).
 //
 // Errors, in parts u s, u = 2^-53, s the sum of both bodies' reaches and radii and of the distance of the centres. The
 // axes are numbers that are given, so nothing is turned, and what is measured in the world (pair/reject.h, off by less
@@ -21,7 +21,8 @@
 #include "ovoid/swept.h"
 #include "base/compiler.h"
 #include "base/environment.h"
-#include "query/swept_approach.h"
+#include "query/swept/approach.h"
+#include "query/swept/overlap.h"
 
 #define SAT_DOUBT 0x1p-34
 #define SAT_PARALLEL 0x1p-40
@@ -175,7 +176,8 @@ COMPILER_NOINLINE static ovoid_verdict measure_nearest(const swept_placed *p, sw
     const nearest_core a = scale_axes(p->a, axes_a), b = scale_axes(p->b, axes_b);
     nearest_pair found;
     nearest_find(&a, &b, p->d, &found);
-    return swept_answer(p, asked, &found, TOLERANCE * p->size, witness);
+    ovoid_verdict v = swept_answer(p, asked, &found, TOLERANCE * p->size, witness);
+    return v.status == OVOID_UNDECIDED && asked & OF_CONTACT ? swept_measure_overlap(p, witness) : v;
 }
 
 static inline int has_half_axes(unsigned core) { return core == OVOID_SWEPT_SEGMENT || core == OVOID_SWEPT_BOX; }
@@ -193,7 +195,7 @@ COMPILER_INLINED ovoid_verdict find(ovoid_swept_pair pair, swept_question asked,
         return measure_point(&p, asked, witness, &v) ? v : swept_undecided;
     if ((a == OVOID_SWEPT_BOX) & (b == OVOID_SWEPT_BOX) & !(p.radii > 0) & !(asked & OF_DISTANCE)) {
         v = separate_boxes(&p);
-        return v.status == OVOID_OVERLAPPING && asked & OF_CONTACT ? swept_undecided : v;
+        return asked & OF_CONTACT && v.status != OVOID_SEPARATED ? swept_measure_overlap(&p, witness) : v;
     }
     if ((a == OVOID_SWEPT_SEGMENT) & (b == OVOID_SWEPT_SEGMENT) && measure_segments(&p, asked, witness, &v)) return v;
     if ((a == OVOID_SWEPT_SEGMENT && has_half_axes(b)) || (a == OVOID_SWEPT_BOX && b == OVOID_SWEPT_SEGMENT))

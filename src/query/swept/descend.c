@@ -1,0 +1,395 @@
+// A local minimum of the overlap of two cores over the directions: Newton's method for the greatest of several smooth
+// functions (R. Fletcher, Practical methods of optimization, 1987, 14.2). h(n) is the greatest of its pieces
+// (query/swept/patch.h); near a minimum up to three are as great as h. With n + t for n, t across n, a piece is
+// v + g.t + t.H t / 2 + ..., and what is sought is the least of their maximum less h(n) |n + t|. A piece that is found
+// to be greater is added, one whose weight is below 0 is dropped.
+//
+// Around a facet's normal no piece of the rim is smooth: facets are looked at by themselves, in closed form.
+#include "query/swept/descend.h"
+
+enum { DESCENT_STEPS = 12 };
+// The cosine of the angle within which a facet is looked at.
+#define FACET_COSINE 0.94
+// The first step at most, and the longest one.
+#define FIRST 0.2
+#define LONGEST 0.5
+// Tangents of the widest and the narrowest angle that is looked at around a minimum, and of the next one to each.
+#define WIDEST 1.5
+#define NARROWEST 0.01
+#define NARROWER 0.7
+#define WIDER 1.2
+// The step aside from the axis of a rim.
+#define ASIDE 0.05
+// Where the descent ends, as parts of the size: the slope, and how far pieces are from equal.
+#define FLAT 1e-9
+#define EVEN 1e-13
+
+overlap_ends cores_find_ends(const cores *p, vec3 n) {
+    vec3 on_a = patch_find_end(p->a, n, 1), on_b = patch_find_end(p->b, vec3_neg(n), 1);
+    return (overlap_ends){on_a, on_b, vec3_sub(vec3_sub(on_a, on_b), p->d)};
+}
+
+// ---- facets
+
+// A facet whose normal is near n: its number, an axis, or -1; *normal outward.
+static int find_facet(const ovoid_swept_sphere *s, vec3 n, vec3 *normal) {
+    int count = s->core == OVOID_SWEPT_BOX ? 3 : s->core == OVOID_SWEPT_CYLINDER || s->core == OVOID_SWEPT_CONE;
+    for (int k = 0; k < count; k++) {
+        double along = vec3_dot(s->axis[k], n);
+        if (!(fabs(along) > FACET_COSINE) || (s->core == OVOID_SWEPT_CONE && along > 0)) continue;
+        *normal = along < 0 ? vec3_neg(s->axis[k]) : s->axis[k];
+        return k;
+    }
+    return -1;
+}
+
+// How far a point is within the edges of the facet, and below 0 beside it.
+static double measure_inside(const ovoid_swept_sphere *s, int facet, vec3 y) {
+    if (s->core != OVOID_SWEPT_BOX)
+        return s->half[1] - vec3_norm(vec3_add_scaled(y, s->axis[0], -vec3_dot(s->axis[0], y)));
+    double least = INFINITY;
+    for (int k = 0; k < 3; k++)
+        if (k != facet) least = min2(least, s->half[k] - fabs(vec3_dot(s->axis[k], y)));
+    return least;
+}
+
+// The minimum along the normal of a facet near n, if the other core's deepest point is over it.
+static int take_facet(const cores *p, int is_b, vec3 n, least_overlap *to) {
+    const ovoid_swept_sphere *x = is_b ? p->b : p->a, *y = is_b ? p->a : p->b;
+    vec3 normal;
+    int facet = find_facet(x, is_b ? vec3_neg(n) : n, &normal);
+    if (facet < 0) return 0;
+    vec3 end = patch_find_end(y, vec3_neg(normal), 1);
+    vec3 at = is_b ? vec3_sub(end, p->d) : vec3_add(end, p->d);
+    double inside = measure_inside(x, facet, at);
+    if (!(inside > 0)) return 0;
+    double value = x->half[facet] - vec3_dot(normal, at);
+    vec3 foot = vec3_add_scaled(at, normal, value);
+    *to = (least_overlap){.value = value, .lowest = value, .inside = inside};
+    to->of = patch_make_plane(is_b ? vec3_neg(normal) : normal);
+    to->on_a = is_b ? end : foot;
+    to->on_b = is_b ? foot : end;
+    return 1;
+}
+
+// ---- pieces
+
+static int measure_piece(const cores *p, const patch_plane *of, piece *to) {
+    const patch_plane back = {vec3_neg(of->n), {vec3_neg(of->e[0]), vec3_neg(of->e[1])}};
+    if (!patch_find(p->a, to->a, of, &to->on_a) || !patch_find(p->b, to->b, &back, &to->on_b)) return 0;
+    vec3 v = vec3_sub(vec3_sub(to->on_a.at, to->on_b.at), p->d);
+    to->value = vec3_dot(v, of->n);
+    to->g[0] = vec3_dot(v, of->e[0]);
+    to->g[1] = vec3_dot(v, of->e[1]);
+    return 1;
+}
+
+// The piece of that number, or the place of a new one: where there is no room, of the least that is not active.
+static int find_place(least_overlap *at, unsigned a, unsigned b, int *is_known) {
+    int least = LEAST_PIECES - 1;
+    *is_known = 1;
+    for (int i = 0; i < at->count; i++) {
+        if (at->pieces[i].a == a && at->pieces[i].b == b) return i;
+        if (i >= at->active && at->pieces[i].value < at->pieces[least].value) least = i;
+    }
+    *is_known = 0;
+    return at->count < LEAST_PIECES ? at->count++ : least;
+}
+
+typedef enum measured { NOT_SMOOTH, AS_KNOWN, NEW_PIECE } measured;
+
+// Measures the pieces, with the greatest along the direction.
+static measured measure_pieces(const cores *p, least_overlap *at) {
+    const unsigned a = patch_choose(p->a, at->of.n), b = patch_choose(p->b, vec3_neg(at->of.n));
+    int is_known, place = find_place(at, a, b, &is_known);
+    if (!is_known) at->pieces[place] = (piece){.a = a, .b = b};
+    at->value = -INFINITY;
+    for (int i = 0; i < at->count; i++) {
+        if (!measure_piece(p, &at->of, &at->pieces[i])) return NOT_SMOOTH;
+        at->value = max2(at->value, at->pieces[i].value);
+    }
+    return is_known ? AS_KNOWN : NEW_PIECE;
+}
+
+static void exchange_pieces(least_overlap *at, int i, int k) {
+    piece kept = at->pieces[i];
+    at->pieces[i] = at->pieces[k];
+    at->pieces[k] = kept;
+}
+
+// Takes a piece's weight; the others share it.
+static void drop(least_overlap *at, int i) {
+    exchange_pieces(at, i, --at->active);
+    at->pieces[at->active].weight = 0;
+    double sum = 0;
+    for (int k = 0; k < at->active; k++) sum += at->pieces[k].weight = max2(0, at->pieces[k].weight);
+    for (int k = 0; k < at->active; k++) at->pieces[k].weight = sum > 0 ? at->pieces[k].weight / sum : 1.0 / at->active;
+}
+
+// A piece's second derivatives, of which each is divided by what it may be too large by along steps up to `reach`.
+static patch_form add_piece(const piece *x, double weight, double reach) {
+    double a = weight / (1 + reach * x->on_a.ratio), b = weight / (1 + reach * x->on_b.ratio);
+    return (patch_form){a * x->on_a.second.xx + b * x->on_b.second.xx, a * x->on_a.second.xy + b * x->on_b.second.xy,
+                        a * x->on_a.second.yy + b * x->on_b.second.yy};
+}
+
+// Of the active pieces the weighted sum, less h on the diagonal.
+static patch_form add_forms(const least_overlap *at, double reach, double less) {
+    patch_form sum = {-less, 0, -less};
+    for (int i = 0; i < at->active; i++) {
+        const patch_form of = add_piece(&at->pieces[i], at->pieces[i].weight, reach);
+        sum.xx += of.xx, sum.xy += of.xy, sum.yy += of.yy;
+    }
+    return sum;
+}
+
+static double find_least_eigenvalue(const patch_form *q) {
+    double mean = (q->xx + q->yy) / 2, half = (q->xx - q->yy) / 2;
+    return mean - sqrt(half * half + q->xy * q->xy);
+}
+
+typedef struct plane_step {
+    double x, y;
+} plane_step;
+
+static plane_step multiply(const patch_form *q, plane_step t) {
+    return (plane_step){q->xx * t.x + q->xy * t.y, q->xy * t.x + q->yy * t.y};
+}
+
+static plane_step step_of_one(const least_overlap *at) {
+    patch_form q = add_forms(at, 0, at->value);
+    double least = find_least_eigenvalue(&q), wanted = 0.05 * at->value;
+    if (least < wanted) q.xx += 0.25 * at->value - least, q.yy += 0.25 * at->value - least;
+    double det = q.xx * q.yy - q.xy * q.xy;
+    const double *g = at->pieces[0].g;
+    return (plane_step){-(q.yy * g[0] - q.xy * g[1]) / det, -(q.xx * g[1] - q.xy * g[0]) / det};
+}
+
+// Two pieces stay equal: along the line on which they are, to the least. 0 if a piece was dropped.
+static int step_of_two(least_overlap *at, plane_step *to) {
+    piece *p = &at->pieces[0], *q = &at->pieces[1];
+    double gx = p->g[0] - q->g[0], gy = p->g[1] - q->g[1], length = sqrt(gx * gx + gy * gy);
+    if (!(length > 1e-200)) return drop(at, p->value < q->value ? 0 : 1), 0;
+    double fx = gx / length, fy = gy / length, ex = -fy, ey = fx, off = (q->value - p->value) / length;
+    patch_form form = add_forms(at, 0, at->value);
+    plane_step t = {off * fx, off * fy}, along = multiply(&form, t), e = multiply(&form, (plane_step){ex, ey});
+    double bend = ex * e.x + ey * e.y, slope = ex * (p->g[0] + along.x) + ey * (p->g[1] + along.y);
+    double s = bend > 0.05 * at->value ? -slope / bend : slope > 0 ? -LONGEST : LONGEST;
+    t.x += s * ex, t.y += s * ey;
+    along = multiply(&form, t);
+    double weight = -(fx * (q->g[0] + along.x) + fy * (q->g[1] + along.y)) / length;
+    if (!(weight >= 0 && weight <= 1)) return drop(at, weight > 0.5 ? 1 : 0), 0;
+    p->weight = weight, q->weight = 1 - weight;
+    *to = t;
+    return 1;
+}
+
+static int step_of_three(least_overlap *at, plane_step *to) {
+    piece *p = at->pieces;
+    double ax = p[0].g[0] - p[2].g[0], ay = p[0].g[1] - p[2].g[1], bx = p[1].g[0] - p[2].g[0],
+           by = p[1].g[1] - p[2].g[1], det = ax * by - ay * bx;
+    int least = p[0].weight < p[1].weight ? 0 : 1;
+    if (!(fabs(det) > 1e-12 * sqrt((ax * ax + ay * ay) * (bx * bx + by * by)))) return drop(at, least), 0;
+    double u = p[2].value - p[0].value, v = p[2].value - p[1].value;
+    plane_step t = {(u * by - v * ay) / det, (v * ax - u * bx) / det};
+    patch_form form = add_forms(at, 0, at->value);
+    plane_step along = multiply(&form, t);
+    double x = -(p[2].g[0] + along.x), y = -(p[2].g[1] + along.y);
+    double weight[3] = {(x * by - y * bx) / det, (y * ax - x * ay) / det, 0};
+    weight[2] = 1 - weight[0] - weight[1];
+    least = 0;
+    for (int i = 1; i < 3; i++)
+        if (weight[i] < weight[least]) least = i;
+    if (!(weight[least] >= 0)) return drop(at, least), 0;
+    for (int i = 0; i < 3; i++) p[i].weight = weight[i];
+    *to = t;
+    return 1;
+}
+
+static plane_step step_of_active(least_overlap *at) {
+    plane_step t;
+    if (at->active == 3 && step_of_three(at, &t)) return t;
+    if (at->active == 2 && step_of_two(at, &t)) return t;
+    at->pieces[0].weight = 1;
+    return step_of_one(at);
+}
+
+// A piece's value after a step, without what is common to all.
+static double predict(const piece *p, plane_step t) {
+    patch_form form = {p->on_a.second.xx + p->on_b.second.xx, p->on_a.second.xy + p->on_b.second.xy,
+                       p->on_a.second.yy + p->on_b.second.yy};
+    plane_step along = multiply(&form, t);
+    return p->value + p->g[0] * t.x + p->g[1] * t.y + 0.5 * (along.x * t.x + along.y * t.y);
+}
+
+static plane_step limit_step(plane_step t, double reach) {
+    double length = sqrt(t.x * t.x + t.y * t.y), scale = length > reach ? reach / length : 1;
+    return (plane_step){scale * t.x, scale * t.y};
+}
+
+// The least weight of three pieces whose mean slope is none.
+static double find_least_weight(const piece *p, const piece *q, const piece *r) {
+    double ax = p->g[0] - r->g[0], ay = p->g[1] - r->g[1], bx = q->g[0] - r->g[0], by = q->g[1] - r->g[1],
+           det = ax * by - ay * bx;
+    double u = (r->g[1] * bx - r->g[0] * by) / det, v = (r->g[0] * ay - r->g[1] * ax) / det;
+    return min2(1 - u - v, min2(u, v));
+}
+
+// Makes a piece active, in the place of the one of three without which the least weight is the greatest.
+static void add_active(least_overlap *at, int i) {
+    const piece *p = at->pieces;
+    if (at->active < 3) {
+        exchange_pieces(at, i, at->active++);
+        return;
+    }
+    const double left[3] = {find_least_weight(&p[i], &p[1], &p[2]), find_least_weight(&p[0], &p[i], &p[2]),
+                            find_least_weight(&p[0], &p[1], &p[i])};
+    exchange_pieces(at, i, left[0] > left[1] ? (left[0] > left[2] ? 0 : 2) : left[1] > left[2] ? 1 : 2);
+}
+
+// The step to the least of the pieces' maximum, as they are known here.
+static plane_step find_step(least_overlap *at, double reach) {
+    plane_step t = {0, 0};
+    if (at->active == 0) at->active = 1;
+    for (int k = 0; k < 2 * LEAST_PIECES; k++) {
+        t = limit_step(step_of_active(at), reach);
+        int most = 0;
+        double now = -INFINITY, other = -INFINITY;
+        for (int i = 0; i < at->count; i++) {
+            double value = predict(&at->pieces[i], t);
+            if (i < at->active)
+                now = max2(now, value);
+            else if (value > other)
+                other = value, most = i;
+        }
+        if (!(other > now + 1e-14 * at->value)) break;
+        add_active(at, most);
+    }
+    return t;
+}
+
+static double measure_slope(const least_overlap *at) {
+    double x = 0, y = 0;
+    for (int i = 0; i < at->active; i++) {
+        x += at->pieces[i].weight * at->pieces[i].g[0];
+        y += at->pieces[i].weight * at->pieces[i].g[1];
+    }
+    return sqrt(x * x + y * y);
+}
+
+static void set_points(least_overlap *at) {
+    at->on_a = at->on_b = (vec3){0, 0, 0};
+    for (int i = 0; i < at->active; i++) {
+        at->on_a = vec3_add_scaled(at->on_a, at->pieces[i].on_a.at, at->pieces[i].weight);
+        at->on_b = vec3_add_scaled(at->on_b, at->pieces[i].on_b.at, at->pieces[i].weight);
+    }
+}
+
+static int is_flat(least_overlap *at, double size) {
+    at->slope = measure_slope(at);
+    at->lowest = INFINITY;
+    for (int i = 0; i < at->active; i++) at->lowest = min2(at->lowest, at->pieces[i].value);
+    return at->slope <= FLAT * size && at->value - at->lowest <= EVEN * size;
+}
+
+int cores_descend(const cores *p, vec3 from, least_overlap *to) {
+    vec3 n = from, best = from;
+    double least = INFINITY, reach = FIRST, last = FIRST;
+    int is_seen[2] = {0, 0};
+    to->active = 0;
+    for (int k = 0; k < DESCENT_STEPS; k++) {
+        for (int is_b = 0; is_b < 2; is_b++) {
+            vec3 normal;
+            if (is_seen[is_b] || find_facet(is_b ? p->b : p->a, is_b ? vec3_neg(n) : n, &normal) < 0) continue;
+            is_seen[is_b] = 1;
+            if (take_facet(p, is_b, n, to)) return 1;
+        }
+        to->of = patch_make_plane(n);
+        measured is = measure_pieces(p, to);
+        if (is == NOT_SMOOTH) {
+            n = vec3_unit(vec3_add_scaled(n, to->of.e[0], ASIDE));
+            continue;
+        }
+        if (!(to->value > 0)) return 1;
+        if (to->value > least + EVEN * p->size && is == AS_KNOWN) {
+            reach = 0.25 * last;
+            n = best;
+            continue;
+        }
+        if (to->value < least) least = to->value, best = n;
+        plane_step t = find_step(to, reach);
+        if (is_flat(to, p->size)) {
+            to->inside = 0;
+            set_points(to);
+            return 1;
+        }
+        last = sqrt(t.x * t.x + t.y * t.y);
+        reach = min2(LONGEST, max2(reach, 2 * last));
+        n = vec3_unit(vec3_add_scaled(vec3_add_scaled(n, to->of.e[0], t.x), to->of.e[1], t.y));
+    }
+    return 0;
+}
+
+// ---- how far around it no overlap is less
+
+// With t across n*, n* + t is the direction. Of convex pieces with weights w_i whose mean slope is g at n*, and of
+// which the norms that have the second derivatives H_i are |x + y|, |y| <= r |t| |x|: as |x + y| is x' + y' along x and
+// at least |y''|^2 / (2 (|x| + |y|)) more, h(n* + t) >= lowest - |g| |t| + t.M t / 2, M the weighted sum of H_i / (1 +
+// r |t|). Of two pieces, with G = g_1 - g_2, a part of the weight w of one may go to the one that is farther on the
+// side on which t is, which adds that part of w |G.t|; and c x is at least (2 c / tau) x^2 / 2 for x from 0 to tau. h
+// along the unit direction is this over |n* + t|, which is at most 1 + t^2 / 2, and 1 + t^2 / (1 + |n* + a|) for a
+// tangent that is not below a.
+typedef struct angle_ring {
+    double from, to; ///< tangents
+    double wanted;
+    double bent; ///< twice what t^2 is multiplied by, times `wanted`
+} angle_ring;
+
+static angle_ring make_ring(double from, double to, double wanted) {
+    return (angle_ring){from, to, wanted, from > 0 ? 2 * wanted / (1 + sqrt(1 + from * from)) : wanted};
+}
+
+static int is_held(const least_overlap *at, const patch_form *m, const angle_ring *ring) {
+    double bend = find_least_eigenvalue(m) - ring->bent, slope = at->slope;
+    double most = bend > 0 ? slope * slope / (2 * bend) : slope * ring->to - 0.5 * bend * ring->to * ring->to;
+    return at->lowest - ring->wanted >= most;
+}
+
+// On the side on which one of two pieces is farther.
+static int is_side_held(const least_overlap *at, int farther, const angle_ring *ring) {
+    const double reach = ring->to;
+    static const double parts[] = {1, 0.3, 0.05};
+    const piece *p = &at->pieces[farther], *q = &at->pieces[1 - farther];
+    double gx = p->g[0] - q->g[0], gy = p->g[1] - q->g[1], length = sqrt(gx * gx + gy * gy);
+    const patch_form of_p = add_piece(p, 1, reach), of_q = add_piece(q, 1, reach);
+    for (int i = 0; i < 3 && length > 0; i++) {
+        double moved = parts[i] * q->weight, w = p->weight + moved, rest = q->weight - moved,
+               kink = 2 * moved / (reach * length);
+        patch_form m = {w * of_p.xx + rest * of_q.xx + kink * gx * gx, w * of_p.xy + rest * of_q.xy + kink * gx * gy,
+                        w * of_p.yy + rest * of_q.yy + kink * gy * gy};
+        if (is_held(at, &m, ring)) return 1;
+    }
+    return 0;
+}
+
+static int is_ring_held(const least_overlap *at, angle_ring ring) {
+    if (at->active == 2) return is_side_held(at, 0, &ring) && is_side_held(at, 1, &ring);
+    const patch_form m = add_forms(at, ring.to, 0);
+    return is_held(at, &m, &ring);
+}
+
+// Of a facet: h >= value cos a + inside sin a at the angle a, which is at least the value up to 2 atan(inside / value).
+static double find_angle_of_facet(const least_overlap *at) {
+    double tangent = at->inside / at->value;
+    return tangent > 0.5 ? 4.0 / 3 : 2 * tangent / (1 - tangent * tangent);
+}
+
+double least_overlap_find_angle(const least_overlap *at, double wanted) {
+    if (at->inside > 0) return at->value >= wanted ? 0.999 * find_angle_of_facet(at) : 0;
+    if (at->active > 2) return 0;
+    double reach = WIDEST;
+    while (!is_ring_held(at, make_ring(0, reach, wanted)))
+        if ((reach *= NARROWER) < NARROWEST) return 0;
+    while (reach < WIDEST && is_ring_held(at, make_ring(reach, reach * WIDER, wanted))) reach *= WIDER;
+    return reach;
+}

@@ -1,0 +1,126 @@
+// The depth of two cores that overlap: the least overlap over all directions, which a local search finds
+// (query/swept/descend.c) and one of three proofs shows to be the least of all, the cheapest first:
+// - a point of one core, or a ball in it that touches its surface there, is no nearer to leaving the other core, in
+//   closed form. That it has to leave is all that the overlap needs;
+// - two such balls are larger together than the overlap;
+// - a polytope in the difference body holds a ball of that radius (query/swept/enclose.c).
+#include "query/swept/overlap.h"
+
+#include "query/swept/enclose.h"
+
+enum { EXCHANGES = 3 };
+
+// The radius of a ball in the core that touches its surface from within at its farthest point along n, where that is
+// `reach` along n from the centre. Of an ellipsoid: with E its form, q another point of it and p that one,
+// |q - p|^2 / (2 n.(p - q)) is |q - p|^2 / reach over (q - p).E (q - p), and so no less than the least half axis
+// squared over the reach.
+static double find_ball(const swept *s, double reach) {
+    const double *h = s->half;
+    if (s->core != OVOID_SWEPT_ELLIPSOID) return 0;
+    double least = min2(h[0], min2(h[1], h[2]));
+    return least * least / reach;
+}
+
+typedef struct overlap_search {
+    cores of;
+    double tolerance;
+    double value; ///< the least overlap so far
+    vec3 n;       ///< along this
+    vec3 on_a, on_b;
+    int is_proven; ///< no overlap is less than the value by more than the tolerance
+} overlap_search;
+
+// The overlap along a unit direction, and how the other core's ball there leaves the core X. *next: the direction of
+// that, if it has one.
+static void exchange(overlap_search *s, int is_x_b, vec3 n, vec3 *next) {
+    const swept *x = is_x_b ? s->of.b : s->of.a, *y = is_x_b ? s->of.a : s->of.b;
+    const overlap_ends ends = cores_find_ends(&s->of, n);
+    double value = vec3_dot(n, ends.v);
+    vec3 outward = is_x_b ? vec3_neg(n) : n, on_y = is_x_b ? ends.on_a : ends.on_b;
+    double radius = find_ball(y, -vec3_dot(outward, on_y));
+    vec3 at = vec3_add_scaled(is_x_b ? vec3_sub(on_y, s->of.d) : vec3_add(on_y, s->of.d), outward, radius);
+    swept_way_out out = swept_leave_core(x, at);
+    double length = out.is_inside ? 1 : vec3_norm(out.off), left = radius + (out.is_inside ? out.depth : -length);
+    if (value < s->value) s->value = value, s->n = n;
+    const int is_vague = !out.is_inside && out.depth > 0;
+    if (!is_vague && left >= value - s->tolerance) {
+        // From within there may be another way as short, so the point goes along n.
+        vec3 on_x = out.is_inside ? vec3_add_scaled(at, outward, out.depth) : vec3_sub(at, out.off);
+        s->is_proven = 1;
+        s->value = value, s->n = n;
+        s->on_a = is_x_b ? on_y : on_x;
+        s->on_b = is_x_b ? on_x : on_y;
+    }
+    *next = length > 0x1p-20 * s->of.size ? vec3_scale(out.off, (is_x_b ? -1 : 1) / length) : n;
+}
+
+// From the way on which the other core's middle leaves X, to and fro.
+static void exchange_from_middle(overlap_search *s, int is_x_b) {
+    const swept *x = is_x_b ? s->of.b : s->of.a, *y = is_x_b ? s->of.a : s->of.b;
+    vec3 middle = swept_find_middle(y);
+    swept_way_out out = swept_leave_core(x, is_x_b ? vec3_sub(middle, s->of.d) : vec3_add(middle, s->of.d));
+    double length = vec3_norm(out.off);
+    if (!(length > 0x1p-20 * s->of.size)) return;
+    vec3 n = vec3_scale(out.off, (is_x_b ? -1 : 1) / length);
+    for (int k = 0; k < EXCHANGES && !s->is_proven; k++) {
+        double before = s->value;
+        exchange(s, is_x_b, n, &n);
+        if (k > 0 && !(s->value < before)) return;
+    }
+}
+
+static int has_way_out(const swept *s) { return s->core >= OVOID_SWEPT_SEGMENT && s->core <= OVOID_SWEPT_CONE; }
+
+// Is the minimum shown to be the least one without a polytope?
+static int is_least(overlap_search *s, const least_overlap *at) {
+    vec3 next;
+    for (int is_x_b = 0; is_x_b < 2 && !s->is_proven; is_x_b++)
+        if (has_way_out(is_x_b ? s->of.b : s->of.a)) exchange(s, is_x_b, at->of.n, &next);
+    if (s->is_proven) return 1;
+    double radius =
+        find_ball(s->of.a, vec3_dot(at->of.n, at->on_a)) + find_ball(s->of.b, -vec3_dot(at->of.n, at->on_b));
+    vec3 v = vec3_sub(vec3_sub(at->on_a, at->on_b), s->of.d), center = vec3_add_scaled(v, at->of.n, -radius);
+    return radius - vec3_norm(center) >= at->value - s->tolerance;
+}
+
+static ovoid_verdict answer(const swept_placed *p, const least_overlap *at, double lower, ovoid_witness *witness) {
+    ovoid_verdict v = swept_make_verdict(-at->value - p->radii - p->claim, -lower - p->radii, TOLERANCE * p->size);
+    if (v.status != OVOID_OVERLAPPING || v.upper - v.lower > TOLERANCE * p->size) return swept_undecided;
+    nearest_pair found = {.point_a = at->on_a, .normal = at->of.n};
+    found.difference = vec3_sub(vec3_add(p->d, at->on_b), at->on_a);
+    if (witness) swept_write_witness(p, &found, at->of.n, witness);
+    return v;
+}
+
+ovoid_verdict swept_measure_overlap(const swept_placed *p, ovoid_witness *witness) {
+    overlap_search s = {.of = {p->a, p->b, p->d, p->size}, .tolerance = 0.4 * TOLERANCE * p->size};
+    s.value = INFINITY;
+    for (int is_x_b = 0; is_x_b < 2 && !s.is_proven; is_x_b++)
+        if (has_way_out(is_x_b ? p->b : p->a)) exchange_from_middle(&s, is_x_b);
+    if (!s.is_proven) {
+        vec3 d = vec3_sub(vec3_add(p->d, swept_find_middle(p->b)), swept_find_middle(p->a)), n = vec3_unit(d);
+        if (vec3_norm_squared(n) > 0.5) {
+            double value = vec3_dot(n, cores_find_ends(&s.of, n).v);
+            if (value < s.value) s.value = value, s.n = n;
+        }
+    }
+    if (!(s.value > 4 * p->claim && s.value < INFINITY)) return swept_undecided;
+    least_overlap least;
+    double lower;
+    if (s.is_proven) {
+        least.value = s.value, least.of.n = s.n, least.on_a = s.on_a, least.on_b = s.on_b;
+        lower = s.value - s.tolerance - 2 * p->claim;
+        return answer(p, &least, lower, witness);
+    }
+    least.count = 0;
+    if (!cores_descend(&s.of, s.n, &least)) {
+        least.value = INFINITY;
+        least.of = patch_make_plane(s.n);
+    } else if (!(least.value > 4 * p->claim)) {
+        return swept_undecided;
+    } else if (is_least(&s, &least)) {
+        return answer(p, &least, least.value - s.tolerance - 2 * p->claim, witness);
+    }
+    if (!cores_enclose(&s.of, p->claim, s.tolerance, &least, &lower)) return swept_undecided;
+    return answer(p, &least, lower, witness);
+}
