@@ -67,28 +67,52 @@ template <class S> struct posed {
         return type == ::fcl::GEOM_SPHERE ? place_sphere<S>(shape, pose, to) : detail::place<S>(shape, pose, to);
     }
 };
-/// Two geometries that are swept spheres, at their poses; false if one is none, or is a convex polytope beside one of
-/// those that their shapes answer faster.
+/// Two geometries that are swept spheres, at their poses; false if one is none.
 template <class S>
 OVOID_FCL_INLINE bool make_swept_pair(const posed<S> &a, const posed<S> &b, ovoid_swept_sphere (&to)[2]) {
+    return make_swept<S>(a.self(), a.pose, to[0]) && make_swept<S>(b.self(), b.pose, to[1]);
+}
+/// A convex polytope beside a cylinder, a cone or an ellipsoid; of other pairs with a polytope the shapes answer
+/// faster.
+template <class S> bool make_points_pair(const posed<S> &a, const posed<S> &b, ovoid_swept_sphere (&to)[2]) {
     const auto is_round = [](const posed<S> &x) {
         return x.type == ::fcl::GEOM_CYLINDER || x.type == ::fcl::GEOM_CONE || x.type == ::fcl::GEOM_ELLIPSOID;
     };
-    if ((a.type == ::fcl::GEOM_CONVEX && !is_round(b)) || (b.type == ::fcl::GEOM_CONVEX && !is_round(a))) return false;
-    return make_swept<S>(a.self(), a.pose, to[0]) && make_swept<S>(b.self(), b.pose, to[1]);
+    const bool is_one = (a.type == ::fcl::GEOM_CONVEX && is_round(b)) || (b.type == ::fcl::GEOM_CONVEX && is_round(a));
+    return is_one && make_swept_or_points<S>(a.self(), a.pose, to[0]) &&
+           make_swept_or_points<S>(b.self(), b.pose, to[1]);
 }
 template <class S> posed<S> pose_of(const ::fcl::CollisionObject<S> *o) {
     return {o->collisionGeometry().get(), o->getTransform(), &o->collisionGeometry()};
 }
 
-/// Fills the couple; false if FCL has to answer. What is in it stays until this thread's next call.
-template <class S> bool make_couple(const posed<S> &a, const posed<S> &b, body_couple &couple) {
+/// Finds the bodies of a couple; false if FCL has to answer. What is in it stays until this thread's next call.
+template <class S> bool find_couple(const posed<S> &a, const posed<S> &b, body_couple &couple) {
     table &mine = table::get();
     mine.begin();
     couple.a = a.find(mine);
     couple.b = b.find(mine);
-    return couple.a && couple.b && !couple.a->is_empty() && !couple.b->is_empty() &&
-           a.place(couple.a->shape(), couple.at_a) && b.place(couple.b->shape(), couple.at_b);
+    return couple.a && couple.b && !couple.a->is_empty() && !couple.b->is_empty();
+}
+/// Prepares them at their poses; false if FCL has to answer.
+template <class S> bool place_couple(const posed<S> &a, const posed<S> &b, body_couple &couple) {
+    return a.place(couple.a->shape(), couple.at_a) && b.place(couple.b->shape(), couple.at_b);
+}
+
+/// 1: the balls around two shapes are apart; -1: those within them meet; 0: neither, or a transform is not rigid to a
+/// few roundings. All roundings are less than a part in 1e13 of the lengths that are summed.
+template <class S> int compare_balls(const posed<S> &a, const posed<S> &b, const body_couple &couple) {
+    if (!is_rotation<S>(a.pose) || !is_rotation<S>(b.pose)) return 0;
+    const shape_balls &of_a = couple.a->balls(), &of_b = couple.b->balls();
+    const ovoid_vec3 p = turn<S>(a.pose, of_a.center), q = turn<S>(b.pose, of_b.center);
+    const auto between = [&](int i) {
+        return static_cast<double>(b.pose.matrix().coeff(i, 3)) - static_cast<double>(a.pose.matrix().coeff(i, 3));
+    };
+    const double x = between(0) + (q.x - p.x), y = between(1) + (q.y - p.y), z = between(2) + (q.z - p.z),
+                 distance = std::sqrt(x * x + y * y + z * z), outer = of_a.outer + of_b.outer,
+                 doubt = 1e-12 * (distance + outer + sum_lengths(p) + sum_lengths(q));
+    if (!(distance < 1e50)) return 0;
+    return distance - outer > doubt ? 1 : distance - (of_a.inner + of_b.inner) < -doubt ? -1 : 0;
 }
 
 /// A plane and the other geometry of a call.
@@ -100,13 +124,13 @@ template <class S> struct plane_pair {
 };
 
 /// The pair, and whether FCL does not have to answer it.
-template <class S> std::pair<plane_pair<S>, bool> make_plane_pair(const posed<S> &a, const posed<S> &b) {
+template <class S>
+OVOID_FCL_INLINE std::pair<plane_pair<S>, bool> make_plane_pair(const posed<S> &a, const posed<S> &b) {
     const bool is_a = a.is_flat();
     const posed<S> &flat = is_a ? a : b, &other = is_a ? b : a;
-    const bool is_sphere = other.type == ::fcl::GEOM_SPHERE;
-    const bool is_asked = !other.is_flat() && is_rigid<S>(flat.pose) &&
-                          (is_sphere ? is_in_range<S>(other.pose) : is_rigid<S>(other.pose));
-    return {plane_pair<S>{flat, other, make_plane<S>(flat.self(), flat.pose), is_a}, is_asked};
+    const plane at = make_plane<S>(flat.self(), flat.pose);
+    return {plane_pair<S>{flat, other, at, is_a},
+            !other.is_flat() && is_placed<S>(at, flat.pose) && is_placed<S>(other.self(), other.pose)};
 }
 
 /// The answer from a to b, or false if FCL has to answer.
@@ -137,17 +161,9 @@ template <class S> class plane_contacts {
     bool is_a_;
 };
 
-/// The contacts with a plane: of a mesh one for each triangle, else the deepest. False if FCL has to answer.
-template <class S> bool collide_plane(contact_list<S> &to, const posed<S> &a, const posed<S> &b) {
-    const auto asked = make_plane_pair(a, b);
-    const plane_pair<S> &pair = asked.first;
-    if (!asked.second) return false;
-    const int side = find_side<S>(pair.other.self(), pair.other.pose, pair.at);
-    if (side > 0) return true;
-    if (side < 0 && !to.is_detailed()) {
-        to.add(-1, -1);
-        return true;
-    }
+/// The contacts with a plane that are more than a yes: of a mesh one for each triangle, else the deepest. False if FCL
+/// has to answer.
+template <class S> OVOID_FCL_APART bool list_plane_contacts(contact_list<S> &to, const plane_pair<S> &pair) {
     const plane_answer answer = pair.ask();
     if (!std::isfinite(answer.distance)) return false;
     if (answer.distance > 0) return true;
@@ -159,39 +175,83 @@ template <class S> bool collide_plane(contact_list<S> &to, const posed<S> &a, co
     return true;
 }
 
-/// The contacts of other geometries than swept spheres, and of those that need their shapes.
+/// The contacts with a plane, of which a yes or no mostly needs no more than the side that the other geometry is on.
 template <class S>
-OVOID_FCL_APART std::size_t collide_others(contact_list<S> &to, const posed<S> &a, const posed<S> &b,
-                                           const ::fcl::CollisionRequest<S> &request,
-                                           ::fcl::CollisionResult<S> &result) {
-    body_couple couple;
-    if (request.enable_cost || request.num_max_contacts == 0)
+OVOID_FCL_APART std::size_t collide_plane(const posed<S> &a, const posed<S> &b,
+                                          const ::fcl::CollisionRequest<S> &request,
+                                          ::fcl::CollisionResult<S> &result) {
+    const auto asked = make_plane_pair(a, b);
+    const plane_pair<S> &pair = asked.first;
+    if (!asked.second || request.enable_cost || request.num_max_contacts == 0)
         return OVOID_FCL_ITSELF::template collide<S>(a.of, a.pose, b.of, b.pose, request, result);
-    if (a.is_flat() || b.is_flat()) {
-        if (!collide_plane(to, a, b))
+    const int side = find_side<S>(pair.other.self(), pair.other.pose, pair.at);
+    if (side < 0 && !request.enable_contact) {
+        result.addContact(::fcl::Contact<S>(a.of, b.of, -1, -1));
+    } else if (side <= 0) {
+        contact_list<S> to(a.self(), b.self(), request, result);
+        if (!list_plane_contacts<S>(to, plane_pair<S>(pair)))
             return OVOID_FCL_ITSELF::template collide<S>(a.of, a.pose, b.of, b.pose, request, result);
-    } else if (!make_couple(a, b, couple)) {
-        return OVOID_FCL_ITSELF::template collide<S>(a.of, a.pose, b.of, b.pose, request, result);
-    } else if (couple.has_mesh()) {
-        collide_meshes(to, couple);
-    } else {
-        collide_shapes(to, couple);
     }
     return result.numContacts();
 }
 
-template <class S>
-std::size_t collide(const posed<S> &a, const posed<S> &b, const ::fcl::CollisionRequest<S> &request,
-                    ::fcl::CollisionResult<S> &result) {
-    // request.isSatisfied(result), which is a call of libfcl.
-    const std::size_t before = result.numContacts();
-    if (!request.enable_cost && before > 0 && request.num_max_contacts <= before) return before;
+/// The contacts of bodies, or false if FCL has to answer.
+template <class S> bool collide_bodies(contact_list<S> &to, const posed<S> &a, const posed<S> &b) {
+    body_couple couple;
     ovoid_swept_sphere swept[2];
+    if (!find_couple(a, b, couple)) return false;
+    const int balls = compare_balls(a, b, couple);
+    if (balls > 0) return true;
+    if (balls < 0 && !to.is_detailed()) {
+        to.add(-1, -1);
+        return true;
+    }
+    if (make_points_pair(a, b, swept) && collide_swept<S>(to, {&swept[0], &swept[1]})) return true;
+    if (!place_couple(a, b, couple)) return false;
+    if (couple.has_mesh())
+        collide_meshes(to, couple);
+    else
+        collide_shapes(to, couple);
+    return true;
+}
+
+/// The contacts of other geometries than swept spheres, and of those that need their shapes.
+template <class S>
+OVOID_FCL_APART std::size_t collide_others(const posed<S> &a, const posed<S> &b,
+                                           const ::fcl::CollisionRequest<S> &request,
+                                           ::fcl::CollisionResult<S> &result) {
     contact_list<S> to(a.self(), b.self(), request, result);
-    if (!a.is_flat() && !b.is_flat() && !request.enable_cost && request.num_max_contacts > 0 &&
-        make_swept_pair(a, b, swept) && collide_swept<S>(to, {&swept[0], &swept[1]}))
-        return result.numContacts();
-    return collide_others(to, a, b, request, result);
+    if (request.enable_cost || request.num_max_contacts == 0 || !collide_bodies(to, a, b))
+        return OVOID_FCL_ITSELF::template collide<S>(a.of, a.pose, b.of, b.pose, request, result);
+    return result.numContacts();
+}
+
+/// The contacts of swept spheres with their details.
+template <class S>
+OVOID_FCL_APART std::size_t list_swept(const posed<S> &a, const posed<S> &b, const ovoid_swept_pair &pair,
+                                       const ::fcl::CollisionRequest<S> &request, ::fcl::CollisionResult<S> &result) {
+    contact_list<S> to(a.self(), b.self(), request, result);
+    return collide_swept<S>(to, pair) ? result.numContacts() : collide_others(a, b, request, result);
+}
+
+/// The poses are passed on by copies, so that a call that is answered here keeps its own in registers.
+template <class S>
+OVOID_FCL_INLINE std::size_t collide(const posed<S> &a, const posed<S> &b, const ::fcl::CollisionRequest<S> &request,
+                                     ::fcl::CollisionResult<S> &result) {
+    // request.isSatisfied(result), which is a call of libfcl, as numContacts is.
+    const std::size_t before = result.isCollision() ? result.numContacts() : 0;
+    if (!request.enable_cost && before > 0 && request.num_max_contacts <= before) return before;
+    if (a.is_flat() || b.is_flat()) return collide_plane<S>(posed<S>(a), posed<S>(b), request, result);
+    ovoid_swept_sphere swept[2];
+    if (request.enable_cost || request.num_max_contacts == 0 || !make_swept_pair(a, b, swept))
+        return collide_others<S>(posed<S>(a), posed<S>(b), request, result);
+    const ovoid_swept_pair pair = {&swept[0], &swept[1]};
+    if (request.enable_contact) return list_swept<S>(posed<S>(a), posed<S>(b), pair, request, result);
+    const ovoid_verdict found = ovoid_swept_collide(pair);
+    if (found.status == OVOID_UNDECIDED) return collide_others<S>(posed<S>(a), posed<S>(b), request, result);
+    if (!is_hit(found)) return before;
+    result.addContact(::fcl::Contact<S>(a.of, b.of, -1, -1));
+    return before + 1;
 }
 
 /// A distance in FCL's terms, before it is written to a result.
@@ -243,16 +303,17 @@ inline distance_answer measure_plane(const plane_answer &x, bool is_a, bool is_s
 
 /// The distance of other geometries than swept spheres, and of those that need their shapes; false if FCL has to
 /// answer.
-template <class S>
-OVOID_FCL_APART bool measure_others(const posed<S> &a, const posed<S> &b, bool is_signed, distance_answer &found) {
+template <class S> bool measure_others(const posed<S> &a, const posed<S> &b, bool is_signed, distance_answer &found) {
     plane_answer plane;
     body_couple couple;
+    ovoid_swept_sphere swept[2];
     if (a.is_flat() || b.is_flat()) {
         if (!make_plane_answer(a, b, plane)) return false;
         found = measure_plane(plane, a.is_flat(), is_signed);
         return true;
     }
-    if (!make_couple(a, b, couple)) return false;
+    if (make_points_pair(a, b, swept) && measure_swept({&swept[0], &swept[1]}, is_signed, found)) return true;
+    if (!find_couple(a, b, couple) || !place_couple(a, b, couple)) return false;
     found = couple.has_mesh() ? measure_meshes(couple, is_signed) : measure_shapes(couple, is_signed);
     return true;
 }
@@ -270,17 +331,26 @@ void write_distance(const distance_answer &found, const geometry<S> *a, const ge
     to.nearest_points[1] = from_vec3<S>(found.point_b);
 }
 
+/// The distance of other geometries than swept spheres, and of those that need their shapes.
 template <class S>
-S distance(const posed<S> &a, const posed<S> &b, const ::fcl::DistanceRequest<S> &request,
-           ::fcl::DistanceResult<S> &result) {
+OVOID_FCL_APART S distance_others(const posed<S> &a, const posed<S> &b, const ::fcl::DistanceRequest<S> &request,
+                                  ::fcl::DistanceResult<S> &result) {
+    distance_answer found;
+    if (!measure_others(a, b, request.enable_signed_distance, found))
+        return OVOID_FCL_ITSELF::template distance<S>(a.of, a.pose, b.of, b.pose, request, result);
+    write_distance(found, a.of, b.of, result);
+    return result.min_distance;
+}
+
+template <class S>
+OVOID_FCL_INLINE S distance(const posed<S> &a, const posed<S> &b, const ::fcl::DistanceRequest<S> &request,
+                            ::fcl::DistanceResult<S> &result) {
     // request.isSatisfied(result), which is a call of libfcl.
     if (result.min_distance <= 0) return result.min_distance;
-    const bool is_signed = request.enable_signed_distance;
     distance_answer found;
     ovoid_swept_sphere swept[2];
-    if (!(make_swept_pair(a, b, swept) && measure_swept({&swept[0], &swept[1]}, is_signed, found)) &&
-        !measure_others(a, b, is_signed, found))
-        return OVOID_FCL_ITSELF::template distance<S>(a.of, a.pose, b.of, b.pose, request, result);
+    if (!make_swept_pair(a, b, swept) || !measure_swept({&swept[0], &swept[1]}, request.enable_signed_distance, found))
+        return distance_others<S>(posed<S>(a), posed<S>(b), request, result);
     write_distance(found, a.of, b.of, result);
     return result.min_distance;
 }

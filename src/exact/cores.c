@@ -85,7 +85,7 @@ static int step(cores *c, vec3 *n, double *distance) {
         old.x[i] = w.x, old.y[i] = w.y, old.z[i] = w.z;
     }
     difference newest = points->p[last];
-    corner_step next = simd_step_from_corner(&old, (1u << last) - 1, newest.w);
+    corner_step next = simd_step_from_corner(&old, (1u << last) - 1, &newest.w);
     if (next.is_inside || next.is_sliver || !(next.square > 1e-200 && next.square < 1e200)) return 0;
     for (int i = 0; i < last; i++)
         if (next.kept >> i & 1) points->p[kept++] = points->p[i];

@@ -147,7 +147,7 @@ static heading clean(const gjk_state *k, unsigned kept, vec3 a) {
 
 // The fast step to the new corner. Where it makes no progress, all four corners are kept.
 static step_result take_step(gjk_state *k, const frame_support *p, double distance, heading *to) {
-    corner_step next = simd_step_from_corner(&k->at, k->valid, p->w);
+    corner_step next = simd_step_from_corner(&k->at, k->valid, &p->w);
     vec3 n = {next.x, next.y, next.z};
     *to = next.is_sliver ? clean(k, next.kept, p->w) : (heading){n, vec3_dot(n, p->w), next.square};
     int gains = to->height * to->height < distance * distance * to->square && is_in_range(to->square);

@@ -99,7 +99,7 @@ typedef struct body_plane {
 static body_plane make_plane(const outer_side *o, vec3 w) {
     const manifold_frame *m = o->frame;
     simd_points points = shape_get_points(o->shape);
-    double most = simd_find_support(&points, w).value;
+    double most = simd_find_support(&points, &w).value;
     if (!o->is_b) return (body_plane){vec3_dot(w, m->u), vec3_dot(w, m->v), vec3_dot(w, m->n), most};
     body_plane p = {vec3_dot(w, m->u_in_b), vec3_dot(w, m->v_in_b), vec3_dot(w, m->n_in_b), most};
     p.most += p.x * m->tu + p.y * m->tv + p.n * m->tn;

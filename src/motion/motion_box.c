@@ -26,8 +26,8 @@ static void find_extents(const motion_body *b, double time, extent low, extent h
     double error = shift + 64 * ROUNDING * (b->reach + shape->lower_radius + 2 * vec3_max_abs(pose.position)) +
                    OVOID_LENGTH_MIN + shape->lower_radius;
     for (int i = 0; i < 3; i++) {
-        support_result up = simd_find_support(&points, rows[i]);
-        support_result down = simd_find_support(&points, vec3_neg(rows[i]));
+        vec3 back = vec3_neg(rows[i]);
+        support_result up = simd_find_support(&points, &rows[i]), down = simd_find_support(&points, &back);
         high[i] = (vec3_get(at, i) + up.value) + error;
         low[i] = (vec3_get(at, i) - down.value) - error;
     }

@@ -45,7 +45,7 @@ static uint32_t find_extreme(const ovoid_shape *s, dd3 m, dd *largest) {
     vec3 n = dd3_high(m);
     const double *v = shape_vertices(s);
     simd_points points = shape_get_points(s);
-    support_result top = simd_find_support(&points, n);
+    support_result top = simd_find_support(&points, &n);
     double near = top.value - 0x1p-49 * s->extent;
     uint32_t best = top.index;
     *largest = dd3_dot_vec3(m, vec3_at(v, best));

@@ -139,7 +139,7 @@ frame_support frame_find_support(const pair_frame *f, vec3 n) {
 double frame_measure_gap(const pair_frame *f, vec3 n) {
     simd_points points_a = shape_get_points(f->a), points_b = shape_get_points(f->b);
     vec3 in_b = vec3_neg(mat3_mul_transposed_vec3(f->rotation, n));
-    double high = simd_find_support(&points_a, n).value;
-    double low = simd_find_support(&points_b, in_b).value;
+    double high = simd_find_support(&points_a, &n).value;
+    double low = simd_find_support(&points_b, &in_b).value;
     return (vec3_dot(n, f->translation) - low) - high;
 }

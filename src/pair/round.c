@@ -57,7 +57,7 @@ double round_compute_radii(const pair_frame *f, vec3 n, double error) {
 static double measure_support(const ovoid_shape *s, vec3 n) {
     if (shape_is_round(s)) return round_find_support(s, n).value;
     simd_points points = shape_get_points(s);
-    return simd_find_support(&points, n).value;
+    return simd_find_support(&points, &n).value;
 }
 
 double round_measure_gap(const pair_frame *f, vec3 n) {

@@ -14,15 +14,23 @@
 #include "query/answer.h"
 #include "query/begin.h"
 
-#include <string.h>
-
 static const mat3 identity = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+
+// Matrices go number by number, as they have just been written: a copy by wider pieces would wait for that.
+static inline mat3 read_rows(const double *rows) {
+    return (mat3){{rows[0], rows[1], rows[2]}, {rows[3], rows[4], rows[5]}, {rows[6], rows[7], rows[8]}};
+}
+static inline void write_rows(const mat3 *m, double *rows) {
+    rows[0] = m->r0.x, rows[1] = m->r0.y, rows[2] = m->r0.z;
+    rows[3] = m->r1.x, rows[4] = m->r1.y, rows[5] = m->r1.z;
+    rows[6] = m->r2.x, rows[7] = m->r2.y, rows[8] = m->r2.z;
+}
 
 // Sets what follows from the rotation, but for the turned vertices. m: NULL of a body that is not rotated; ready:
 // is_ready of a shape that can be placed.
 COMPILER_INLINED void set_rotation(const mat3 *m, uint32_t ready, ovoid_prepared_shape *to) {
     const ovoid_shape *shape = to->body.shape;
-    memcpy(to->rotation, m ? m : &identity, sizeof to->rotation);
+    write_rows(m ? m : &identity, to->rotation);
     to->turned_count = 0;
     // The place of a far origin is found for a pair.
     to->is_ready = shape && !shape->has_origin ? ready : 0;
@@ -80,14 +88,13 @@ void ovoid_prepared_shape_make(const ovoid_posed_shape *body, ovoid_prepared_sha
 COMPILER_NOINLINE static ovoid_code make_from_nearest(const mat3 *m, ovoid_prepared_shape *to) {
     ovoid_posed_shape body = {to->body.shape, {to->body.pose.position, {0, 0, 0, 0}}};
     double rotation[9];
-    memcpy(rotation, m, sizeof rotation);
+    write_rows(m, rotation);
     ovoid_code code = pose_make_matrix(rotation, body.pose.position, &body.pose, NULL);
     make(&body, to);
     return code;
 }
 
 static ovoid_code make_matrix(const double *rotation, ovoid_prepared_shape *to) {
-    mat3 m;
     int is_placed = position_is_valid(to->body.pose.position);
     if (!rotation) {
         if (!is_placed) return make_from_nearest(&identity, to);
@@ -95,7 +102,7 @@ static ovoid_code make_matrix(const double *rotation, ovoid_prepared_shape *to) 
         set_rotation(NULL, 1, to);
         return OVOID_OK;
     }
-    memcpy(&m, rotation, sizeof m);
+    const mat3 m = read_rows(rotation);
     if (!is_near_rotation(&m) || !is_placed) return make_from_nearest(&m, to);
     to->body.pose.rotation = find_quat(&m);
     set_rotation(&m, 1 | FRAME_BY_MATRIX, to);

@@ -173,7 +173,7 @@ simd_extreme shape_find_extreme(const ovoid_shape *s, ovoid_vec3 n) {
     simd_extreme x;
     if (s->support.k && support_table_find(&s->support, shape_cells(s), n, &x)) return x;
     simd_points points = shape_get_points(s);
-    support_result r = simd_find_support(&points, n);
+    support_result r = simd_find_support(&points, &n);
     ovoid_vec3 v = {shape_x(s)[r.index], shape_y(s)[r.index], shape_z(s)[r.index]};
     return (simd_extreme){r.value, v.x, v.y, v.z, r.index};
 }

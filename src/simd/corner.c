@@ -70,20 +70,20 @@ corner_step simd_step_from_corner_scalar(const corner_lanes *old, unsigned valid
 
 #include "simd/kernels/corner_avx2.h"
 
-__attribute__((target("avx2"))) static corner_step step_avx2(const corner_lanes *old, unsigned valid, vec3 a) {
+__attribute__((target("avx2"))) static corner_step step_avx2(const corner_lanes *old, unsigned valid, const vec3 *a) {
     vectors4 corners = {_mm256_load_pd(old->x), _mm256_load_pd(old->y), _mm256_load_pd(old->z)};
-    return corner_step_avx2(corners, valid, vectors4_spread(a));
+    return corner_step_avx2(corners, valid, vectors4_spread(*a));
 }
 
-corner_step simd_step_from_corner(const corner_lanes *old, unsigned valid, vec3 a) {
+corner_step simd_step_from_corner(const corner_lanes *old, unsigned valid, const vec3 *a) {
     if (__builtin_cpu_supports("avx2")) return step_avx2(old, valid, a);
-    return simd_step_from_corner_scalar(old, valid, a);
+    return simd_step_from_corner_scalar(old, valid, *a);
 }
 
 #else
 
-corner_step simd_step_from_corner(const corner_lanes *old, unsigned valid, vec3 a) {
-    return simd_step_from_corner_scalar(old, valid, a);
+corner_step simd_step_from_corner(const corner_lanes *old, unsigned valid, const vec3 *a) {
+    return simd_step_from_corner_scalar(old, valid, *a);
 }
 
 #endif

@@ -21,10 +21,11 @@ typedef struct corner_step {
     int is_sliver;  ///< 1: a face whose edges meet at an angle below 0.01, so that its normal is uncertain
 } corner_step;
 
-/// The step from the corners of the lanes in `valid` (a mask, not 0) to the new corner a. The same bits from every
-/// instruction set. Where rounding spoils a sign, another face than the nearest is found: the caller compares the
-/// distance.
-corner_step simd_step_from_corner(const corner_lanes *old, unsigned valid, vec3 a);
+/// The step from the corners of the lanes in `valid` (a mask, not 0) to the new corner a. It is read where it is: a
+/// copy for the call would be read in other pieces than it has just been written in, for which a processor waits. The
+/// same bits from every instruction set. Where rounding spoils a sign, another face than the nearest is found: the
+/// caller compares the distance.
+corner_step simd_step_from_corner(const corner_lanes *old, unsigned valid, const vec3 *a);
 
 /// The scalar twin, for tests and machines without vectors.
 corner_step simd_step_from_corner_scalar(const corner_lanes *old, unsigned valid, vec3 a);

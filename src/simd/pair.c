@@ -104,7 +104,8 @@ AVX512 static simd_difference find_difference_avx512(const simd_points *a, const
 }
 
 static simd_difference find_difference_apart(const simd_points *a, const simd_points *b, vec3 n) {
-    return difference_of(a, b, simd_find_support(a, n), simd_find_support(b, vec3_neg(n)));
+    vec3 back = vec3_neg(n);
+    return difference_of(a, b, simd_find_support(a, &n), simd_find_support(b, &back));
 }
 
 simd_difference simd_find_difference(const simd_points *a, const simd_points *b, vec3 n) {
@@ -124,12 +125,12 @@ void simd_pose_points(const simd_points *from, const double rows[9], const doubl
 
 simd_pair simd_find_pair(const simd_points *high, vec3 h, const simd_points *low, vec3 l) {
     if (high->padded_count > MOST || low->padded_count > MOST)
-        return (simd_pair){simd_find_support(high, h), simd_find_support(low, l)};
+        return (simd_pair){simd_find_support(high, &h), simd_find_support(low, &l)};
     // Up to 16 points the wider kernel's last step costs more than it saves, as in simd_find_support.
     int is_small = high->padded_count <= 16 && low->padded_count <= 16;
     if (!is_small && __builtin_cpu_supports("avx512f")) return find_pair_avx512(high, h, low, l);
     if (__builtin_cpu_supports("avx2")) return find_pair_avx2(high, h, low, l);
-    return (simd_pair){simd_find_support(high, h), simd_find_support(low, l)};
+    return (simd_pair){simd_find_support(high, &h), simd_find_support(low, &l)};
 }
 
 simd_pair_function *simd_get_pair(simd_isa isa) {

@@ -23,6 +23,10 @@ support_result simd_find_support_scalar(const simd_points *p, vec3 n) {
     return best;
 }
 
+static support_result find_support_scalar(const simd_points *p, const vec3 *n) {
+    return simd_find_support_scalar(p, *n);
+}
+
 #if defined(__x86_64__) && defined(__GNUC__)
 
 #include "simd/kernels/vectors.h"
@@ -67,8 +71,8 @@ static inline __m128d dot2(const simd_points *p, size_t i, direction2 n) {
                       _mm_mul_pd(_mm_loadu_pd(p->z + i), n.z));
 }
 
-static support_result find_support_sse2(const simd_points *p, vec3 along) {
-    direction2 n = spread2(along);
+static support_result find_support_sse2(const simd_points *p, const vec3 *along) {
+    direction2 n = spread2(*along);
     __m128i index = _mm_set_epi64x(1, 0), two = _mm_set1_epi64x(2);
     lanes2 even = {dot2(p, 0, n), index}, odd = even;
     for (size_t i = 0; i < p->padded_count; i += 4) {
@@ -110,8 +114,8 @@ AVX2 static inline __m256d dot4(const simd_points *p, size_t i, vectors4 n) {
     return vectors4_dot(vectors4_load(p->x + i, p->y + i, p->z + i), n);
 }
 
-AVX2 static support_result find_support_avx2(const simd_points *p, vec3 along) {
-    vectors4 n = vectors4_spread(along);
+AVX2 static support_result find_support_avx2(const simd_points *p, const vec3 *along) {
+    vectors4 n = vectors4_spread(*along);
     __m256i index = _mm256_set_epi64x(3, 2, 1, 0), four = _mm256_set1_epi64x(4);
     lanes4 even = {dot4(p, 0, n), index};
     index = _mm256_add_epi64(index, four);
@@ -154,8 +158,8 @@ AVX512 static inline __m512d dot8(const simd_points *p, size_t i, vectors8 n) {
     return vectors8_dot(vectors8_load(p->x + i, p->y + i, p->z + i), n);
 }
 
-AVX512 static support_result find_support_avx512(const simd_points *p, vec3 along) {
-    vectors8 n = vectors8_spread(along);
+AVX512 static support_result find_support_avx512(const simd_points *p, const vec3 *along) {
+    vectors8 n = vectors8_spread(*along);
     __m512i index = _mm512_set_epi64(7, 6, 5, 4, 3, 2, 1, 0), eight = _mm512_set1_epi64(8);
     lanes8 even = {dot8(p, 0, n), index}, odd = even;
     size_t i = 8;
@@ -179,7 +183,7 @@ AVX512 static support_result find_support_avx512(const simd_points *p, vec3 alon
     return (support_result){_mm512_cvtsd_f64(m) + 0.0, find_lowest(indices, mask)};
 }
 
-support_result simd_find_support(const simd_points *points, vec3 n) {
+support_result simd_find_support(const simd_points *points, const vec3 *n) {
     // Up to 16 points the wider kernel's longer last step costs more than it saves (measured).
     if (points->padded_count > 16 && __builtin_cpu_supports("avx512f")) return find_support_avx512(points, n);
     if (__builtin_cpu_supports("avx2")) return find_support_avx2(points, n);
@@ -188,7 +192,7 @@ support_result simd_find_support(const simd_points *points, vec3 n) {
 
 simd_support_function *simd_get_support(simd_isa isa) {
     switch (isa) {
-    case SIMD_SCALAR: return simd_find_support_scalar;
+    case SIMD_SCALAR: return find_support_scalar;
     case SIMD_SSE2: return find_support_sse2;
     case SIMD_AVX2: return __builtin_cpu_supports("avx2") ? find_support_avx2 : NULL;
     case SIMD_AVX512: return __builtin_cpu_supports("avx512f") ? find_support_avx512 : NULL;
@@ -199,9 +203,9 @@ simd_support_function *simd_get_support(simd_isa isa) {
 
 #else
 
-support_result simd_find_support(const simd_points *points, vec3 n) { return simd_find_support_scalar(points, n); }
+support_result simd_find_support(const simd_points *points, const vec3 *n) { return find_support_scalar(points, n); }
 
-simd_support_function *simd_get_support(simd_isa isa) { return isa == SIMD_SCALAR ? simd_find_support_scalar : NULL; }
+simd_support_function *simd_get_support(simd_isa isa) { return isa == SIMD_SCALAR ? find_support_scalar : NULL; }
 
 #endif
 

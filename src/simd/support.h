@@ -19,8 +19,9 @@ typedef struct support_result {
     uint32_t index; ///< lowest index among equal values
 } support_result;
 
-/// The vertex extreme along n. The same bits from every instruction set. Cost: padded_count / lanes steps.
-support_result simd_find_support(const simd_points *points, vec3 n);
+/// The vertex extreme along n, which is read where it is, as in simd/corner.h. The same bits from every instruction
+/// set. Cost: padded_count / lanes steps.
+support_result simd_find_support(const simd_points *points, const vec3 *n);
 
 /// The scalar twin, always compiled, for tests and machines without vectors.
 support_result simd_find_support_scalar(const simd_points *points, vec3 n);
@@ -28,7 +29,7 @@ support_result simd_find_support_scalar(const simd_points *points, vec3 n);
 /// The instruction sets that have a kernel.
 typedef enum simd_isa { SIMD_SCALAR, SIMD_SSE2, SIMD_AVX2, SIMD_AVX512, SIMD_ISA_COUNT } simd_isa;
 
-typedef support_result simd_support_function(const simd_points *points, vec3 n);
+typedef support_result simd_support_function(const simd_points *points, const vec3 *n);
 
 /// The kernel of one instruction set, for tests and measurements; NULL where this machine or build lacks it.
 simd_support_function *simd_get_support(simd_isa isa);

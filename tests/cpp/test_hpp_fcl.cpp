@@ -383,8 +383,13 @@ static void test_left_to_fcl() {
     for (const auto *wrong_pose : {&grown, &mirrored, &sheared})
         for (const CollisionGeometryd *other :
              {static_cast<const CollisionGeometryd *>(&a), static_cast<const CollisionGeometryd *>(&plane)})
-            // A box is its own mirror image.
-            CHECK_EQ(count(&a, other, *wrong_pose, CollisionRequestd()), wrong_pose != &mirrored || other != &a);
+            // A box is its own mirror image; of a plane no more is read than the turned normal.
+            CHECK_EQ(count(&a, other, *wrong_pose, CollisionRequestd()),
+                     wrong_pose == &grown || (wrong_pose == &sheared && other == &a));
+    const auto hull = make_convex<double>(0.5);
+    CHECK_EQ(count(&a, hull.get(), t, CollisionRequestd()), 0);
+    for (const auto *wrong_pose : {&grown, &sheared})
+        CHECK_EQ(count(&a, hull.get(), *wrong_pose, CollisionRequestd()), 1);
     CHECK_EQ(count(&a, &wrong, t, CollisionRequestd()), 1);
     CHECK_EQ(count(&plane, &plane, t, CollisionRequestd()), 1);
     CHECK_EQ(count(&a, &plane, t, CollisionRequestd()), 0);

@@ -1,6 +1,7 @@
 // The translations that <ovoid/fcl.hpp> keeps, of other geometries than pairs of spheres, capsules and boxes: each
 // geometry is translated once; a geometry that is changed, refitted or has another one's address is translated anew,
-// and the answer is that of a fresh geometry; those of dead geometries go; many threads get what one gets.
+// and the answer is that of a fresh geometry; those of dead geometries go; many threads get what one gets. The balls of
+// a body hold it and are held by it, and say what the shapes say.
 #include "fcl_zoo.hpp"
 
 #include <ovoid/fcl.hpp>
@@ -180,7 +181,75 @@ static void test_threads() {
     for (std::size_t count : counts) CHECK_EQ(count, list());
 }
 
+/// A convex polytope of 5 to 20 random points around a middle; its faces are not read.
+static std::shared_ptr<Convexd> make_random_hull(random_poses &random, const Vector3d &middle) {
+    auto points = std::make_shared<std::vector<Vector3d>>();
+    const std::size_t count = 5 + random.engine() % 16;
+    const auto number = [&random] { return random.normal(random.engine); };
+    for (std::size_t i = 0; i < count; i++)
+        points->push_back(middle + 0.4 * Vector3d(number(), number(), (1 + double(i % 3)) * number()));
+    return std::make_shared<Convexd>(points, 1, std::make_shared<std::vector<int>>(std::vector<int>{3, 0, 1, 2}));
+}
+
+/// The hull holds the inner ball where it reaches as far as that along any direction; what it reaches beyond the outer
+/// ball none of its points does.
+static void check_balls(const std::vector<Vector3d> &points, random_poses &random) {
+    using namespace ovoid::fcl::detail;
+    const body made(shape_owner(make_hull<double>(points.data(), points.size())));
+    const auto &balls = made.balls();
+    const Vector3d center(balls.center.x, balls.center.y, balls.center.z);
+    for (const auto &v : points) CHECK_LE((v - center).norm(), balls.outer);
+    for (int k = 0; k < 3000; k++) {
+        const Vector3d n = random.make<double>(1).translation().normalized();
+        double reach = -1e9;
+        for (const auto &v : points) reach = std::max(reach, n.dot(v - center));
+        CHECK_LE(balls.inner, reach);
+    }
+}
+
+static void test_balls() {
+    random_poses random(9);
+    check_balls({{0, 0, 0}, {1, 0, 0}, {0.1, 0.1, 0}}, random);
+    check_balls({{3, 0, 0}, {4, 1, 0}}, random);
+    check_balls({{3, 2, 1}}, random);
+    long decided = 0;
+    for (int n = 0; n < 100; n++) {
+        const auto hull = make_random_hull(random, Vector3d(1, 2, -3) * (n % 3));
+        check_balls(hull->getVertices(), random);
+        for (const auto &other : make_shapes<double>()) {
+            const Transform3d s = random.make<double>(1);
+            Transform3d t = random.make<double>(0);
+            t.translation() = s * hull->getInteriorPoint() + random.make<double>(0.5).translation();
+            DistanceResultd nearest;
+            const double distance = ovoid::fcl::distance<double>(hull.get(), s, other.geometry.get(), t,
+                                                                 DistanceRequestd(true, true), nearest);
+            CollisionResultd result, swapped;
+            const bool is_hit =
+                ovoid::fcl::collide<double>(hull.get(), s, other.geometry.get(), t, CollisionRequestd(), result) > 0;
+            CHECK_EQ(ovoid::fcl::collide<double>(other.geometry.get(), t, hull.get(), s, CollisionRequestd(), swapped),
+                     is_hit ? 1u : 0u);
+            if (std::fabs(distance) > 1e-6) CHECK_EQ(is_hit, distance < 0), decided++;
+        }
+    }
+    CHECK_LE(700, decided);
+}
+
+/// Vertices of a convex polytope that are written to: all of few, of many those that the print holds.
+static void test_vertices() {
+    const Boxd other(1, 4, 4);
+    auto points = std::make_shared<std::vector<Vector3d>>();
+    for (int i = 0; i < 8; i++) points->push_back(Vector3d(i & 4 ? 1 : -1, i & 2 ? 1 : -1, i & 1 ? 1 : -1));
+    const Convexd hull(points, 1, std::make_shared<std::vector<int>>(std::vector<int>{3, 0, 1, 2}));
+    CHECK_NEAR(ask(&hull, &other, right(4)), 2.5, 1e-9);
+    for (std::size_t i = 4; i < 8; i++) {
+        (*points)[i][0] = 1.25 + 0.25 * double(i - 4);
+        CHECK_NEAR(ask(&hull, &other, right(4)), 3.5 - (*points)[i][0], 1e-9);
+    }
+}
+
 int main() {
+    test_balls();
+    test_vertices();
     test_changes();
     test_addresses();
     test_refits<OBBRSSd>();

@@ -23,7 +23,6 @@ namespace ovoid {
 namespace fcl {
 namespace detail {
 
-inline double dot(const ovoid_vec3 &a, const ovoid_vec3 &b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 /// a + t b.
 inline ovoid_vec3 add_scaled(const ovoid_vec3 &a, const ovoid_vec3 &b, double t) {
     return {a.x + t * b.x, a.y + t * b.y, a.z + t * b.z};

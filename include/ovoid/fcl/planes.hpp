@@ -7,6 +7,7 @@
 #ifndef OVOID_FCL_PLANES_HPP
 #define OVOID_FCL_PLANES_HPP
 
+#include "ovoid/fcl/pose.hpp"
 #include "ovoid/fcl/print.hpp"
 
 #include <algorithm>
@@ -129,7 +130,7 @@ struct plane {
 };
 
 /// The plane in the world; its normal is not finite if it was no plane.
-template <class S> plane make_plane(const typed<S> &geometry, const ::fcl::Transform3<S> &pose) {
+template <class S> OVOID_FCL_INLINE plane make_plane(const typed<S> &geometry, const ::fcl::Transform3<S> &pose) {
     const bool is_halfspace = geometry.type == ::fcl::GEOM_HALFSPACE;
     vector n;
     double d;
@@ -146,6 +147,27 @@ template <class S> plane make_plane(const typed<S> &geometry, const ::fcl::Trans
     n = at.turn(n);
     if (!(std::fabs(square - 1) <= 1e-15)) n /= std::sqrt(square), d /= std::sqrt(square);
     return {n, d + n.dot(at.position()), is_halfspace};
+}
+
+/// Is the plane's transform one of ours? No more of the rotation is read than the normal; one that is not a unit vector
+/// to a few roundings is asked for the rest.
+template <class S> OVOID_FCL_INLINE bool is_placed(const plane &p, const ::fcl::Transform3<S> &pose) {
+    return off_unit({p.n[0], p.n[1], p.n[2]}) <= columns_rounding ? is_in_range<S>(pose) : is_rigid<S>(pose);
+}
+/// Is that of a geometry beside it? Of a sphere the rotation is not read, of a body around an axis the axis alone; a
+/// box and an ellipsoid may be mirrored.
+template <class S> OVOID_FCL_INLINE bool is_placed(const typed<S> &geometry, const ::fcl::Transform3<S> &pose) {
+    bool is_plain = false;
+    switch (geometry.type) {
+    case ::fcl::GEOM_SPHERE: is_plain = true; break;
+    case ::fcl::GEOM_CAPSULE:
+    case ::fcl::GEOM_CYLINDER:
+    case ::fcl::GEOM_CONE: is_plain = off_unit(get_column<S>(pose, 2)) <= columns_rounding; break;
+    case ::fcl::GEOM_BOX:
+    case ::fcl::GEOM_ELLIPSOID: is_plain = is_rotation<S>(pose); break;
+    default: break;
+    }
+    return is_plain ? is_in_range<S>(pose) : is_rigid<S>(pose);
 }
 
 /// Where a geometry meets a plane: points and normal in the world, from the geometry to the plane.
@@ -191,41 +213,45 @@ struct extent {
     double low, high;
 };
 
-/// The extent of a geometry that is no mesh, without its points; infinite of a type that has none here.
-template <class S> extent find_extent(const typed<S> &geometry, const ::fcl::Transform3<S> &pose, const plane &p) {
+/// The extent of a geometry that is no mesh, without its points; infinite of a type that has none here. Of a body
+/// around an axis no column of the transform is read but that.
+template <class S>
+OVOID_FCL_INLINE extent find_extent(const typed<S> &geometry, const ::fcl::Transform3<S> &pose, const plane &p) {
     const placing<S> at(pose);
     const auto *g = geometry.of;
     const double middle = p.n.dot(at.position()) - p.d;
     const auto around = [middle](double reach) { return extent{middle - reach, middle + reach}; };
-    if (geometry.type == ::fcl::GEOM_SPHERE)
-        return around(static_cast<double>(static_cast<const ::fcl::Sphere<S> *>(g)->radius));
-    const vector n = at.turn_back(p.n);
+    const ovoid_vec3 n = {p.n[0], p.n[1], p.n[2]}, axis = get_column<S>(pose, 2);
+    const double z = dot(axis, n);
+    const auto across = [&] {
+        const ovoid_vec3 off = {n.x - z * axis.x, n.y - z * axis.y, n.z - z * axis.z};
+        return std::sqrt(dot(off, off));
+    };
+    const auto add_sides = [&](const ::fcl::Vector3<S> &lengths, auto measure) {
+        return measure(static_cast<double>(lengths[0]) * dot(get_column<S>(pose, 0), n),
+                       static_cast<double>(lengths[1]) * dot(get_column<S>(pose, 1), n),
+                       static_cast<double>(lengths[2]) * z);
+    };
     switch (geometry.type) {
-    case ::fcl::GEOM_BOX: {
-        const auto &side = static_cast<const ::fcl::Box<S> *>(g)->side;
-        return around((static_cast<double>(side[0]) * std::fabs(n[0]) + static_cast<double>(side[1]) * std::fabs(n[1]) +
-                       static_cast<double>(side[2]) * std::fabs(n[2])) /
-                      2);
-    }
-    case ::fcl::GEOM_ELLIPSOID: {
-        const auto &radii = static_cast<const ::fcl::Ellipsoid<S> *>(g)->radii;
-        const double x = static_cast<double>(radii[0]) * n[0], y = static_cast<double>(radii[1]) * n[1],
-                     z = static_cast<double>(radii[2]) * n[2];
-        return around(std::sqrt(x * x + y * y + z * z));
-    }
+    case ::fcl::GEOM_SPHERE: return around(static_cast<double>(static_cast<const ::fcl::Sphere<S> *>(g)->radius));
+    case ::fcl::GEOM_BOX:
+        return around(add_sides(static_cast<const ::fcl::Box<S> *>(g)->side, [](double u, double v, double w) {
+            return (std::fabs(u) + std::fabs(v) + std::fabs(w)) / 2;
+        }));
+    case ::fcl::GEOM_ELLIPSOID:
+        return around(add_sides(static_cast<const ::fcl::Ellipsoid<S> *>(g)->radii,
+                                [](double u, double v, double w) { return std::sqrt(u * u + v * v + w * w); }));
     case ::fcl::GEOM_CAPSULE: {
         const auto *s = static_cast<const ::fcl::Capsule<S> *>(g);
-        return around(static_cast<double>(s->lz) / 2 * std::fabs(n[2]) + static_cast<double>(s->radius));
+        return around(static_cast<double>(s->lz) / 2 * std::fabs(z) + static_cast<double>(s->radius));
     }
     case ::fcl::GEOM_CYLINDER: {
         const auto *s = static_cast<const ::fcl::Cylinder<S> *>(g);
-        return around(static_cast<double>(s->lz) / 2 * std::fabs(n[2]) +
-                      static_cast<double>(s->radius) * std::sqrt(n[0] * n[0] + n[1] * n[1]));
+        return around(static_cast<double>(s->lz) / 2 * std::fabs(z) + static_cast<double>(s->radius) * across());
     }
     case ::fcl::GEOM_CONE: {
         const auto *s = static_cast<const ::fcl::Cone<S> *>(g);
-        const double apex = static_cast<double>(s->lz) / 2 * n[2],
-                     rim = static_cast<double>(s->radius) * std::sqrt(n[0] * n[0] + n[1] * n[1]);
+        const double apex = static_cast<double>(s->lz) / 2 * z, rim = static_cast<double>(s->radius) * across();
         return {middle + std::min(apex, -apex - rim), middle + std::max(apex, rim - apex)};
     }
     default: return {-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
@@ -233,7 +259,8 @@ template <class S> extent find_extent(const typed<S> &geometry, const ::fcl::Tra
 }
 
 /// 1: a geometry is apart from a plane; -1: it meets it; 0: the extent does not tell, to rounding.
-template <class S> int find_side(const typed<S> &geometry, const ::fcl::Transform3<S> &pose, const plane &p) {
+template <class S>
+OVOID_FCL_INLINE int find_side(const typed<S> &geometry, const ::fcl::Transform3<S> &pose, const plane &p) {
     const extent e = find_extent(geometry, pose, p);
     const double doubt = 1e-14 * (e.high - e.low + std::fabs(e.low) + std::fabs(p.d)),
                  apart = p.is_halfspace ? e.low : std::max(e.low, -e.high);

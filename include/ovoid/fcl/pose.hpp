@@ -5,6 +5,7 @@
 #ifndef OVOID_FCL_POSE_HPP
 #define OVOID_FCL_POSE_HPP
 
+#include "ovoid/fcl/print.hpp"
 #include "ovoid/motion.h"
 #include "ovoid/prepared.h"
 
@@ -23,6 +24,38 @@ template <class S> ovoid_vec3 to_vec3(const ::fcl::Vector3<S> &v) {
 template <class S>::fcl::Vector3<S> from_vec3(const ovoid_vec3 &v) {
     return {static_cast<S>(v.x), static_cast<S>(v.y), static_cast<S>(v.z)};
 }
+
+inline double dot(const ovoid_vec3 &a, const ovoid_vec3 &b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+
+/// How far the columns of a transform may be from unit vectors at right angles: the sum of what their products are off.
+constexpr double columns_rounding = 32 * 1.1102230246251565e-16;
+
+/// Column k of a transform.
+template <class S> OVOID_FCL_INLINE ovoid_vec3 get_column(const ::fcl::Transform3<S> &t, int k) {
+    const auto m = [&](int i) { return static_cast<double>(t.matrix().coeff(i, k)); };
+    return {m(0), m(1), m(2)};
+}
+
+/// How far a column is from a unit vector, and the products of all three from those of a rotation.
+OVOID_FCL_INLINE double off_unit(const ovoid_vec3 &v) { return std::fabs(dot(v, v) - 1); }
+OVOID_FCL_INLINE double off_rotation(const ovoid_vec3 (&column)[3]) {
+    return off_unit(column[0]) + off_unit(column[1]) + off_unit(column[2]) + std::fabs(dot(column[0], column[1])) +
+           std::fabs(dot(column[1], column[2])) + std::fabs(dot(column[2], column[0]));
+}
+/// Are the columns those of a rotation, to a few roundings?
+template <class S> OVOID_FCL_INLINE bool is_rotation(const ::fcl::Transform3<S> &t) {
+    return off_rotation({get_column<S>(t, 0), get_column<S>(t, 1), get_column<S>(t, 2)}) <= columns_rounding;
+}
+
+/// A vector turned by a transform.
+template <class S> ovoid_vec3 turn(const ::fcl::Transform3<S> &t, const ovoid_vec3 &v) {
+    const auto row = [&](int i) {
+        const auto m = [&](int k) { return static_cast<double>(t.matrix().coeff(i, k)); };
+        return m(0) * v.x + m(1) * v.y + m(2) * v.z;
+    };
+    return {row(0), row(1), row(2)};
+}
+inline double sum_lengths(const ovoid_vec3 &v) { return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z); }
 
 /// Prepares a shape, or no shape, at a transform; false if that is no rigid motion, or not finite.
 template <class S> bool place(const ovoid_shape *shape, const ::fcl::Transform3<S> &t, ovoid_prepared_shape &to) {

@@ -3,7 +3,7 @@
  * The print of an FCL geometry, by which <ovoid/fcl.hpp> notices that a geometry has changed, or that another one has
  * its address. It holds the type and sizes; of vertices their address, their number and at most 16 of them; of a convex
  * polytope also the mean of all; of a mesh also the volume at the root of its tree, which a refit computes anew from
- * all vertices. AABB and KDOP volumes say less about what is inside, so the prints of those meshes hold all vertices.
+ * all vertices. AABB and KDOP volumes say less about what is inside, so the prints of those meshes mix all vertices.
  */
 #ifndef OVOID_FCL_PRINT_HPP
 #define OVOID_FCL_PRINT_HPP
@@ -14,6 +14,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
+#include <vector>
 
 /** @cond */
 #if defined(__GNUC__)
@@ -47,9 +49,14 @@ template <class Self> class print_words {
 struct print : print_words<print> {
     std::uint32_t type = 0, count = 0;
     std::array<std::uint64_t, 10> words{};
+    std::vector<double> points; ///< x, y and z of each
 
     void set_type(std::uint32_t to) { type = to; }
     void take(std::uint64_t word) { words[count++] = word; }
+    template <class S> void add_points(const ::fcl::Vector3<S> *at, std::size_t size, std::size_t step) {
+        for (std::size_t i = 0; i < size; i += step)
+            for (int k = 0; k < 3; k++) points.push_back(static_cast<double>(at[i][k]));
+    }
 };
 
 /// Compares a print with the words of a geometry as they come, so that none are written. A type has always as many
@@ -59,6 +66,22 @@ class print_comparison : public print_words<print_comparison> {
     explicit print_comparison(const print &of) : of_(of) {}
     void set_type(std::uint32_t type) { difference_ = type ^ of_.type; }
     void take(std::uint64_t word) { difference_ |= of_.words[at_++] ^ word; }
+    /// Points that are one after another in memory are compared there.
+    template <class S> void add_points(const ::fcl::Vector3<S> *at, std::size_t size, std::size_t step) {
+        static_assert(sizeof(::fcl::Vector3<S>) == 3 * sizeof(S), "a vector is its three numbers");
+        const double *point = of_.points.data();
+        if (of_.points.size() != 3 * ((size + step - 1) / step)) {
+            difference_ = 1;
+        } else if (std::is_same<S, double>::value && step == 1) {
+            difference_ |= size > 0 && std::memcmp(point, at, size * sizeof *at) != 0;
+        } else {
+            for (std::size_t i = 0; i < size; i += step)
+                for (int k = 0; k < 3; k++) {
+                    const double value = static_cast<double>(at[i][k]);
+                    difference_ |= std::memcmp(point++, &value, sizeof value) != 0;
+                }
+        }
+    }
     bool is_same() const { return difference_ == 0; }
 
   private:
@@ -132,16 +155,16 @@ template <class S> bool view_mesh(const geometry<S> *g, mesh_view<S> &view) {
     }
 }
 
-/// The most vertices that a print takes in; of more it takes that many, evenly spread.
-constexpr int print_vertices = 16;
+/// About how many vertices a print holds; of more it holds that many, evenly spread.
+constexpr std::size_t print_vertices = 16;
+inline std::size_t step_of(std::size_t count) { return count > print_vertices ? count / print_vertices : 1; }
 
-/// The vertices mixed, every `step`th of them.
-template <class S> std::uint64_t mix_vertices(const ::fcl::Vector3<S> *vertices, int count, int step) {
+/// All vertices mixed.
+template <class S> std::uint64_t mix_vertices(const ::fcl::Vector3<S> *vertices, std::size_t count) {
     mixer m;
-    for (int i = 0; i < count; i += step) m.add_all(vertices[i]);
+    for (std::size_t i = 0; i < count; i++) m.add_all(vertices[i]);
     return m.get();
 }
-inline int step_of(int count) { return count > print_vertices ? count / print_vertices : 1; }
 
 /// The print of a mesh; false if it is none.
 template <class S, class Words> bool print_mesh(const geometry<S> *g, Words &p) {
@@ -154,16 +177,19 @@ template <class S, class Words> bool print_mesh(const geometry<S> *g, Words &p) 
     p.add(static_cast<const void *>(view.triangles));
     p.add(static_cast<std::uint64_t>(view.vertex_count) << 32 | static_cast<std::uint64_t>(view.triangle_count));
     p.add(view.volume);
-    p.add(mix_vertices<S>(view.vertices, view.vertex_count, is_turned ? step_of(view.vertex_count) : 1));
+    const auto count = static_cast<std::size_t>(view.vertex_count);
+    if (is_turned)
+        p.template add_points<S>(view.vertices, count, step_of(count));
+    else
+        p.add(mix_vertices<S>(view.vertices, count));
     return true;
 }
 
 template <class S, class Words> void print_convex(const ::fcl::Convex<S> *g, Words &p) {
     const auto &vertices = g->getVertices();
-    const int count = static_cast<int>(vertices.size());
     p.add(static_cast<const void *>(vertices.data()));
     p.add(static_cast<std::uint64_t>(vertices.size()));
-    p.add(mix_vertices<S>(vertices.data(), count, step_of(count)));
+    p.template add_points<S>(vertices.data(), vertices.size(), step_of(vertices.size()));
     for (int i = 0; i < 3; i++) p.add(static_cast<double>(g->getInteriorPoint()[i])); // the mean of all vertices
 }
 

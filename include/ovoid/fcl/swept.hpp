@@ -20,51 +20,36 @@ namespace ovoid {
 namespace fcl {
 namespace detail {
 
-/// How far the columns of a transform may be from unit vectors at right angles: the sum of what their products are off.
-constexpr double swept_rounding = 32 * 1.1102230246251565e-16;
-
-/// Column k of a transform.
-template <class S> ovoid_vec3 get_column(const ::fcl::Transform3<S> &t, int k) {
-    const auto m = [&](int i) { return static_cast<double>(t.matrix().coeff(i, k)); };
-    return {m(0), m(1), m(2)};
+/// The axis of a cylinder, a cone or a capsule: the third column; false if it is no unit vector.
+template <class S> OVOID_FCL_INLINE bool set_axis(const ::fcl::Transform3<S> &t, ovoid_swept_sphere &to) {
+    to.axis[0] = get_column<S>(t, 2);
+    return off_unit(to.axis[0]) <= columns_rounding;
 }
-/// How far the product of two columns is from that of a rotation.
-template <class S> double off_product(const ::fcl::Transform3<S> &t, int i, int k) {
-    const auto m = [&](int row, int column) { return static_cast<double>(t.matrix().coeff(row, column)); };
-    return std::fabs(m(0, i) * m(0, k) + m(1, i) * m(1, k) + m(2, i) * m(2, k) - (i == k ? 1 : 0));
-}
-
-/// How far all columns are from those of a rotation.
-template <class S> OVOID_FCL_INLINE double off_rotation(const ::fcl::Transform3<S> &t) {
-    return off_product<S>(t, 0, 0) + off_product<S>(t, 1, 1) + off_product<S>(t, 2, 2) + off_product<S>(t, 0, 1) +
-           off_product<S>(t, 1, 2) + off_product<S>(t, 2, 0);
+/// The axes of a box, an ellipsoid or a convex polytope; false if they are not those of a rotation.
+template <class S> OVOID_FCL_INLINE bool set_axes(const ::fcl::Transform3<S> &t, ovoid_swept_sphere &to) {
+    for (int k = 0; k < 3; k++) to.axis[k] = get_column<S>(t, k);
+    return off_rotation(to.axis) <= columns_rounding;
 }
 
 /// A cylinder or a cone around its own z axis, but for its centre.
 template <class S, class Round>
-bool make_round(const Round &g, ovoid_swept_core core, const ::fcl::Transform3<S> &t, ovoid_swept_sphere &to) {
-    if (!(g.lz > 0 && g.radius > 0) || !(off_product<S>(t, 2, 2) <= swept_rounding)) return false;
+OVOID_FCL_INLINE bool make_round(const Round &g, ovoid_swept_core core, const ::fcl::Transform3<S> &t,
+                                 ovoid_swept_sphere &to) {
     to.radius = 0;
     to.core = core;
     to.half[0] = static_cast<double>(g.lz) / 2;
     to.half[1] = static_cast<double>(g.radius);
-    to.axis[0] = get_column<S>(t, 2);
-    return true;
+    return g.lz > 0 && g.radius > 0 && set_axis<S>(t, to);
 }
 
 /// A box or an ellipsoid, but for its centre: parts of the lengths are its half axes.
 template <class S>
 OVOID_FCL_INLINE bool make_box(const ::fcl::Vector3<S> &lengths, double part, ovoid_swept_core core,
                                const ::fcl::Transform3<S> &t, ovoid_swept_sphere &to) {
-    const double off = off_rotation<S>(t);
-    if (!(lengths[0] > 0 && lengths[1] > 0 && lengths[2] > 0 && off <= swept_rounding)) return false;
     to.radius = 0;
     to.core = core;
-    for (int k = 0; k < 3; k++) {
-        to.half[k] = part * static_cast<double>(lengths[k]);
-        to.axis[k] = get_column<S>(t, k);
-    }
-    return true;
+    for (int k = 0; k < 3; k++) to.half[k] = part * static_cast<double>(lengths[k]);
+    return lengths[0] > 0 && lengths[1] > 0 && lengths[2] > 0 && set_axes<S>(t, to);
 }
 
 /// The most vertices of a convex polytope that are read in each step of a search; of more its shape's tables answer.
@@ -72,24 +57,19 @@ constexpr std::size_t most_swept_points = 32;
 
 /// A convex polytope, but for its centre, with the mean of its vertices as the point in the middle.
 template <class S>
-OVOID_FCL_INLINE bool make_points(const std::vector<::fcl::Vector3<S>> &vertices, const ::fcl::Transform3<S> &t,
-                                  ovoid_swept_sphere &to) {
+bool make_points(const std::vector<::fcl::Vector3<S>> &vertices, const ::fcl::Transform3<S> &t,
+                 ovoid_swept_sphere &to) {
     // Numbers in single precision would have to be copied.
     if (!std::is_same<S, double>::value || vertices.empty() || vertices.size() > most_swept_points) return false;
-    const double off = off_rotation<S>(t);
     double sum[3] = {0, 0, 0};
     for (const auto &v : vertices)
         for (int k = 0; k < 3; k++) sum[k] += static_cast<double>(v[k]);
-    if (!(off <= swept_rounding)) return false;
     to.radius = 0;
     to.core = OVOID_SWEPT_POINTS;
     to.points = reinterpret_cast<const double *>(vertices.data());
     to.count = static_cast<std::uint32_t>(vertices.size());
-    for (int k = 0; k < 3; k++) {
-        to.half[k] = sum[k] / static_cast<double>(vertices.size());
-        to.axis[k] = get_column<S>(t, k);
-    }
-    return true;
+    for (int k = 0; k < 3; k++) to.half[k] = sum[k] / static_cast<double>(vertices.size());
+    return set_axes<S>(t, to);
 }
 
 /// The geometry at its transform, of which no more is read than the body needs; false if it is none of these types, has
@@ -103,11 +83,10 @@ OVOID_FCL_INLINE bool make_swept(const typed<S> &g, const ::fcl::Transform3<S> &
         break;
     case ::fcl::GEOM_CAPSULE: {
         const auto *s = static_cast<const ::fcl::Capsule<S> *>(g.of);
-        if (!(s->lz > 0) || !(off_product<S>(t, 2, 2) <= swept_rounding)) return false;
         to.radius = static_cast<double>(s->radius);
         to.core = OVOID_SWEPT_SEGMENT;
         to.half[0] = static_cast<double>(s->lz) / 2;
-        to.axis[0] = get_column<S>(t, 2);
+        if (!(s->lz > 0 && set_axis<S>(t, to))) return false;
         break;
     }
     case ::fcl::GEOM_BOX:
@@ -116,9 +95,6 @@ OVOID_FCL_INLINE bool make_swept(const typed<S> &g, const ::fcl::Transform3<S> &
     case ::fcl::GEOM_ELLIPSOID:
         if (!make_box<S>(static_cast<const ::fcl::Ellipsoid<S> *>(g.of)->radii, 1, OVOID_SWEPT_ELLIPSOID, t, to))
             return false;
-        break;
-    case ::fcl::GEOM_CONVEX:
-        if (!make_points<S>(static_cast<const ::fcl::Convex<S> *>(g.of)->getVertices(), t, to)) return false;
         break;
     case ::fcl::GEOM_CYLINDER:
         if (!make_round<S>(*static_cast<const ::fcl::Cylinder<S> *>(g.of), OVOID_SWEPT_CYLINDER, t, to)) return false;
@@ -131,9 +107,15 @@ OVOID_FCL_INLINE bool make_swept(const typed<S> &g, const ::fcl::Transform3<S> &
     to.center = to_vec3<S>(t.translation());
     return true;
 }
+/// The same of these types and of a convex polytope.
+template <class S> bool make_swept_or_points(const typed<S> &g, const ::fcl::Transform3<S> &t, ovoid_swept_sphere &to) {
+    if (g.type != ::fcl::GEOM_CONVEX) return make_swept<S>(g, t, to);
+    to.center = to_vec3<S>(t.translation());
+    return make_points<S>(static_cast<const ::fcl::Convex<S> *>(g.of)->getVertices(), t, to);
+}
 
 /// The contacts of two swept spheres; false if their shapes have to be asked.
-template <class S> OVOID_FCL_INLINE bool collide_swept(contact_list<S> &to, const ovoid_swept_pair &pair) {
+template <class S> bool collide_swept(contact_list<S> &to, const ovoid_swept_pair &pair) {
     if (!to.is_detailed()) {
         const ovoid_verdict found = ovoid_swept_collide(pair);
         if (found.status == OVOID_UNDECIDED) return false;

@@ -157,7 +157,7 @@ static double find_gap(const solid_pair *p, const manifold_state *s, uint32_t co
         const manifold_corner *c = &s->polygon.corners[i];
         lowest = min2(lowest, patch_get_height(&s->a, c->x, c->y) + c->separation);
     }
-    return lowest - simd_find_support(&points, s->frame.n).value;
+    return lowest - simd_find_support(&points, &s->frame.n).value;
 }
 
 void facet_contact_measure(const solid_pair *p, const manifold_terms *t, const manifold_state *s, ovoid_manifold *out) {

@@ -25,8 +25,8 @@ static inline swept_way_out leave_ellipsoid(const swept *core, vec3 y, double cl
     const double *h = core->half;
     vec3 t = {vec3_dot(core->axis[0], y) / h[0], vec3_dot(core->axis[1], y) / h[1], vec3_dot(core->axis[2], y) / h[2]};
     double square = vec3_norm_squared(t);
-    if (square < 1 - 8 * (claim / min2(h[0], min2(h[1], h[2])))) return (swept_way_out){1, {0, 0, 0}, 3 * claim};
-    return (swept_way_out){0, vec3_scale(y, 1 - 1 / sqrt(square)), 0};
+    if (square < 1 - 8 * (claim / min2(h[0], min2(h[1], h[2])))) return (swept_way_out){1, {0, 0, 0}, 3 * claim, 0};
+    return make_way(vec3_scale(y, 1 - 1 / sqrt(square)));
 }
 
 static ovoid_verdict answer_overlap(const swept_placed *p, vec3 common, vec3 normal, ovoid_witness *witness) {
@@ -51,13 +51,14 @@ typedef struct approach {
 static inline int is_measured(const swept *s) { return s->core < OVOID_SWEPT_ELLIPSOID; }
 
 // How far a point is from a core, or more, and below zero inside. *off: the way to it, zero inside.
-static inline double measure_way(const swept *core, vec3 y, double claim, vec3 *off) {
-    swept_way_out out = core->core == OVOID_SWEPT_POINTS ? (swept_way_out){0, vec3_sub(y, swept_find_middle(core)), 0}
+static inline double measure_way(const swept *core, const vec3 *point, double claim, vec3 *off) {
+    vec3 y = *point;
+    swept_way_out out = core->core == OVOID_SWEPT_POINTS      ? make_way(vec3_sub(y, swept_find_middle(core)))
                         : core->core == OVOID_SWEPT_ELLIPSOID ? leave_ellipsoid(core, y, claim)
                                                               : swept_leave_core(core, y);
     if (!(out.is_inside || out.depth > 0)) {
         *off = out.off;
-        return vec3_norm(out.off);
+        return out.distance;
     }
     *off = (vec3){0, 0, 0};
     return -out.depth;
@@ -65,10 +66,11 @@ static inline double measure_way(const swept *core, vec3 y, double claim, vec3 *
 
 static inline approach find_approach(const swept_placed *p, int is_x_b) {
     approach to = {.x = is_x_b ? p->b : p->a, .y = is_x_b ? p->a : p->b, .is_x_b = is_x_b};
-    vec3 middle = swept_find_middle(to.y), way = vec3_add(is_x_b ? vec3_neg(p->d) : p->d, middle), off, next;
-    to.gap = measure_way(to.x, way, p->claim, &off);
+    vec3 middle = swept_find_middle(to.y), way = vec3_add(is_x_b ? vec3_neg(p->d) : p->d, middle), off, next, from_y;
+    to.gap = measure_way(to.x, &way, p->claim, &off);
     to.on_x = vec3_sub(way, off);
-    to.after = measure_way(to.y, vec3_sub(middle, off), p->claim, &next);
+    from_y = vec3_sub(middle, off);
+    to.after = measure_way(to.y, &from_y, p->claim, &next);
     to.back = vec3_neg(next);
     return to;
 }

@@ -116,25 +116,30 @@ static inline vec3 swept_find_middle(const swept *s) {
 typedef struct swept_way_out {
     int is_inside;
     vec3 off;
-    double depth; ///< 0 of a point that is not in the core
+    double depth;    ///< 0 of a point that is not in the core
+    double distance; ///< the length of the vector; 0 inside
 } swept_way_out;
+
+static inline swept_way_out make_way(vec3 off) { return (swept_way_out){0, off, 0, vec3_norm(off)}; }
 
 static inline swept_way_out leave_segment(const swept *core, vec3 y) {
     double along = vec3_dot(core->axis[0], y), h = core->half[0];
-    return (swept_way_out){0, vec3_add_scaled(y, core->axis[0], -max2(-h, min2(h, along))), 0};
+    return make_way(vec3_add_scaled(y, core->axis[0], -max2(-h, min2(h, along))));
 }
 
 static inline swept_way_out leave_box(const swept *core, vec3 y) {
-    swept_way_out out = {1, {0, 0, 0}, INFINITY};
-    double along[3];
+    swept_way_out out = {1, {0, 0, 0}, INFINITY, 0};
+    double along[3], excess[3];
     for (int i = 0; i < 3; i++) {
         double h = core->half[i];
         along[i] = vec3_dot(core->axis[i], y);
-        double excess = along[i] - max2(-h, min2(h, along[i]));
-        out.off = vec3_add_scaled(out.off, core->axis[i], excess);
-        out.is_inside &= !(fabs(excess) > 0);
+        excess[i] = along[i] - max2(-h, min2(h, along[i]));
     }
-    if (!out.is_inside) return (swept_way_out){0, out.off, 0};
+    if ((fabs(excess[0]) > 0) | (fabs(excess[1]) > 0) | (fabs(excess[2]) > 0)) {
+        vec3 off = vec3_add_scaled(vec3_scale(core->axis[0], excess[0]), core->axis[1], excess[1]);
+        double square = (excess[0] * excess[0] + excess[1] * excess[1]) + excess[2] * excess[2];
+        return (swept_way_out){0, vec3_add_scaled(off, core->axis[2], excess[2]), 0, sqrt(square)};
+    }
     for (int i = 0; i < 3; i++) {
         double left = core->half[i] - fabs(along[i]);
         if (!(left < out.depth)) continue;
@@ -162,7 +167,8 @@ static inline swept_way_out make_way_out(const swept *core, const beside_axis *a
                                          double depth) {
     vec3 off = vec3_add_scaled(vec3_scale(at->away, r), core->axis[0], z);
     int is_vague = is_inside && fabs(r) > 0 && !(at->r > 0x1p-20 * core->half[1]);
-    return (swept_way_out){is_inside && !is_vague, is_vague ? (vec3){0, 0, 0} : off, depth};
+    return (swept_way_out){is_inside && !is_vague, is_vague ? (vec3){0, 0, 0} : off, depth,
+                           is_inside ? 0 : sqrt(r * r + z * z)};
 }
 
 static inline swept_way_out leave_cylinder(const swept *core, vec3 y) {
@@ -189,7 +195,7 @@ static inline swept_way_out leave_cone(const swept *core, vec3 y) {
 
 COMPILER_INLINED swept_way_out swept_leave_core(const swept *core, vec3 y) {
     switch (core->core) {
-    case OVOID_SWEPT_POINT: return (swept_way_out){0, y, 0};
+    case OVOID_SWEPT_POINT: return make_way(y);
     case OVOID_SWEPT_SEGMENT: return leave_segment(core, y);
     case OVOID_SWEPT_BOX: return leave_box(core, y);
     case OVOID_SWEPT_CYLINDER: return leave_cylinder(core, y);

@@ -11,6 +11,7 @@
 #include "pair/simplex.h"
 #include "query/swept/patch.h"
 #include "simd/corner.h"
+#include "simd/support.h"
 
 enum { SEARCH_STEPS = 60, IDLE_STEPS = 3 };
 
@@ -21,11 +22,40 @@ typedef struct corners {
     unsigned valid;
 } corners;
 
-// A direction of any length, and how far along it the simplex's nearest point lies.
+// A direction of any length, the square of that and one over it, and how far along it the simplex's nearest point lies.
 typedef struct heading {
     vec3 n;
-    double square, distance;
+    double square, scale, distance;
 } heading;
+
+// ---- supports
+
+// The most points of a hull that a search turns before it begins; of more it turns the direction in each step.
+enum { MOST_TURNED = 32 };
+
+// The points of a hull turned into the world's axes, from its centre, or none.
+typedef struct turned_points {
+    double x[MOST_TURNED], y[MOST_TURNED], z[MOST_TURNED];
+    uint32_t padded_count; ///< as of simd_points
+} turned_points;
+
+static void turn_points(const ovoid_swept_sphere *s, turned_points *to) {
+    to->padded_count = 0;
+    if (s->core != OVOID_SWEPT_POINTS || s->count > MOST_TURNED) return;
+    to->padded_count = (s->count + 7) & ~7u;
+    for (uint32_t i = 0; i < to->padded_count; i++) {
+        vec3 v = patch_turn_back(s, vec3_at(s->points, i < s->count ? i : 0));
+        to->x[i] = v.x, to->y[i] = v.y, to->z[i] = v.z;
+    }
+}
+
+// patch_find_end; of a hull whose points are turned by these.
+COMPILER_INLINED vec3 find_end(const ovoid_swept_sphere *s, const turned_points *turned, vec3 n, double square) {
+    if (turned->padded_count == 0) return patch_find_end(s, n, square);
+    const simd_points points = {turned->x, turned->y, turned->z, turned->padded_count};
+    uint32_t i = simd_find_support(&points, &n).index;
+    return (vec3){turned->x[i], turned->y[i], turned->z[i]};
+}
 
 // ---- the simplex
 
@@ -64,6 +94,7 @@ static int reduce(corners *c, heading *to) {
     get_simplex(c, &points);
     to->n = simplex_reduce(&points);
     to->square = vec3_norm_squared(to->n);
+    to->scale = 1 / sqrt(to->square);
     c->valid = 0;
     for (int i = 0; i < points.count; i++) c->valid |= 1u << points.p[i].a;
     leave_last_lane(c);
@@ -102,7 +133,7 @@ typedef enum step_result { STEP_ON, STEP_INSIDE, STEP_FLAT } step_result;
 
 // The step to the new corner.
 static inline step_result step(corners *c, vec3 w, vec3 on_a, heading *to) {
-    corner_step next = simd_step_from_corner(&c->at, c->valid, w);
+    corner_step next = simd_step_from_corner(&c->at, c->valid, &w);
     if (next.is_inside | next.is_sliver | !(next.square > 1e-200 && next.square < 1e200)) {
         set_corner(c, w, on_a);
         if (next.is_inside) return STEP_INSIDE;
@@ -112,7 +143,8 @@ static inline step_result step(corners *c, vec3 w, vec3 on_a, heading *to) {
     set_corner(c, w, on_a);
     to->n = (vec3){next.x, next.y, next.z};
     to->square = next.square;
-    to->distance = vec3_dot(to->n, w) / sqrt(next.square);
+    to->scale = 1 / sqrt(next.square);
+    to->distance = vec3_dot(to->n, w) * to->scale;
     return STEP_ON;
 }
 
@@ -132,17 +164,21 @@ static inline int is_answered(const swept_search *query, double distance, double
 swept_end swept_find_nearest(const swept_search *query, nearest_pair *found) {
     // The lanes that are not valid have to be finite.
     corners c = {.valid = 0};
-    heading to = {query->first, vec3_norm_squared(query->first), vec3_norm(query->start)};
+    turned_points of_a, of_b;
+    turn_points(query->a, &of_a);
+    turn_points(query->b, &of_b);
+    double square = vec3_norm_squared(query->first);
+    heading to = {query->first, square, 1 / sqrt(square), vec3_norm(query->start)};
     double least = INFINITY, best = -INFINITY;
     int idle = 0;
     set_corner(&c, query->start, query->on_a);
     for (int k = 0; k < SEARCH_STEPS; k++) {
-        vec3 on_a = patch_find_end(query->a, to.n, to.square),
-             on_b = patch_find_end(query->b, vec3_neg(to.n), to.square);
+        vec3 on_a = find_end(query->a, &of_a, to.n, to.square),
+             on_b = find_end(query->b, &of_b, vec3_neg(to.n), to.square);
         vec3 w = vec3_sub(vec3_add(query->d, on_b), on_a);
-        double length = sqrt(to.square), gap = vec3_dot(to.n, w) / length;
+        double gap = vec3_dot(to.n, w) * to.scale;
         found->gap = gap;
-        found->normal = vec3_scale(to.n, 1 / length);
+        found->normal = vec3_scale(to.n, to.scale);
         if (gap > query->beyond) return SWEPT_BEYOND;
         if (is_answered(query, to.distance, gap) && is_answered(query, finish(&c, found), gap)) return SWEPT_NEAREST;
         idle = to.distance < least || gap > best ? 0 : idle + 1;

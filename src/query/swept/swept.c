@@ -121,7 +121,7 @@ COMPILER_INLINED int measure_point(const swept_placed *p, swept_question asked, 
     int is_point_b = p->b->core == OVOID_SWEPT_POINT;
     const swept *core = is_point_b ? p->a : p->b;
     swept_way_out out = swept_leave_core(core, is_point_b ? p->d : vec3_neg(p->d));
-    double gap = out.is_inside ? -out.depth : vec3_norm(out.off);
+    double gap = out.is_inside ? -out.depth : out.distance;
     if (asked == OF_SIGN) {
         // A point that is not seen to be outside may be deep inside.
         double lower = out.is_inside || gap > p->claim ? gap - p->radii - p->claim : -p->size;
@@ -190,17 +190,19 @@ COMPILER_INLINED ovoid_verdict find(ovoid_swept_pair pair, swept_question asked,
     if (!swept_is_moderate(&p)) return swept_undecided;
     double gap = p.distance - p.reach - p.radii - p.claim;
     if (!(asked & OF_DISTANCE) && gap > 0) return swept_make_verdict(gap, p.far - p.radii + p.claim, 0);
-    if (a >= OVOID_SWEPT_ELLIPSOID || b >= OVOID_SWEPT_ELLIPSOID) return swept_approach(&p, asked, witness);
-    if (a == OVOID_SWEPT_POINT || b == OVOID_SWEPT_POINT)
+    int is_ellipsoid_or_points = a >= OVOID_SWEPT_ELLIPSOID || b >= OVOID_SWEPT_ELLIPSOID;
+    if (!is_ellipsoid_or_points && (a == OVOID_SWEPT_POINT || b == OVOID_SWEPT_POINT))
         return measure_point(&p, asked, witness, &v) ? v : swept_undecided;
-    if ((a == OVOID_SWEPT_BOX) & (b == OVOID_SWEPT_BOX) & !(p.radii > 0) & !(asked & OF_DISTANCE)) {
-        v = separate_boxes(&p);
-        return asked & OF_CONTACT && v.status != OVOID_SEPARATED ? swept_measure_overlap(&p, witness) : v;
-    }
     if ((a == OVOID_SWEPT_SEGMENT) & (b == OVOID_SWEPT_SEGMENT) && measure_segments(&p, asked, witness, &v)) return v;
+    // Functions that are not inline get a copy, so that the closed forms before this have the pair in registers.
+    const swept_placed shared = p;
+    if ((a == OVOID_SWEPT_BOX) & (b == OVOID_SWEPT_BOX) & !(p.radii > 0) & !(asked & OF_DISTANCE)) {
+        v = separate_boxes(&shared);
+        return asked & OF_CONTACT && v.status != OVOID_SEPARATED ? swept_measure_overlap(&shared, witness) : v;
+    }
     if ((a == OVOID_SWEPT_SEGMENT && has_half_axes(b)) || (a == OVOID_SWEPT_BOX && b == OVOID_SWEPT_SEGMENT))
-        return measure_nearest(&p, asked, witness);
-    return swept_approach(&p, asked, witness);
+        return measure_nearest(&shared, asked, witness);
+    return swept_approach(&shared, asked, witness);
 }
 
 // One for each question, so that none does what another one needs.

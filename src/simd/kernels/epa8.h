@@ -63,7 +63,7 @@ LANES_INLINE lane lane_find_min(lane m) { return -lane_find_max(-m); }
 
 #if LANES == 1
 LANES_INLINE support_result find_one(const simd_points *p, lane3 n) {
-    return simd_find_support(p, (vec3){n.x, n.y, n.z});
+    return simd_find_support(p, &(vec3){n.x, n.y, n.z});
 }
 #else
 LANES_INLINE lane3 point_lanes(const simd_points *p, uint32_t at) {

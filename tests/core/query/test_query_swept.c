@@ -51,14 +51,15 @@ static ovoid_shape *create_shape(const ovoid_swept_sphere *s) {
                                            : ovoid_shape_create_cone(half[1], half[0], &options, NULL);
 }
 
-/// Points in the box of the half lengths, moved off its centre by it; their mean is in their hull.
+/// Points in the box of the half lengths, moved off its centre by it; their mean is in their hull. Few, or more than a
+/// search turns.
 static void set_points(ovoid_swept_sphere *s) {
-    enum { MOST = 12 };
+    enum { MOST = 40 };
     static double kept[2][3 * MOST];
     static int turn;
     static uint64_t r = 3;
     double *xyz = kept[turn++ % 2], mean[3] = {0, 0, 0};
-    s->count = 1 + (uint32_t)random_uniform(&r, 0, MOST);
+    s->count = turn % 5 ? 1 + (uint32_t)random_uniform(&r, 0, 12) : MOST;
     for (uint32_t i = 0; i < 3 * s->count; i++) {
         xyz[i] = s->half[i % 3] * (1 + random_uniform(&r, -1, 1));
         mean[i % 3] += xyz[i] / s->count;

@@ -33,11 +33,12 @@ static void check_scalar(uint32_t n, const double *d) {
 static void check_kernels(uint32_t n, const double *d) {
     check_scalar(n, d);
     simd_points points = {x, y, z, n};
-    support_result expected = simd_find_support_scalar(&points, vec3_at(d, 0));
+    vec3 along = vec3_at(d, 0);
+    support_result expected = simd_find_support_scalar(&points, along);
     for (simd_isa isa = SIMD_SCALAR; isa <= SIMD_ISA_COUNT; isa++) {
         simd_support_function *find = isa == SIMD_ISA_COUNT ? simd_find_support : simd_get_support(isa);
         if (!find) continue;
-        support_result r = find(&points, vec3_at(d, 0));
+        support_result r = find(&points, &along);
         CHECK_EQ(r.index, expected.index);
         CHECK(bits_of(r.value) == bits_of(expected.value));
     }
@@ -102,7 +103,7 @@ static void test_unaligned(void) {
     for (uint32_t shift = 0; shift < 8; shift++) {
         simd_points points = {x + shift, y + shift, z + shift, LONGEST};
         support_result a = simd_find_support_scalar(&points, (vec3){1, 2, 3});
-        support_result b = simd_find_support(&points, (vec3){1, 2, 3});
+        support_result b = simd_find_support(&points, &(vec3){1, 2, 3});
         CHECK(a.index == b.index && bits_of(a.value) == bits_of(b.value));
     }
 }

@@ -58,7 +58,7 @@ static int same_bits(const corner_step *a, const corner_step *b) {
 
 static corner_step step(const corner_lanes *old, unsigned valid, point a) {
     vec3 w = {(double)a.x, (double)a.y, (double)a.z};
-    corner_step twin = simd_step_from_corner_scalar(old, valid, w), s = simd_step_from_corner(old, valid, w);
+    corner_step twin = simd_step_from_corner_scalar(old, valid, w), s = simd_step_from_corner(old, valid, &w);
     CHECK(same_bits(&s, &twin));
     return s;
 }
