@@ -194,8 +194,13 @@ static ovoid_vec3 find_farthest(const ovoid_swept_sphere *s, ovoid_vec3 n) {
     }
     ovoid_vec3 to = {0, 0, 0}, *axis = (ovoid_vec3 *)s->axis;
     if (s->core == OVOID_SWEPT_CYLINDER || s->core == OVOID_SWEPT_CONE) {
-        ovoid_vec3 off = {n.x - along[0] * axis[0].x, n.y - along[0] * axis[0].y, n.z - along[0] * axis[0].z};
-        double r = sqrt(dot(off, off)), scale = r > 1e-9 ? h[1] / r : 0; // below that it is rounding
+        // Twice, since rounding leaves some of the axis in what is small.
+        ovoid_vec3 off = n;
+        for (int i = 0; i < 2; i++) {
+            double z = dot(axis[0], off);
+            off = (ovoid_vec3){off.x - z * axis[0].x, off.y - z * axis[0].y, off.z - z * axis[0].z};
+        }
+        double r = sqrt(dot(off, off)), scale = r > 1e-15 ? h[1] / r : 0;
         int is_apex = s->core == OVOID_SWEPT_CONE && 2 * h[0] * along[0] >= h[1] * r;
         double z = is_apex ? h[0] : s->core == OVOID_SWEPT_CONE ? -h[0] : copysign(h[0], along[0]);
         if (is_apex) scale = 0;
