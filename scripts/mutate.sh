@@ -17,7 +17,7 @@ cd "$(dirname "$0")/.." || exit 1
 jobs=${JOBS:-2}
 copy=build/mutate
 tree=$copy/tree
-groups="allowance query prepared depth_memory growth boxes closed swept exact hull shape ellipsoid simd environment tools world world_manifolds solid_manifolds compound solid solid_body solid_files decompose motion smooth paper manifold table lanes floats io robot robot_read robot_solid robot_spheres robot_cover robot_table robot_compare ompl fcl adapters robot_cli robot_spheres_cli shard verify page report python python_solid decompose_watch robot_watch hostile hostile_cli contact_faces contact_python python_fcl"
+groups="allowance query prepared depth_memory growth boxes closed swept exact hull shape ellipsoid simd environment tools world world_manifolds solid_manifolds compound solid solid_body solid_files decompose motion smooth paper manifold table lanes floats io robot robot_read robot_solid robot_spheres robot_cover robot_table robot_compare ompl fcl adapters robot_cli robot_spheres_cli shard verify page report python python_solid decompose_watch robot_watch hostile hostile_cli contact_faces contact_python python_fcl python_swept"
 
 # The tests of a group, fastest first; arguments after a colon.
 tests_of() {
@@ -62,6 +62,7 @@ tests_of() {
     contact_faces) echo "test_io_contacts test_cli.sh:check:distance test_cli_lies.sh" ;;
     contact_python) echo "test_python_manifold test_python_pickle" ;;
     python_fcl) echo "test_python_fcl" ;;
+    python_swept) echo "test_python_swept" ;;
     robot_read) echo "test_robot_urdf test_robot_srdf test_robot_packages test_robot_scenes test_robot_place test_robot_known" ;;
     robot_solid) echo "test_robot_solid test_robot_urdf test_robot_scenes test_cli.sh:robot_solid" ;;
     robot_cover) echo "test_robot_cover test_robot_cover:--rounds:4 test_robot_edges test_robot_path test_robot_solid" ;;

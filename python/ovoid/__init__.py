@@ -24,7 +24,8 @@ from ._draw import Picture, draw
 from ._page import show
 from ._planning import Plan
 from ._values import (Cast, Clearance, Comparison, Contacts, Element, Hit, Joint, ManifoldPolygon, Material, MatrixPair,
-                      MotionRequest, Obstacle, PartsAudit, Side, SphereAudit, StateAnswer, Trajectory, Variable, WorldManifolds)
+                      MotionRequest, Obstacle, PartsAudit, Side, SphereAudit, StateAnswer, SweptAnswer, Trajectory, Variable,
+                      WorldManifolds)
 
 
 if not has_io:

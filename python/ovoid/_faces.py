@@ -37,6 +37,7 @@ _WORDS: dict[str, Callable[[Any], str]] = {
     "RayHit": lambda it: f"{it.status}, {it.lower!r} <= t <= {it.upper!r}",
     "Smooth": lambda it: f"outer {it.outer.value!r}, inner {it.inner.value!r}",
     "SmoothValue": lambda it: f"{it.value!r}, error {it.error!r}",
+    "SweptSphere": lambda it: f"{it.kind} at {it.pose.xyz!r}",
     "World": lambda it: _count(len(it), "body"),
 }
 

@@ -68,6 +68,14 @@ def _reduce_world(world: Any) -> tuple[Any, ...]:
     return make_world, (options, bodies, ignored, materials)
 
 
+def make_swept(kind: str, sizes: Any, pose: Any, rounding: float) -> Any:
+    """The SweptSphere of that constructor."""
+    make = getattr(_ovoid.SweptSphere, kind)
+    if kind in ("box", "from_points"):
+        return make(sizes, pose, rounding=rounding)
+    return make(sizes, pose) if kind == "ellipsoid" else make(*sizes, pose)
+
+
 def _refuse(why: str) -> Any:
     def reduce(value: Any) -> Any:
         raise TypeError(f"an ovoid.{type(value).__name__} cannot be pickled or copied: {why}")
@@ -80,6 +88,7 @@ _REDUCERS = {
     "Bodies": lambda bodies: (_ovoid.Bodies, (bodies.shapes, bodies.poses)),
     "Prepared": lambda prepared: (_ovoid.Prepared, (prepared.shape, prepared.pose)),
     "Robot": _reduce_robot,
+    "SweptSphere": lambda swept: (make_swept, (swept.kind, swept.sizes, swept.pose, swept.rounding)),
     "World": _reduce_world,
     "Cell": _refuse("it keeps the states of earlier queries; pickle its robot, and make a Cell in the other process"),
     "RobotPath": _refuse("it belongs to its Cell; write its proof to a file with the tool, and read it with cell.read_paths"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, NamedTuple, NoReturn
 
 if TYPE_CHECKING:
-    from . import Agreement, Answer, Code, Pose, RobotStatus, Shape, Solid, Touch
+    from . import Agreement, Answer, Code, Limit, Pose, RobotStatus, Shape, Solid, Stage, Status, Touch
     from ._types import Floats, Indices, PoseLike, Records, Vec3
 
 
@@ -161,6 +161,25 @@ class StateAnswer(NamedTuple):
     upper: float
     code: Code | None
     variable: int | None
+
+    def __bool__(self) -> NoReturn:
+        _refuse_bool(self)
+
+
+class SweptAnswer(NamedTuple):
+    """What is known of two SweptSpheres, without a proof: lower <= d <= upper, where d is the signed distance, rounding included.
+
+    point_a, point_b, normal: as of an Answer, world frame; None where they were not asked for or nothing is decided."""
+
+    status: Status
+    lower: float
+    upper: float
+    stage: Stage
+    limit: Limit
+    iterations: int
+    point_a: Vec3 | None
+    point_b: Vec3 | None
+    normal: Vec3 | None
 
     def __bool__(self) -> NoReturn:
         _refuse_bool(self)

@@ -59,7 +59,7 @@ static int import_python(module_state *state) {
         "Contacts",  "Hit",         "Cast",       "Joint",       "Variable",        "Element",
         "Side",      "StateAnswer", "MatrixPair", "SphereAudit", "Obstacle",        "MotionRequest",
         "Clearance", "Comparison",  "PartsAudit", "Trajectory",  "ManifoldPolygon", "WorldManifolds",
-        "Material"};
+        "Material",  "SweptAnswer"};
     enum { TUPLES = sizeof tuples / sizeof *tuples };
     _Static_assert(offsetof(module_state, enums) - offsetof(module_state, contacts) == TUPLES * sizeof(PyObject *),
                    "a name for each, in their order");
@@ -104,7 +104,7 @@ static int execute(PyObject *module) {
 #ifdef OVOID_PYTHON_ROBOT
                                                 robot_add,    cell_add,  robot_path_add,
 #endif
-                                                prepared_add, solid_add, manifold_add};
+                                                prepared_add, swept_add, solid_add,      manifold_add};
     PyMethodDef *const functions[] = {
         own_methods,        query_methods,  batch_methods,     impact_methods, smooth_methods,
         array_methods,      bounds_methods, decompose_methods, state_methods,  manifold_methods,

@@ -57,12 +57,13 @@ typedef enum record_kind {
 /// All before numpy_formats are references, one after the other.
 typedef struct module_state {
     PyTypeObject *array, *shape, *pose, *compound, *answer, *bodies, *world, *motion, *impact, *approach, *ray_hit,
-        *smooth, *smooth_value, *gradient, *fit, *prepared, *solid, *robot, *cell, *robot_path, *manifold;
+        *smooth, *smooth_value, *gradient, *fit, *prepared, *swept_sphere, *solid, *robot, *cell, *robot_path,
+        *manifold;
     PyObject *error; ///< ovoid.Error
     /// Named tuples of ovoid/_values.py.
     PyObject *contacts, *hit, *cast, *joint, *variable, *element, *side, *state_answer, *matrix_pair, *sphere_audit,
         *obstacle, *motion_request, *clearance, *comparison, *parts_audit, *trajectory, *manifold_polygon,
-        *world_manifolds, *material;
+        *world_manifolds, *material, *swept_answer;
     PyObject *enums[ENUM_COUNT]; ///< tuples
     PyObject *dtype_name;        ///< "dtype"
     PyObject *numpy_array;       ///< numpy.ndarray; None where it cannot be imported, NULL where not yet tried
@@ -362,6 +363,7 @@ int motion_add(PyObject *module);
 int impact_add(PyObject *module);
 int smooth_add(PyObject *module);
 int prepared_add(PyObject *module);
+int swept_add(PyObject *module);
 int manifold_add(PyObject *module);
 int solid_add(PyObject *module);
 int robot_add(PyObject *module);

@@ -38,6 +38,7 @@ if ovoid.has_robot:
               ovoid.zeros("states", 2),
               [("a", (0, 0, 0), 0.5), (1, (0.1, 0, 0), 0.2)]]
 PREPARED = ovoid.Prepared(BALL, PLACE)
+SWEPT = ovoid.SweptSphere.box((1, 2, 3), PLACE)
 SOLID = ovoid.Solid.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)])
 SOLIDS = [SOLID, ovoid.distance(SOLID, BOX, None, PLACE)]
 SOLID_BODIES = ovoid.Bodies([SOLID, BOX, COMPOUND], [None, PLACE, PLACE])
@@ -45,14 +46,14 @@ IDS.append(WORLD.add(SOLID, PLACE))
 OBJECTS = [BOX, BALL, FLAT, PLACE, COMPOUND, MOTION, BODIES, WORLD, ANSWER, IMPACT, ovoid.find_approach(BOX, BALL, None, MOTION),
            ovoid.smooth(BOX, BALL), ovoid.gradient(ovoid.distance(BOX, BALL, None, PLACE)), BOX.outer, ANSWER.proof,
            ovoid.zeros("verdicts", 2), ovoid.zeros("witnesses", 2), ovoid.zeros("proofs", 2), BOX.to_bytes(), BOX.vertices, BOX.faces,
-           PLACE.matrix, [(0, 1), (1, 2)], [PLACE] * 3, [BOX] * 3, IDS, "wxyz", "xyzw", "depth", lambda *given: 1 / 0, PREPARED, SOLID_BODIES, *SOLIDS, SOLID.vertices, SOLID.faces,
+           PLACE.matrix, [(0, 1), (1, 2)], [PLACE] * 3, [BOX] * 3, IDS, "wxyz", "xyzw", "depth", lambda *given: 1 / 0, PREPARED, SWEPT, SOLID_BODIES, *SOLIDS, SOLID.vertices, SOLID.faces,
            *ROBOTS]
 
 
 def get_calls():
     """Every function of the module and method of its objects, with the names of its arguments."""
     functions = {name: getattr(ovoid, name) for name in ovoid.__all__}
-    for one in OBJECTS[:14] + [PREPARED] + SOLIDS + ROBOTS[:3]:
+    for one in OBJECTS[:14] + [PREPARED, SWEPT] + SOLIDS + ROBOTS[:3]:
         functions.update({f"{type(one).__name__}.{name}": getattr(one, name) for name in dir(one) if not name.startswith("__")})
         functions[type(one).__name__] = type(one)
     for name, function in sorted(functions.items()):
