@@ -74,9 +74,9 @@ typedef struct builder {
     const double *grid;
     const ovoid_allocator *allocator;
     uint8_t *state;
-    uint32_t *next;         // of a point in its list; of a corner of the horizon: the facet that starts there
-    array facets, free;     // facet, uint32_t
-    array heads;            // list_head, one for each facet
+    uint32_t *next;     // of a point in its list; of a corner of the horizon: the facet that starts there
+    array facets, free; // facet, with a list_head for each behind the last; uint32_t
+    list_head *heads;
     array visible, horizon; // uint32_t, edge
     uint32_t first, last;   // of the queue of facets with points above
     uint32_t top, few;      // of the stack of facets with at most `few` points above
@@ -208,13 +208,24 @@ void simplex_find(const points *p, surface *s) {
 
 // ---- facets ----
 
-static int grow_facets(builder *b) {
-    b->heads.count = b->facets.count;
-    return array_grow(&b->facets, sizeof(facet), b->allocator) &&
-           array_grow(&b->heads, sizeof(list_head), b->allocator);
+// Memory for facets and their list heads; what there is of them is copied. 0 if memory runs out.
+static int reserve_facets(builder *b, uint32_t capacity) {
+    const facet *old = b->facets.items;
+    facet *items = allocator_allocate(b->allocator, capacity, sizeof(facet) + sizeof(list_head));
+    if (!items) return 0;
+    list_head *heads = (list_head *)(items + capacity);
+    if (old) {
+        memcpy(items, old, b->facets.count * sizeof *items);
+        memcpy(heads, b->heads, b->facets.count * sizeof *heads);
+        allocator_release(b->allocator, b->facets.items);
+    }
+    b->facets.items = items;
+    b->facets.capacity = capacity;
+    b->heads = heads;
+    return 1;
 }
 
-static list_head *get_head(const builder *b, uint32_t f) { return (list_head *)b->heads.items + f; }
+static list_head *get_head(const builder *b, uint32_t f) { return b->heads + f; }
 
 // A free facet, with nothing across yet. NOTHING if memory runs out.
 static uint32_t add_facet(builder *b, uint32_t u, uint32_t v, uint32_t w) {
@@ -222,7 +233,7 @@ static uint32_t add_facet(builder *b, uint32_t u, uint32_t v, uint32_t w) {
     if (b->free.count)
         index = ((uint32_t *)b->free.items)[--b->free.count];
     else {
-        if (b->facets.count == b->facets.capacity && !grow_facets(b)) return NOTHING;
+        if (b->facets.count == b->facets.capacity && !reserve_facets(b, 2 * b->facets.capacity)) return NOTHING;
         index = b->facets.count++;
         *get_facet(b, index) = (facet){.pending = NOTHING};
     }
@@ -554,15 +565,11 @@ static ovoid_code find_hull(builder *b, uint32_t count, surface *s) {
     b->state = s->state = allocator_allocate(b->allocator, count, 1);
     b->next = allocator_allocate(b->allocator, count, sizeof *b->next);
     // A hull of all points has about two facets a point; many points are mostly inside.
-    b->facets.capacity = b->heads.capacity = count < 32 ? 64 : count < 1 << 13 ? 2 * count : 1 << 14;
-    b->facets.items = allocator_allocate(b->allocator, b->facets.capacity, sizeof(facet));
-    b->heads.items = allocator_allocate(b->allocator, b->heads.capacity, sizeof(list_head));
-    ovoid_code code =
-        s->state && b->next && b->facets.items && b->heads.items ? build(b, count, s->corner) : OVOID_ERROR_MEMORY;
+    int has_facets = reserve_facets(b, count < 32 ? 64 : count < 1 << 13 ? 2 * count : 1 << 14);
+    ovoid_code code = s->state && b->next && has_facets ? build(b, count, s->corner) : OVOID_ERROR_MEMORY;
     if (!code && !extract(b, count, s)) code = OVOID_ERROR_MEMORY;
     allocator_release(b->allocator, b->next);
     allocator_release(b->allocator, b->facets.items);
-    allocator_release(b->allocator, b->heads.items);
     allocator_release(b->allocator, b->free.items);
     allocator_release(b->allocator, b->visible.items);
     allocator_release(b->allocator, b->horizon.items);

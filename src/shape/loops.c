@@ -18,7 +18,6 @@ typedef struct tables {
     uint32_t *tails;                               // of directed edges
     uint32_t *facets;                              // of directed edges, to the left
     uint32_t *next;                                // of directed edges, the next of the triangle or side to the left
-    uint32_t *heads;                               // of directed edges by where they begin, working memory
     uint32_t *reverse;                             // of directed edges, the one back
     uint32_t *corners;                             // of the corners of triangles, the edge that begins there
     uint32_t *places;                              // of vertices, working memory
@@ -43,16 +42,17 @@ static void start_lists(const tables *t) {
 // that a place that moves along the list of the vertex that each edge leads to numbers the edge back.
 static void number_corners(tables *t) {
     const uint32_t *corner = t->p->triangles;
-    uint32_t count = 3 * t->p->triangle_count, *ordered = t->next;
+    // Memory of tables that are written behind this.
+    uint32_t count = 3 * t->p->triangle_count, *ordered = t->next, *heads = t->facets;
     start_lists(t);
     for (uint32_t i = 0; i < count; i += 3)
         for (uint32_t k = 0; k < 3; k++) {
             uint32_t at = t->places[corner[i + k]]++;
             ordered[at] = i + k;
-            t->heads[at] = corner[i + (k == 2 ? 0 : k + 1)];
+            heads[at] = corner[i + (k == 2 ? 0 : k + 1)];
         }
     start_lists(t);
-    for (uint32_t i = 0; i < count; i++) t->corners[ordered[i]] = t->reverse[t->places[t->heads[i]]++];
+    for (uint32_t i = 0; i < count; i++) t->corners[ordered[i]] = t->reverse[t->places[heads[i]]++];
 }
 
 // 1 if each facet is one triangle.
@@ -229,7 +229,7 @@ static void fill_regular(const tables *t, const regular_solid *solid) {
 }
 
 size_t loops_get_room(block_counts counts) {
-    return 3 * ((size_t)counts.triangles + counts.neighbors) + counts.vertices;
+    return 3 * (size_t)counts.triangles + 2 * (size_t)counts.neighbors + counts.vertices;
 }
 
 void loops_fill(ovoid_shape *s, const ovoid_polytope *p, const closed_form *form, uint32_t *room) {
@@ -239,8 +239,7 @@ void loops_fill(ovoid_shape *s, const ovoid_polytope *p, const closed_form *form
     t.facets = get_table(s, at->edge_facets);
     t.next = room;
     t.reverse = t.next + s->counts.neighbors;
-    t.heads = t.reverse + s->counts.neighbors;
-    t.places = t.heads + s->counts.neighbors;
+    t.places = t.reverse + s->counts.neighbors;
     t.corners = t.places + p->vertex_count;
     t.starts = get_table(s, at->loop_starts);
     t.loop_vertices = get_table(s, at->loop_vertices);
