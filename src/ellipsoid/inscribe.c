@@ -306,9 +306,9 @@ static int settle(solver *w, double gap) {
 // One of 24 cells of directions: the coordinate that is largest and its sign, and the signs of the others over it.
 static int find_cell(vec3 n) {
     double x = fabs(n.x), y = fabs(n.y), z = fabs(n.z);
-    if (x >= y && x >= z) return (n.x < 0) * 4 + (n.y / n.x > 0) + 2 * (n.z / n.x > 0);
-    if (y >= z) return 8 + (n.y < 0) * 4 + (n.z / n.y > 0) + 2 * (n.x / n.y > 0);
-    return 16 + (n.z < 0) * 4 + (n.x / n.z > 0) + 2 * (n.y / n.z > 0);
+    int is_x = (x >= y) & (x >= z), axis = !is_x * (2 - (y >= z));
+    const double of[5] = {n.x, n.y, n.z, n.x, n.y}, *most = of + axis;
+    return axis * 8 + (most[0] < 0) * 4 + (most[1] * most[0] > 0) + 2 * (most[2] * most[0] > 0);
 }
 
 // The least room of all halfspaces, in units of the ellipsoid's reach; from each cell the halfspace of least room below

@@ -40,16 +40,26 @@ enum { MANY = 2048, FEW = 128 };
 typedef struct facet {
     vec3 normal;        // (a - c) x (b - c), rounded
     uint32_t vertex[3]; // a, b, c
-    uint32_t across[3]; // beyond a b, b c, c a
-    double height;      // of the highest point above it, if there is any
-    uint32_t points;    // its list: that point first; NOTHING if it is empty
-    uint32_t count;     // of its list
+    uint32_t across[3]; // the edges back from beyond a b, b c, c a (make_side)
+    uint32_t points;    // its list: the highest point above it first; NOTHING if it is empty
     uint32_t pending;   // the next facet of the queue or the stack, NOTHING at its end
     uint32_t stamp;     // of the last point for which is_above was computed
     uint8_t is_queued, is_above, is_free;
 } facet;
+_Static_assert(sizeof(facet) == 64, "a line of the cache");
 
-// An edge of the horizon: from a replaced facet to one that stays.
+// Edge k of a facet, in one number: there are at most 2^24 points, and so fewer than 2^26 facets. The edge beyond is
+// stored by its number so that it need not be searched for among three, which would follow no pattern.
+static uint32_t make_side(uint32_t f, uint32_t k) { return 4 * f + k; }
+static uint32_t get_facet_of(uint32_t side) { return side / 4; }
+
+// Of the list of a facet: the height of its first point, if that is above the facet; the number of its points.
+typedef struct list_head {
+    double height;
+    uint32_t count;
+} list_head;
+
+// An edge of a replaced facet on the horizon, and the edge back of the facet that stays.
 typedef struct edge {
     uint32_t from, to, across;
 } edge;
@@ -64,8 +74,9 @@ typedef struct builder {
     const double *grid;
     const ovoid_allocator *allocator;
     uint8_t *state;
-    uint32_t *next;         // of a point in its list; of a corner of the horizon: the facet that starts there
-    array facets, free;     // facet, uint32_t
+    uint32_t *next;     // of a point in its list; of a corner of the horizon: the facet that starts there
+    array facets, free; // facet, with a list_head for each behind the last; uint32_t
+    list_head *heads;
     array visible, horizon; // uint32_t, edge
     uint32_t first, last;   // of the queue of facets with points above
     uint32_t top, few;      // of the stack of facets with at most `few` points above
@@ -197,14 +208,32 @@ void simplex_find(const points *p, surface *s) {
 
 // ---- facets ----
 
+// Memory for facets and their list heads; what there is of them is copied. 0 if memory runs out.
+static int reserve_facets(builder *b, uint32_t capacity) {
+    const facet *old = b->facets.items;
+    facet *items = allocator_allocate(b->allocator, capacity, sizeof(facet) + sizeof(list_head));
+    if (!items) return 0;
+    list_head *heads = (list_head *)(items + capacity);
+    if (old) {
+        memcpy(items, old, b->facets.count * sizeof *items);
+        memcpy(heads, b->heads, b->facets.count * sizeof *heads);
+        allocator_release(b->allocator, b->facets.items);
+    }
+    b->facets.items = items;
+    b->facets.capacity = capacity;
+    b->heads = heads;
+    return 1;
+}
+
+static list_head *get_head(const builder *b, uint32_t f) { return b->heads + f; }
+
 // A free facet, with nothing across yet. NOTHING if memory runs out.
 static uint32_t add_facet(builder *b, uint32_t u, uint32_t v, uint32_t w) {
     uint32_t index;
     if (b->free.count)
         index = ((uint32_t *)b->free.items)[--b->free.count];
     else {
-        if (b->facets.count == b->facets.capacity && !array_grow(&b->facets, sizeof(facet), b->allocator))
-            return NOTHING;
+        if (b->facets.count == b->facets.capacity && !reserve_facets(b, 2 * b->facets.capacity)) return NOTHING;
         index = b->facets.count++;
         *get_facet(b, index) = (facet){.pending = NOTHING};
     }
@@ -215,7 +244,7 @@ static uint32_t add_facet(builder *b, uint32_t u, uint32_t v, uint32_t w) {
     f->vertex[1] = v;
     f->vertex[2] = w;
     f->across[0] = f->across[1] = f->across[2] = f->points = NOTHING;
-    f->count = 0;
+    get_head(b, index)->count = 0;
     f->stamp = 0;
     f->is_free = 0;
     return index;
@@ -237,7 +266,7 @@ static void queue_facet(builder *b, uint32_t index) {
     facet *f = get_facet(b, index);
     if (f->is_queued) return;
     f->is_queued = 1;
-    if (f->count <= b->few) {
+    if (get_head(b, index)->count <= b->few) {
         f->pending = b->top;
         b->top = index;
         return;
@@ -257,23 +286,26 @@ static int has_above(const builder *b, const facet *f) {
 // Puts a point into a facet's list. Points above count as extreme until proven otherwise.
 static void list_point(builder *b, uint32_t index, uint32_t p, int side, double height) {
     facet *f = get_facet(b, index);
+    list_head *head = get_head(b, index);
     b->state[p] = side > 0 ? POINT_EXTREME : POINT_ON_FACE;
-    int is_first = f->points == NOTHING || (side > 0 && (!has_above(b, f) || height > f->height));
-    if (is_first) f->height = height;
+    int is_first = f->points == NOTHING || (side > 0 && (!has_above(b, f) || height > head->height));
+    if (is_first) head->height = height;
     uint32_t *link = is_first ? &f->points : &b->next[f->points];
     b->next[p] = *link;
     *link = p;
-    f->count++;
+    head->count++;
     if (side > 0 && !b->few) queue_facet(b, index);
 }
 
 // Assigns a point to the first of the facets that it is above, else to one that it is on; else it is inside. Only a
-// point that was above a replaced facet can be above a new one.
-static void place_point(builder *b, uint32_t p, const uint32_t *facets, uint32_t count) {
+// point that was above a replaced facet can be above a new one. apex: the last corner of all of the facets; NOTHING:
+// they have none in common.
+static inline void place_point(builder *b, uint32_t p, const uint32_t *facets, uint32_t count, uint32_t apex) {
     uint32_t on = NOTHING;
+    vec3 offset = apex == NOTHING ? (vec3){0, 0, 0} : vec3_sub(get_point(b, p), get_point(b, apex));
     for (uint32_t i = 0; i < count; i++) {
         const facet *f = get_facet(b, facets[i]);
-        double height = get_height(b, f, p);
+        double height = apex == NOTHING ? get_height(b, f, p) : vec3_dot(f->normal, offset);
         int side = get_side(b, f, p, height);
         if (side > 0) {
             list_point(b, facets[i], p, side, height);
@@ -302,15 +334,16 @@ static int make_simplex(builder *b, uint32_t count, const uint32_t given[4]) {
     }
     static const int corners[4][3] = {{0, 1, 2}, {1, 0, 3}, {2, 1, 3}, {0, 2, 3}};
     static const int across[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+    static const uint32_t back[4][3] = {{0, 0, 0}, {0, 2, 1}, {1, 2, 1}, {2, 2, 1}};
     for (int i = 0; i < 4; i++) {
         f[i] = add_facet(b, c[corners[i][0]], c[corners[i][1]], c[corners[i][2]]);
         if (f[i] == NOTHING) return 0;
     }
     for (int i = 0; i < 4; i++)
-        for (int k = 0; k < 3; k++) get_facet(b, f[i])->across[k] = f[across[i][k]];
+        for (int k = 0; k < 3; k++) get_facet(b, f[i])->across[k] = make_side(f[across[i][k]], back[i][k]);
     for (uint32_t p = 0; p < count; p++) {
         b->state[p] = POINT_EXTREME;
-        if (p != c[0] && p != c[1] && p != c[2] && p != c[3]) place_point(b, p, f, 4);
+        if (p != c[0] && p != c[1] && p != c[2] && p != c[3]) place_point(b, p, f, 4, NOTHING);
     }
     queue_facets(b, f, 4);
     return 1;
@@ -329,14 +362,15 @@ static int find_horizon(builder *b, uint32_t start, uint32_t p) {
     for (uint32_t i = 0; i < b->visible.count; i++) {
         const facet *f = get_facet(b, ((uint32_t *)b->visible.items)[i]);
         for (int k = 0; k < 3; k++) {
-            facet *g = get_facet(b, f->across[k]);
+            uint32_t across = get_facet_of(f->across[k]);
+            facet *g = get_facet(b, across);
             int is_new = g->stamp != b->stamp;
             if (is_new) {
                 g->stamp = b->stamp;
                 g->is_above = get_side(b, g, p, get_height(b, g, p)) > 0;
             }
             if (g->is_above) {
-                if (is_new && !push_index(&b->visible, f->across[k], b->allocator)) return 0;
+                if (is_new && !push_index(&b->visible, across, b->allocator)) return 0;
                 continue;
             }
             if (b->horizon.count == b->horizon.capacity && !array_grow(&b->horizon, sizeof(edge), b->allocator))
@@ -347,15 +381,12 @@ static int find_horizon(builder *b, uint32_t start, uint32_t p) {
     return 1;
 }
 
-// Links the facet across the edge to the new facet.
+// Links the facet across the edge to the new facet, of which that is edge 0.
 static int join_across(builder *b, const edge *e, uint32_t index) {
-    facet *g = get_facet(b, e->across);
-    for (int k = 0; k < 3; k++)
-        if (g->vertex[k] == e->to && g->vertex[(k + 1) % 3] == e->from) {
-            g->across[k] = index;
-            return 1;
-        }
-    return 0;
+    facet *g = get_facet(b, get_facet_of(e->across));
+    uint32_t k = e->across % 4;
+    g->across[k] = make_side(index, 0);
+    return g->vertex[k] == e->to && g->vertex[k == 2 ? 0 : k + 1] == e->from;
 }
 
 // The cone from the point over the horizon; the facets' indices replace the edges' `across`. OVOID_ERROR_HULL if the
@@ -375,8 +406,8 @@ static ovoid_code make_cone(builder *b, uint32_t p) {
         if (after >= b->facets.count || get_facet(b, after)->vertex[0] != edges[i].to ||
             get_facet(b, after)->vertex[2] != p || get_facet(b, after)->across[2] != NOTHING)
             return OVOID_ERROR_HULL;
-        get_facet(b, index)->across[1] = after;
-        get_facet(b, after)->across[2] = index;
+        get_facet(b, index)->across[1] = make_side(after, 2);
+        get_facet(b, after)->across[2] = make_side(index, 1);
     }
     return OVOID_OK;
 }
@@ -392,7 +423,7 @@ static int share_points(builder *b, uint32_t p) {
         facet *f = get_facet(b, index);
         for (uint32_t q = f->points, after; q != NOTHING; q = after) {
             after = b->next[q];
-            if (q != p) place_point(b, q, fresh, b->horizon.count);
+            if (q != p) place_point(b, q, fresh, b->horizon.count, p);
         }
         f->points = NOTHING;
         f->is_free = 1;
@@ -428,10 +459,8 @@ static ovoid_code build(builder *b, uint32_t count, const uint32_t corner[4]) {
 
 // The vertex of the facet beyond edge k of f.
 static uint32_t get_beyond(const builder *b, const facet *f, int k) {
-    const facet *g = get_facet(b, f->across[k]);
-    for (int i = 0; i < 3; i++)
-        if (g->vertex[i] != f->vertex[k] && g->vertex[i] != f->vertex[(k + 1) % 3]) return g->vertex[i];
-    return g->vertex[0];
+    uint32_t side = f->across[k], back = side % 4;
+    return get_facet(b, get_facet_of(side))->vertex[back ? back - 1 : 2];
 }
 
 // Sets the states of the points that were corners of facets at some time: inside if no facet is left at them, on a face
@@ -448,7 +477,7 @@ static void mark_corners(builder *b, uint32_t count) {
         const facet *f = get_facet(b, i);
         for (int k = 0; k < 3 && !f->is_free; k++) {
             // Each edge is counted at the first of its facets.
-            if (f->across[k] < i) continue;
+            if (get_facet_of(f->across[k]) < i) continue;
             uint32_t beyond = get_beyond(b, f, k);
             if (!get_side(b, f, beyond, get_height(b, f, beyond))) continue;
             creases[f->vertex[k]]++;
@@ -514,7 +543,7 @@ static int extract(builder *b, uint32_t count, surface *s) {
         if (f->is_free) continue;
         for (int k = 0; k < 3; k++) {
             s->triangles[t] = f->vertex[k];
-            s->across[t++] = get_facet(b, f->across[k])->stamp;
+            s->across[t++] = get_facet(b, get_facet_of(f->across[k]))->stamp;
         }
     }
     mark_corners(b, count);
@@ -536,9 +565,8 @@ static ovoid_code find_hull(builder *b, uint32_t count, surface *s) {
     b->state = s->state = allocator_allocate(b->allocator, count, 1);
     b->next = allocator_allocate(b->allocator, count, sizeof *b->next);
     // A hull of all points has about two facets a point; many points are mostly inside.
-    b->facets.capacity = count < 32 ? 64 : count < 1 << 13 ? 2 * count : 1 << 14;
-    b->facets.items = allocator_allocate(b->allocator, b->facets.capacity, sizeof(facet));
-    ovoid_code code = s->state && b->next && b->facets.items ? build(b, count, s->corner) : OVOID_ERROR_MEMORY;
+    int has_facets = reserve_facets(b, count < 32 ? 64 : count < 1 << 13 ? 2 * count : 1 << 14);
+    ovoid_code code = s->state && b->next && has_facets ? build(b, count, s->corner) : OVOID_ERROR_MEMORY;
     if (!code && !extract(b, count, s)) code = OVOID_ERROR_MEMORY;
     allocator_release(b->allocator, b->next);
     allocator_release(b->allocator, b->facets.items);

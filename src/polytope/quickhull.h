@@ -29,7 +29,8 @@ void simplex_find(const points *p, surface *s);
 static inline uint32_t surface_get_beyond(const surface *s, uint32_t triangle, uint32_t k) {
     const uint32_t *other = s->triangles + 3 * (size_t)s->across[3 * (size_t)triangle + k];
     uint32_t from = s->triangles[3 * (size_t)triangle + k];
-    return other[0] == from ? other[1] : other[1] == from ? other[2] : other[0];
+    // An index, since the values would be read after branches that follow no pattern.
+    return other[other[0] == from ? 1 : 2 * (other[1] == from)];
 }
 
 /// The error of (a - c) x (b - c) . (q - c) in doubles is at most this for any points of the box.

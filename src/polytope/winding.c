@@ -18,12 +18,12 @@ static int count_crossing(vec3 c, vec3 q, const vec3 corner[3]) {
 }
 
 // 1 if the line through the point along z passes beside a triangle: all corners lie to one side of it along x, or along
-// y. The comparisons are exact.
+// y. The comparisons are exact. Each by itself follows no pattern, so there is no branch between them.
 static int is_beside(vec3 point, const vec3 corner[3]) {
     double x = point.x, y = point.y;
     const vec3 *a = corner, *b = corner + 1, *c = corner + 2;
-    return (a->x > x && b->x > x && c->x > x) || (a->x < x && b->x < x && c->x < x) ||
-           (a->y > y && b->y > y && c->y > y) || (a->y < y && b->y < y && c->y < y);
+    return ((a->x > x) & (b->x > x) & (c->x > x)) | ((a->x < x) & (b->x < x) & (c->x < x)) |
+           ((a->y > y) & (b->y > y) & (c->y > y)) | ((a->y < y) & (b->y < y) & (c->y < y));
 }
 
 // A point on the ray of an attempt: up along z at first; then through points inside a triangle, at weights of no

@@ -19,8 +19,8 @@ typedef struct tables {
     uint32_t *facets;                              // of directed edges, to the left
     uint32_t *next;                                // of directed edges, the next of the triangle or side to the left
     uint32_t *reverse;                             // of directed edges, the one back
-    uint32_t *corners;                             // of the corners of triangles, working memory
-    uint32_t *places, *heads;                      // of vertices, working memory
+    uint32_t *corners;                             // of the corners of triangles, the edge that begins there
+    uint32_t *places;                              // of vertices, working memory
     uint32_t *starts, *loop_vertices, *loop_edges; // of loops
 } tables;
 
@@ -28,38 +28,48 @@ static uint32_t *get_table(ovoid_shape *shape, uint64_t at) { return (uint32_t *
 
 static int is_boundary(const tables *t, uint32_t edge) { return t->facets[t->reverse[edge]] != t->facets[edge]; }
 
+// An edge in both directions has one name: that from its lower vertex, whose edges have the lower numbers.
+static uint32_t get_name(const tables *t, uint32_t edge) {
+    uint32_t back = t->reverse[edge];
+    return edge < back ? edge : back;
+}
+
 static void start_lists(const tables *t) {
     memcpy(t->places, t->p->neighbor_starts, t->p->vertex_count * sizeof *t->places);
 }
 
-// Replaces each corner's vertex by the directed edge that begins there. `reverse` links the corners whose edges lead to
-// one vertex.
+// Writes for each corner the directed edge that begins there. The corners are taken in the order of their vertices, so
+// that a place that moves along the list of the vertex that each edge leads to numbers the edge back.
 static void number_corners(tables *t) {
-    const ovoid_polytope *p = t->p;
-    memset(t->heads, 0xff, p->vertex_count * sizeof *t->heads);
-    for (uint32_t i = 0; i < 3 * p->triangle_count; i += 3)
+    const uint32_t *corner = t->p->triangles;
+    // Memory of tables that are written behind this.
+    uint32_t count = 3 * t->p->triangle_count, *ordered = t->next, *heads = t->facets;
+    start_lists(t);
+    for (uint32_t i = 0; i < count; i += 3)
         for (uint32_t k = 0; k < 3; k++) {
-            uint32_t to = p->triangles[i + (k == 2 ? 0 : k + 1)];
-            t->corners[i + k] = p->triangles[i + k];
-            t->reverse[i + k] = t->heads[to];
-            t->heads[to] = i + k;
+            uint32_t at = t->places[corner[i + k]]++;
+            ordered[at] = i + k;
+            heads[at] = corner[i + (k == 2 ? 0 : k + 1)];
         }
     start_lists(t);
-    for (uint32_t v = 0; v < p->vertex_count; v++)
-        for (uint32_t i = t->heads[v]; i != NOTHING; i = t->reverse[i]) t->corners[i] = t->places[t->corners[i]]++;
+    for (uint32_t i = 0; i < count; i++) t->corners[ordered[i]] = t->reverse[t->places[heads[i]]++];
 }
 
+// 1 if each facet is one triangle.
+static int has_triangles_alone(const tables *t) { return t->p->rank == 3 && t->p->facet_count == t->p->triangle_count; }
+
 static void link_solid(tables *t) {
+    start_lists(t);
+    for (uint32_t i = 0; i < t->shape->counts.neighbors; i++) t->reverse[i] = t->places[t->p->neighbors[i]]++;
     number_corners(t);
+    int needs_next = !has_triangles_alone(t);
     for (uint32_t i = 0; i < t->p->triangle_count; i++) {
         const uint32_t *edge = t->corners + 3 * (size_t)i;
         for (int k = 0; k < 3; k++) {
-            t->next[edge[k]] = edge[k == 2 ? 0 : k + 1];
+            if (needs_next) t->next[edge[k]] = edge[k == 2 ? 0 : k + 1];
             t->facets[edge[k]] = t->p->triangle_facets[i];
         }
     }
-    start_lists(t);
-    for (uint32_t i = 0; i < t->shape->counts.neighbors; i++) t->reverse[i] = t->places[t->p->neighbors[i]]++;
 }
 
 // Of a polygon the lists of neighbors hold the corner before, then the corner after; it has two sides.
@@ -94,7 +104,7 @@ static uint32_t append_loop(tables *t, uint32_t first, uint32_t count) {
     uint32_t most = t->shape->counts.neighbors, edge = first;
     do {
         t->loop_vertices[count] = t->tails[edge];
-        t->loop_edges[count++] = t->tails[edge] < t->p->neighbors[edge] ? edge : t->reverse[edge];
+        t->loop_edges[count++] = get_name(t, edge);
         edge = find_next(t, edge);
     } while (edge != first && count < most);
     return count;
@@ -123,7 +133,7 @@ static int is_convex(const tables *t, const uint32_t *loop, uint32_t count, vec3
 static uint32_t put_triangle(tables *t, uint32_t edge, uint32_t start) {
     for (uint32_t i = 0; i < 3; i++, edge = t->next[edge]) {
         t->loop_vertices[start + i] = t->tails[edge];
-        t->loop_edges[start + i] = t->tails[edge] < t->p->neighbors[edge] ? edge : t->reverse[edge];
+        t->loop_edges[start + i] = get_name(t, edge);
     }
     return start + 3;
 }
@@ -140,16 +150,16 @@ static void fill_triangles(tables *t) {
         uint32_t start = 3 * t->p->triangle_facets[i], k = edges[1] < edges[0];
         if (edges[2] < edges[k]) k = 2;
         for (uint32_t j = 0; j < 3; j++, k = k == 2 ? 0 : k + 1) {
-            uint32_t tail = t->tails[edges[k]];
-            t->loop_vertices[start + j] = tail;
-            t->loop_edges[start + j] = tail < t->p->neighbors[edges[k]] ? edges[k] : t->reverse[edges[k]];
+            uint32_t edge = edges[k];
+            t->loop_vertices[start + j] = t->tails[edge];
+            t->loop_edges[start + j] = get_name(t, edge);
         }
     }
     for (uint32_t f = 0; f <= t->p->facet_count; f++) t->starts[f] = 3 * f;
 }
 
 static void fill_loops(tables *t, uint32_t loop_count) {
-    if (t->p->rank == 3 && t->p->facet_count == t->p->triangle_count) {
+    if (has_triangles_alone(t)) {
         fill_triangles(t);
         return;
     }
@@ -219,7 +229,7 @@ static void fill_regular(const tables *t, const regular_solid *solid) {
 }
 
 size_t loops_get_room(block_counts counts) {
-    return 3 * (size_t)counts.triangles + 2 * ((size_t)counts.neighbors + counts.vertices);
+    return 3 * (size_t)counts.triangles + 2 * (size_t)counts.neighbors + counts.vertices;
 }
 
 void loops_fill(ovoid_shape *s, const ovoid_polytope *p, const closed_form *form, uint32_t *room) {
@@ -230,8 +240,7 @@ void loops_fill(ovoid_shape *s, const ovoid_polytope *p, const closed_form *form
     t.next = room;
     t.reverse = t.next + s->counts.neighbors;
     t.places = t.reverse + s->counts.neighbors;
-    t.heads = t.places + p->vertex_count;
-    t.corners = t.heads + p->vertex_count;
+    t.corners = t.places + p->vertex_count;
     t.starts = get_table(s, at->loop_starts);
     t.loop_vertices = get_table(s, at->loop_vertices);
     t.loop_edges = get_table(s, at->loop_edges);
