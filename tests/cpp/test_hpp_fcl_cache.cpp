@@ -111,12 +111,12 @@ static void test_deaths() {
     ovoid::fcl::trim();
     CHECK_EQ(ovoid::fcl::count_kept(), 0u);
     std::vector<CollisionObjectd> living;
-    for (int i = 0; i < 40; i++) living.emplace_back(std::make_shared<Cylinderd>(1, 1 + 0.01 * i), right(3));
+    for (int i = 0; i < 40; i++) living.emplace_back(std::make_shared<Boxd>(1, 1, 1 + 0.01 * i), right(3));
     CollisionResultd result;
     const auto ask_all = [&] {
         for (const auto &o : living) {
             result.clear();
-            // A depth, which their shapes are asked for.
+            // The one contact of two boxes, which their shapes are asked for.
             CHECK_EQ(ovoid::fcl::collide<double>(&living[0], &o, CollisionRequestd(1, true), result), 1u);
         }
     };
