@@ -12,6 +12,6 @@ enum { SHAPE_TRIANGLES_LEAST = 16 };
 /// solid whose inner ellipsoid is more than a point; 4 and 5, as 2 and 3, of a shape whose allowance has an axis;
 /// 6 and 7, as 4 and 5, of one whose true body is known; 8, as 2, of an ellipsoid; 9 to 16, as 1 to 8, with a checksum
 /// by words.
-size_t shape_write_version(const ovoid_shape *shape, uint32_t version, void *buffer, size_t capacity);
+size_t shape_write_version(const ovoid_shape *shape, uint32_t written, void *buffer, size_t capacity);
 
 #endif
