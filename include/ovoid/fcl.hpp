@@ -110,7 +110,7 @@ template <class S> int compare_balls(const posed<S> &a, const posed<S> &b, const
     };
     const double x = between(0) + (q.x - p.x), y = between(1) + (q.y - p.y), z = between(2) + (q.z - p.z),
                  distance = std::sqrt(x * x + y * y + z * z), outer = of_a.outer + of_b.outer,
-                 doubt = 1e-12 * (distance + outer + sum_lengths(p) + sum_lengths(q));
+                 doubt = 1e-12 * (distance + outer + sum_abs(p) + sum_abs(q));
     if (!(distance < 1e50)) return 0;
     return distance - outer > doubt ? 1 : distance - (of_a.inner + of_b.inner) < -doubt ? -1 : 0;
 }
@@ -175,6 +175,14 @@ template <class S> OVOID_FCL_APART bool list_plane_contacts(contact_list<S> &to,
     return true;
 }
 
+/// The contacts that FCL finds itself.
+template <class S>
+OVOID_FCL_APART std::size_t collide_itself(const posed<S> &a, const posed<S> &b,
+                                           const ::fcl::CollisionRequest<S> &request,
+                                           ::fcl::CollisionResult<S> &result) {
+    return OVOID_FCL_ITSELF::template collide<S>(a.of, a.pose, b.of, b.pose, request, result);
+}
+
 /// The contacts with a plane, of which a yes or no mostly needs no more than the side that the other geometry is on.
 template <class S>
 OVOID_FCL_APART std::size_t collide_plane(const posed<S> &a, const posed<S> &b,
@@ -182,15 +190,13 @@ OVOID_FCL_APART std::size_t collide_plane(const posed<S> &a, const posed<S> &b,
                                           ::fcl::CollisionResult<S> &result) {
     const auto asked = make_plane_pair(a, b);
     const plane_pair<S> &pair = asked.first;
-    if (!asked.second || request.enable_cost || request.num_max_contacts == 0)
-        return OVOID_FCL_ITSELF::template collide<S>(a.of, a.pose, b.of, b.pose, request, result);
+    if (!asked.second) return collide_itself<S>(a, b, request, result);
     const int side = find_side<S>(pair.other.self(), pair.other.pose, pair.at);
     if (side < 0 && !request.enable_contact) {
         result.addContact(::fcl::Contact<S>(a.of, b.of, -1, -1));
     } else if (side <= 0) {
         contact_list<S> to(a.self(), b.self(), request, result);
-        if (!list_plane_contacts<S>(to, plane_pair<S>(pair)))
-            return OVOID_FCL_ITSELF::template collide<S>(a.of, a.pose, b.of, b.pose, request, result);
+        if (!list_plane_contacts<S>(to, plane_pair<S>(pair))) return collide_itself<S>(a, b, request, result);
     }
     return result.numContacts();
 }
@@ -221,9 +227,7 @@ OVOID_FCL_APART std::size_t collide_others(const posed<S> &a, const posed<S> &b,
                                            const ::fcl::CollisionRequest<S> &request,
                                            ::fcl::CollisionResult<S> &result) {
     contact_list<S> to(a.self(), b.self(), request, result);
-    if (request.enable_cost || request.num_max_contacts == 0 || !collide_bodies(to, a, b))
-        return OVOID_FCL_ITSELF::template collide<S>(a.of, a.pose, b.of, b.pose, request, result);
-    return result.numContacts();
+    return collide_bodies(to, a, b) ? result.numContacts() : collide_itself<S>(a, b, request, result);
 }
 
 /// The contacts of swept spheres with their details.
@@ -241,10 +245,11 @@ OVOID_FCL_INLINE std::size_t collide(const posed<S> &a, const posed<S> &b, const
     // request.isSatisfied(result), which is a call of libfcl, as numContacts is.
     const std::size_t before = result.isCollision() ? result.numContacts() : 0;
     if (!request.enable_cost && before > 0 && request.num_max_contacts <= before) return before;
+    if (request.enable_cost || request.num_max_contacts == 0)
+        return collide_itself<S>(posed<S>(a), posed<S>(b), request, result);
     if (a.is_flat() || b.is_flat()) return collide_plane<S>(posed<S>(a), posed<S>(b), request, result);
     ovoid_swept_sphere swept[2];
-    if (request.enable_cost || request.num_max_contacts == 0 || !make_swept_pair(a, b, swept))
-        return collide_others<S>(posed<S>(a), posed<S>(b), request, result);
+    if (!make_swept_pair(a, b, swept)) return collide_others<S>(posed<S>(a), posed<S>(b), request, result);
     const ovoid_swept_pair pair = {&swept[0], &swept[1]};
     if (request.enable_contact) return list_swept<S>(posed<S>(a), posed<S>(b), pair, request, result);
     const ovoid_verdict found = ovoid_swept_collide(pair);

@@ -55,7 +55,7 @@ template <class S> ovoid_vec3 turn(const ::fcl::Transform3<S> &t, const ovoid_ve
     };
     return {row(0), row(1), row(2)};
 }
-inline double sum_lengths(const ovoid_vec3 &v) { return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z); }
+inline double sum_abs(const ovoid_vec3 &v) { return std::fabs(v.x) + std::fabs(v.y) + std::fabs(v.z); }
 
 /// Prepares a shape, or no shape, at a transform; false if that is no rigid motion, or not finite.
 template <class S> bool place(const ovoid_shape *shape, const ::fcl::Transform3<S> &t, ovoid_prepared_shape &to) {
