@@ -293,8 +293,9 @@ static PyMethodDef methods[] = {
         distance,
         "The distance of bodies that are apart, to a part in 1e12 of the sizes, or in 1e9 where it is searched; of an\n"
         "overlap the sign alone, with two points of a common part."),
-    QUERY(depth, "The signed distance: of an overlap minus the depth. Undecided where cores overlap, as those of two "
-                 "boxes do, but for\na point in a core."),
+    QUERY(depth,
+          "The signed distance: of an overlap minus the depth, to a part in 1e12 of the sizes. Undecided of some "
+          "that overlap,\nmost where many translations are as short."),
     QUERY(contact_depth, "depth(other), but of bodies that are apart the sign alone, without points and normal."),
     {NULL, NULL, 0, NULL}};
 
