@@ -44,7 +44,7 @@ static void take_triangle(const ovoid_solid *s, uint32_t place, vec3 n, farthest
 
 static farthest find_farthest_of_solid(const ovoid_solid *s, vec3 n) {
     farthest best = {-INFINITY, {0, 0, 0}};
-    tree_direction d = {n, {fabs(n.x), fabs(n.y), fabs(n.z)}};
+    tree_direction d = {n, vec3_abs(n)};
     double origin = vec3_dot(n, s->center), unit = s->unit;
     waiting_node stack[SOLID_DEPTH_MAX * BOX8] = {{0, INFINITY}};
     for (uint32_t count = 1; count > 0;) {

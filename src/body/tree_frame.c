@@ -3,9 +3,7 @@
 
 #include "linear/rotation.h"
 
-static vec3 absolute(vec3 v) { return (vec3){fabs(v.x), fabs(v.y), fabs(v.z)}; }
-
-static mat3 absolute_matrix(mat3 m) { return (mat3){absolute(m.r0), absolute(m.r1), absolute(m.r2)}; }
+static mat3 absolute_matrix(mat3 m) { return (mat3){vec3_abs(m.r0), vec3_abs(m.r1), vec3_abs(m.r2)}; }
 
 void tree_frame_make(const body_tree *a, const body_tree *b, tree_frame *f) {
     f->world = quat_to_mat3(a->pose->rotation);
@@ -25,7 +23,7 @@ void tree_frame_make(const body_tree *a, const body_tree *b, tree_frame *f) {
 
 // The gap of boxes of the given half sizes around two centres, and its direction, along the axes of the frame.
 static box_gap find_axis_gap(vec3 d, vec3 half) {
-    vec3 gap = vec3_sub(absolute(d), half);
+    vec3 gap = vec3_sub(vec3_abs(d), half);
     vec3 out = {max2(gap.x, 0), max2(gap.y, 0), max2(gap.z, 0)};
     double norm = vec3_norm(out), most = max2(gap.x, max2(gap.y, gap.z));
     if (!(norm > 0)) out = (vec3){gap.x >= most, gap.x < most && gap.y >= most, gap.x < most && gap.y < most};
@@ -33,7 +31,7 @@ static box_gap find_axis_gap(vec3 d, vec3 half) {
     return (box_gap){norm > 0 ? norm : most, n};
 }
 
-static double find_reach(vec3 half, vec3 n) { return vec3_dot(half, absolute(n)); }
+static double find_reach(vec3 half, vec3 n) { return vec3_dot(half, vec3_abs(n)); }
 
 // A box along the axes of the frame, and another one beside it.
 typedef struct box_beside {

@@ -49,13 +49,8 @@ typedef struct core {
     double variance[DESIGN_SUPPORT];
 } core;
 
-// One of 24 cells of directions: the signs, and the coordinate that is largest. It follows no pattern, so there is no
-// branch.
-static int find_cell(vec3 y) {
-    double a = fabs(y.x), b = fabs(y.y), c = fabs(y.z);
-    int is_x = (a >= b) & (a >= c), axis = !is_x * (2 - (b >= c));
-    return axis * 8 + (y.x < 0) + 2 * (y.y < 0) + 4 * (y.z < 0);
-}
+// One of 24 cells of directions: the signs, and the coordinate that is largest.
+static int find_cell(vec3 y) { return vec3_find_largest(vec3_abs(y)) * 8 + (y.x < 0) + 2 * (y.y < 0) + 4 * (y.z < 0); }
 
 // ---- Newton steps on the core set
 

@@ -305,8 +305,7 @@ static int settle(solver *w, double gap) {
 
 // One of 24 cells of directions: the coordinate that is largest and its sign, and the signs of the others over it.
 static int find_cell(vec3 n) {
-    double x = fabs(n.x), y = fabs(n.y), z = fabs(n.z);
-    int is_x = (x >= y) & (x >= z), axis = !is_x * (2 - (y >= z));
+    int axis = vec3_find_largest(vec3_abs(n));
     const double of[5] = {n.x, n.y, n.z, n.x, n.y}, *most = of + axis;
     return axis * 8 + (most[0] < 0) * 4 + (most[1] * most[0] > 0) + 2 * (most[2] * most[0] > 0);
 }

@@ -44,7 +44,13 @@ static inline vec3 vec3_cross(vec3 a, vec3 b) {
 static inline double vec3_norm_squared(vec3 a) { return vec3_dot(a, a); }
 static inline double vec3_norm(vec3 a) { return sqrt(vec3_dot(a, a)); }
 static inline int vec3_is_finite(vec3 a) { return isfinite(a.x) && isfinite(a.y) && isfinite(a.z); }
+static inline vec3 vec3_abs(vec3 a) { return (vec3){fabs(a.x), fabs(a.y), fabs(a.z)}; }
 static inline double vec3_max_abs(vec3 a) { return max2(fabs(a.x), max2(fabs(a.y), fabs(a.z))); }
+/// The coordinate that is largest, the first one of several. Without a branch, since it mostly follows no pattern.
+static inline int vec3_find_largest(vec3 a) {
+    int is_x = (a.x >= a.y) & (a.x >= a.z);
+    return !is_x * (2 - (a.y >= a.z));
+}
 
 /// The unit vector along a; a zero vector stays zero. Scaled first where a square could under- or overflow.
 static inline vec3 vec3_unit(vec3 a) {

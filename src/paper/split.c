@@ -17,8 +17,6 @@ typedef struct polygon {
     int count;
 } polygon;
 
-static double coordinate(vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
 static vec3 with_zero(vec3 v, int axis) {
     return (vec3){axis == 0 ? 0 : v.x, axis == 1 ? 0 : v.y, axis == 2 ? 0 : v.z};
 }
@@ -30,7 +28,7 @@ static polygon cut(const polygon *p, int axis, double sign) {
     int is_beyond = 0, is_behind = 0;
     for (int i = 0; i < p->count; i++) {
         vec3 a = p->corner[i], b = p->corner[(i + 1) % p->count];
-        double ha = sign * coordinate(a, axis), hb = sign * coordinate(b, axis);
+        double ha = sign * vec3_get(a, axis), hb = sign * vec3_get(b, axis);
         if (ha > 0) is_beyond = 1;
         if (ha < 0) is_behind = 1;
         if (ha >= 0 && part.count < CORNERS_MAX) part.corner[part.count++] = a;

@@ -63,8 +63,7 @@ static int find_axis(const points *p, const uint32_t corner[3]) {
     vec3 c[3];
     for (int i = 0; i < 3; i++) c[i] = vec3_at(p->grid, corner[i]);
     vec3 n = compute_area(c[0], c[1], c[2]);
-    double size[3] = {fabs(n.x), fabs(n.y), fabs(n.z)};
-    int best = size[0] >= size[1] && size[0] >= size[2] ? 0 : size[1] >= size[2] ? 1 : 2;
+    int best = vec3_find_largest(vec3_abs(n));
     for (int i = 0; i < 3; i++)
         if (orient2d_sign(c[0], c[1], c[2], (best + i) % 3)) return (best + i) % 3;
     return best;
@@ -205,9 +204,8 @@ static ovoid_code fill_fan(const builder *b, const uint32_t *loop, uint32_t coun
 // The loop of a flat body runs counter-clockwise as seen from the positive end of the axis nearest to its normal, so
 // the normal is turned to that end too. Only a nearly flat body has vertices off the loop.
 static ovoid_code fill_polygon(const builder *b, vec3 normal, uint32_t *loop) {
-    double size[3] = {fabs(normal.x), fabs(normal.y), fabs(normal.z)};
-    int axis = size[0] >= size[1] && size[0] >= size[2] ? 0 : size[1] >= size[2] ? 1 : 2;
-    double side = axis == 0 ? normal.x : axis == 1 ? normal.y : normal.z;
+    int axis = vec3_find_largest(vec3_abs(normal));
+    double side = vec3_get(normal, axis);
     uint32_t count = polygon_find_loop(&b->p, axis, loop, b->allocator);
     if (count < 3) return count ? OVOID_ERROR_HULL : OVOID_ERROR_MEMORY;
     join_loop(b->hull, loop, count);

@@ -35,10 +35,10 @@ void support_table_fill(const double *vertices, const support_block *blocks, uin
 /// zero, not finite or of extreme length.
 static inline int support_table_find(const support_table *t, const simd_cell *cells, vec3 n, simd_extreme *found) {
     vec3 v = sym3_mul_vec3(t->root, n);
-    double x = fabs(v.x), y = fabs(v.y), z = fabs(v.z), m = max2(x, max2(y, z));
+    double m = vec3_max_abs(v);
     if (!(m > 1e-90 && m < 1e90)) return 0;
     // The cube's face, and the two other coordinates in units of its cells.
-    uint32_t axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+    uint32_t axis = (uint32_t)vec3_find_largest(vec3_abs(v));
     double p[3] = {v.x, v.y, v.z}, first = axis == 0 ? v.y : v.x, second = axis == 2 ? v.y : v.z;
     uint32_t face = 2 * axis + (p[axis] < 0);
     double r = (first / m + 1) * t->scale, c = (second / m + 1) * t->scale;

@@ -117,7 +117,7 @@ static mat3 find_axes_of_triangle(const ovoid_solid *s, uint32_t place) {
         edge[i] = vec3_sub(get_point(s, place, (i + 1) % 3), get_point(s, place, i));
         length[i] = vec3_norm_squared(edge[i]);
     }
-    int longest = length[0] >= length[1] && length[0] >= length[2] ? 0 : length[1] >= length[2] ? 1 : 2;
+    int longest = vec3_find_largest(vec3_at(length, 0));
     int second = length[(longest + 1) % 3] >= length[(longest + 2) % 3] ? (longest + 1) % 3 : (longest + 2) % 3;
     return axes_make(edge[second], edge[longest]);
 }

@@ -31,8 +31,6 @@ vec3 body_compute_center(const body_sphere *ball, const ovoid_pose *pose, double
     return vec3_add(pose->position, mat3_mul_vec3(quat_to_mat3(pose->rotation), ball->local));
 }
 
-static vec3 absolute(vec3 v) { return (vec3){fabs(v.x), fabs(v.y), fabs(v.z)}; }
-
 static int has_own_box(const ovoid_body *body) { return body->compound || body->solid; }
 
 // The box around a compound's or a solid's own box, rotated; no larger than that of its enclosing sphere.
@@ -45,9 +43,9 @@ static box find_own_box(const ovoid_body *body, const body_sphere *ball, mat3 r,
         half = vec3_scale(vec3_sub(b->max, b->min), 0.5);
     }
     double pad = center_error + 128 * 0x1p-53 * ball->reach + 4 * 0x1p-53 * vec3_max_abs(at);
-    vec3 e = {min2(vec3_dot(absolute(r.r0), half), ball->reach) + pad,
-              min2(vec3_dot(absolute(r.r1), half), ball->reach) + pad,
-              min2(vec3_dot(absolute(r.r2), half), ball->reach) + pad};
+    vec3 e = {min2(vec3_dot(vec3_abs(r.r0), half), ball->reach) + pad,
+              min2(vec3_dot(vec3_abs(r.r1), half), ball->reach) + pad,
+              min2(vec3_dot(vec3_abs(r.r2), half), ball->reach) + pad};
     return (box){vec3_sub(at, e), vec3_add(at, e)};
 }
 
@@ -81,7 +79,7 @@ static box find_turned_box(const ovoid_shape *s, mat3 r, vec3 position, double c
     vec3 h = vec3_scale(vec3_sub(own->max, own->min), 0.5), at = vec3_add(position, mat3_mul_vec3(r, m));
     double pad =
         s->lower_radius + center_error + 128 * 0x1p-53 * (s->extent + s->lower_radius) + 4 * 0x1p-53 * vec3_max_abs(at);
-    vec3 e = {vec3_dot(absolute(r.r0), h) + pad, vec3_dot(absolute(r.r1), h) + pad, vec3_dot(absolute(r.r2), h) + pad};
+    vec3 e = {vec3_dot(vec3_abs(r.r0), h) + pad, vec3_dot(vec3_abs(r.r1), h) + pad, vec3_dot(vec3_abs(r.r2), h) + pad};
     return (box){vec3_sub(at, e), vec3_add(at, e)};
 }
 

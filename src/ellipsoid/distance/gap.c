@@ -23,7 +23,7 @@ static double quadratic_exact(sym3 q, vec3 n) {
 
 /// Never less than sqrt(n' Q n).
 static double spread_above(sym3 q, vec3 n) {
-    vec3 m = {fabs(n.x), fabs(n.y), fabs(n.z)};
+    vec3 m = vec3_abs(n);
     sym3 p = {fabs(q.xx), fabs(q.xy), fabs(q.xz), fabs(q.yy), fabs(q.yz), fabs(q.zz)};
     double form = sym3_quadratic(q, n), terms = sym3_quadratic(p, m);
     if (!(terms <= 16 * form)) {

@@ -17,7 +17,6 @@ typedef struct oriented_box {
     double radius; ///< what the body stands out of the box, and what rounding may add
 } oriented_box;
 
-static inline vec3 vec3_abs(vec3 v) { return (vec3){fabs(v.x), fabs(v.y), fabs(v.z)}; }
 static inline double vec3_sum_abs(vec3 v) { return (fabs(v.x) + fabs(v.y)) + fabs(v.z); }
 
 /// The largest gap along the axes of both boxes' faces, rounded, without radii; *axis: which, 0 to 2 A's, 3 to 5 B's.

@@ -48,8 +48,6 @@ typedef struct part {
     int is_full;
 } part;
 
-static double get_along(vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
 static int is_same(vec3 a, vec3 b) { return a.x == b.x && a.y == b.y && a.z == b.z; }
 
 // What has two corners in one place has no surface.
@@ -63,7 +61,7 @@ static void add_triangle(part *to, vec3 a, vec3 b, vec3 c) {
 
 // The point of an edge in the plane, the same for both directions of the edge.
 static vec3 cut_edge(vec3 low, vec3 high, cut plane) {
-    double begin = get_along(low, plane.axis), end = get_along(high, plane.axis),
+    double begin = vec3_get(low, plane.axis), end = vec3_get(high, plane.axis),
            share = (plane.at - begin) / (end - begin);
     vec3 x = vec3_add_scaled(low, vec3_sub(high, low), share);
     if (plane.axis == 0) x.x = plane.at;
@@ -73,13 +71,13 @@ static vec3 cut_edge(vec3 low, vec3 high, cut plane) {
 }
 
 static vec3 cut_between(vec3 a, vec3 b, cut plane) {
-    return get_along(a, plane.axis) <= plane.at ? cut_edge(a, b, plane) : cut_edge(b, a, plane);
+    return vec3_get(a, plane.axis) <= plane.at ? cut_edge(a, b, plane) : cut_edge(b, a, plane);
 }
 
 // The parts of a triangle on both sides of a plane, and of the fan about `*hub`, the first corner that was cut.
 static void cut_triangle(const triangle *t, cut plane, part sides[2], vec3 *hub) {
     int side[3], above = 0;
-    for (int i = 0; i < 3; i++) above += side[i] = get_along(t->corner[i], plane.axis) > plane.at;
+    for (int i = 0; i < 3; i++) above += side[i] = vec3_get(t->corner[i], plane.axis) > plane.at;
     if (above == 0 || above == 3) {
         add_triangle(&sides[above == 3], t->corner[0], t->corner[1], t->corner[2]);
         return;
@@ -103,8 +101,8 @@ static sphere find_ball(const triangle *triangles, size_t count) {
 static cut choose_cut(const triangle *triangles, size_t count) {
     box b = box_make_around(&triangles->corner[0].x, (uint32_t)(3 * count));
     vec3 size = vec3_sub(b.max, b.min), middle = vec3_scale(vec3_add(b.min, b.max), 0.5);
-    int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    return (cut){axis, get_along(middle, axis)};
+    int axis = vec3_find_largest(size);
+    return (cut){axis, vec3_get(middle, axis)};
 }
 
 // Cuts a piece in two; 0: there is no room for the parts, or one of them is empty.

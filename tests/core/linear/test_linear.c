@@ -6,6 +6,17 @@
 #include "linear/rotation.h"
 
 // Eigenvalues of Q = R D R' are D to rounding of the largest.
+// All orders of three numbers, equal ones among them: the first of the largest.
+static void check_largest(void) {
+    for (int order = 0; order < 27; order++) {
+        const double x[3] = {order % 3, order / 3 % 3, order / 9};
+        int largest = 0;
+        for (int k = 1; k < 3; k++)
+            if (x[k] > x[largest]) largest = k;
+        CHECK_EQ(vec3_find_largest(vec3_at(x, 0)), largest);
+    }
+}
+
 static void check_eigen(void) {
     uint64_t s = 1;
     for (int i = 0; i < 2000; i++) {
@@ -194,6 +205,7 @@ static void check_product(void) {
 }
 
 int main(void) {
+    check_largest();
     check_product();
     check_eigen();
     check_orientation();

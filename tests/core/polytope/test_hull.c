@@ -198,6 +198,28 @@ static void check_states(size_t count, size_t extreme) {
     points_destroy(&p, &allocator);
 }
 
+// The corner beyond each edge of a surface is the third one of the triangle across. Returns 0 where one is not, since
+// facets that are found by such a corner need not come to an end.
+static int check_beyond(void) {
+    uint64_t seed = 78;
+    size_t n = put_sphere(&seed, 100, 1);
+    points p;
+    surface s;
+    int is_right = 0;
+    if (!CHECK_EQ(points_create((xyz_points){cloud, n}, &allocator, &p, NULL), OVOID_OK)) return 0;
+    if (CHECK_EQ(quickhull_create(&p, &allocator, &s, NULL), OVOID_OK)) {
+        is_right = 1;
+        for (uint32_t i = 0; i < 3 * s.triangle_count; i++) {
+            const uint32_t *t = s.triangles + i / 3 * 3, *other = s.triangles + 3 * (size_t)s.across[i];
+            uint32_t from = t[i % 3], to = t[(i + 1) % 3], sum = other[0] + other[1] + other[2];
+            is_right &= CHECK_EQ(surface_get_beyond(&s, i / 3, i % 3), sum - from - to);
+        }
+        surface_destroy(&s, &allocator);
+    }
+    points_destroy(&p, &allocator);
+    return is_right;
+}
+
 // So many points that they are put along a curve: they come out in the order given, and what was asked of few is so of
 // them. Every third is inside.
 static void check_many(void) {
@@ -400,6 +422,7 @@ static void check_errors(void) {
 
 int main(void) {
     allocator = allocator_make(NULL);
+    if (!check_beyond()) return check_end();
     check_boxes();
     check_scales();
     check_far();
