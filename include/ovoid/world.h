@@ -123,7 +123,7 @@ typedef struct ovoid_world_moves {
     size_t count;
 } ovoid_world_moves;
 
-/** Moves many bodies, in the given order; all or none (place: the first that is refused). */
+/** Moves many bodies, in the given order; all or none (place: the first that is refused). LIMIT: 2^32 - 1 or more. */
 OVOID_API ovoid_code ovoid_world_move_many(ovoid_world *world, const ovoid_world_moves *moves, ovoid_error *error);
 
 /** The body in its present state. Errors: INDEX. */

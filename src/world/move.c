@@ -203,8 +203,9 @@ typedef struct moves {
     const ovoid_pose *poses;
 } moves;
 
-// A worker's part of a batch is at least so many bodies.
-enum { LEAST = 512 };
+// A worker's part of a batch is at least so many bodies; so many where they are only validated, since waking a worker
+// costs as much as validating hundreds.
+enum { LEAST = 512, LEAST_VALIDATED = 4096 };
 
 static const move8_errors errors = {SLACK, NEARLY_UNIT, BODY_CENTER_ERROR, OVOID_LENGTH_MIN};
 
@@ -295,10 +296,11 @@ static void replace_boxes(void *work, uint32_t first, uint32_t end, uint32_t wor
     }
 }
 
-static void move_by_all(ovoid_world *w, const ovoid_id *ids, const ovoid_pose *poses, uint32_t count) {
-    moves all = {w, ids, poses};
-    task_host_run(&w->host, &(task){place_bodies, &all, count, LEAST});
-    task_host_run(&w->host, &(task){replace_boxes, &all, count, LEAST});
+static void move_by_all(moves *m, uint32_t count) {
+    ovoid_world *w = m->w;
+    const ovoid_id *ids = m->ids;
+    task_host_run(&w->host, &(task){place_bodies, m, count, LEAST});
+    task_host_run(&w->host, &(task){replace_boxes, m, count, LEAST});
     for (uint32_t k = 0; k < count; k++) {
         if (k + AHEAD < count) fetch_leaf(w, (uint32_t)(ids[k + AHEAD] >> 32));
         if (k + PARENTS_AHEAD < count) fetch_parent(w, (uint32_t)(ids[k + PARENTS_AHEAD] >> 32));
@@ -307,29 +309,55 @@ static void move_by_all(ovoid_world *w, const ovoid_id *ids, const ovoid_pose *p
     }
 }
 
-// OVOID_OK, or what is wrong with a batch; *are_different: no id occurs twice.
-static ovoid_code validate_moves(ovoid_world *w, const ovoid_world_moves *all, int *are_different, ovoid_error *error) {
-    ovoid_code code = OVOID_OK;
-    size_t k = 0;
-    *are_different = 1;
-    for (; k < all->count; k++) {
-        code = validate_move(w, all->ids[k], &all->poses[k], (int64_t)k, error);
-        if (code != OVOID_OK) break;
-        uint8_t *mark = &w->marks[all->ids[k] >> 32];
-        if (*mark & MARK_NAMED) *are_different = 0;
+static void validate_some(void *work, uint32_t first, uint32_t end, uint32_t worker) {
+    const moves *m = work;
+    gathered *g = &m->w->gathered[worker];
+    for (uint32_t k = first; k < end; k++) {
+        if (k && m->ids[k] >> 32 <= m->ids[k - 1] >> 32) g->is_unordered = 1;
+        if (validate_move(m->w, m->ids[k], &m->poses[k], k, NULL) == OVOID_OK) continue;
+        if (k < g->refused) g->refused = k;
+        return;
+    }
+}
+
+// 1 if no body is named twice, all being named by valid ids.
+static int are_different(ovoid_world *w, const ovoid_id *ids, uint32_t count) {
+    int found = 1;
+    for (uint32_t k = 0; k < count; k++) {
+        uint8_t *mark = &w->marks[ids[k] >> 32];
+        if (*mark & MARK_NAMED) found = 0;
         *mark |= MARK_NAMED;
     }
-    for (size_t j = 0; j < k; j++) w->marks[all->ids[j] >> 32] &= (uint8_t)~MARK_NAMED;
-    return code;
+    for (uint32_t k = 0; k < count; k++) w->marks[ids[k] >> 32] &= (uint8_t)~MARK_NAMED;
+    return found;
+}
+
+// OVOID_OK, or what is wrong with a batch; *is_once: no body is named twice, as where the indices rise.
+static ovoid_code validate_moves(moves *m, uint32_t count, int *is_once, ovoid_error *error) {
+    ovoid_world *w = m->w;
+    for (uint32_t i = 0; i < w->threads; i++) w->gathered[i].refused = NONE, w->gathered[i].is_unordered = 0;
+    task_host_run(&w->host, &(task){validate_some, m, count, LEAST_VALIDATED});
+    uint32_t refused = NONE;
+    int is_unordered = 0;
+    for (uint32_t i = 0; i < w->threads; i++) {
+        if (w->gathered[i].refused < refused) refused = w->gathered[i].refused;
+        is_unordered |= w->gathered[i].is_unordered;
+    }
+    if (refused != NONE) return validate_move(w, m->ids[refused], &m->poses[refused], refused, error);
+    *is_once = !is_unordered || are_different(w, m->ids, count);
+    return OVOID_OK;
 }
 
 static ovoid_code move_many(ovoid_world *w, const ovoid_world_moves *all, ovoid_error *error) {
     OVOID_ASSERT(w && ((all->ids && all->poses) || !all->count));
-    int are_different;
-    ovoid_code code = validate_moves(w, all, &are_different, error);
+    if (all->count >= NONE)
+        return error_set(error, OVOID_ERROR_LIMIT, -1, "%zu moves: at most %u", all->count, NONE - 1);
+    moves m = {w, all->ids, all->poses};
+    int is_once;
+    ovoid_code code = validate_moves(&m, (uint32_t)all->count, &is_once, error);
     if (code != OVOID_OK) return code;
-    if (all->count > 1 && are_different) {
-        move_by_all(w, all->ids, all->poses, (uint32_t)all->count);
+    if (all->count > 1 && is_once) {
+        move_by_all(&m, (uint32_t)all->count);
         return OVOID_OK;
     }
     for (size_t k = 0; k < all->count; k++) {

@@ -123,11 +123,18 @@ static int find_new(ovoid_world *w, size_t *count) {
 
 // ---- the list
 
+// The list is looked through in parts of so many, a bit of `ended` for each; so many pairs ahead leaves are prefetched.
+// A worker looks through so many parts at least.
+enum { PART = 512, WORDS = PART / 64, AHEAD = 12, LEAST_PARTS = 16 };
+
+static size_t count_parts(size_t pairs) { return (pairs + PART - 1) / PART; }
+
 static int reserve_pairs(ovoid_world *w, size_t count) {
     return world_reserve(w, (void **)&w->pairs, &w->pair_capacity, w->pair_count, count, sizeof *w->pairs) &&
            world_reserve(w, (void **)&w->free_slots, &w->free_slot_capacity, w->free_slot_count, count,
                          sizeof *w->free_slots) &&
-           world_reserve(w, (void **)&w->pair_cache, &w->slot_capacity, w->slot_used, count, sizeof *w->pair_cache);
+           world_reserve(w, (void **)&w->pair_cache, &w->slot_capacity, w->slot_used, count, sizeof *w->pair_cache) &&
+           world_reserve(w, (void **)&w->ended, &w->ended_capacity, 0, count_parts(count) * WORDS, sizeof *w->ended);
 }
 
 // Prefetches the leaves of a pair whose boxes are compared. A removed body has none, and is MARK_FRESH.
@@ -159,27 +166,37 @@ static size_t move_pairs(ovoid_world *w, size_t to, size_t from, size_t end) {
     return to + (end - from);
 }
 
-// The list is looked through in parts of so many; so many pairs ahead leaves are prefetched.
-enum { PART = 512, AHEAD = 12 };
+// Says in `ended` which pairs of a part of the list are no longer one.
+static void find_ended_in(const ovoid_world *w, uint32_t part) {
+    uint16_t changed[PART] = {0};
+    const world_pair *pairs = &w->pairs[(size_t)part * PART];
+    uint64_t *ended = &w->ended[(size_t)part * WORDS];
+    size_t rest = w->pair_count - (size_t)part * PART;
+    uint32_t count = find_changed(w, pairs, rest < PART ? (uint32_t)rest : PART, changed);
+    memset(ended, 0, WORDS * sizeof *ended);
+    for (uint32_t k = 0; k < count && k < AHEAD; k++) prefetch_leaves(w, &pairs[changed[k]]);
+    for (uint32_t k = 0; k < count; k++) {
+        if (k + AHEAD < count) prefetch_leaves(w, &pairs[changed[k + AHEAD]]);
+        ended[changed[k] / 64] |= (uint64_t)has_ended(w, &pairs[changed[k]]) << changed[k] % 64;
+    }
+}
+
+static void find_ended(void *work, uint32_t first, uint32_t end, uint32_t worker) {
+    (void)worker;
+    for (uint32_t part = first; part < end; part++) find_ended_in(work, part);
+}
 
 // Removes pairs whose boxes no longer overlap; the rest keeps its order.
 static size_t drop_pairs(ovoid_world *w) {
-    uint16_t changed[PART] = {0};
-    size_t to = 0, stays = 0; // pairs from `stays` on are to be moved
-    for (size_t first = 0; first < w->pair_count; first += PART) {
-        const world_pair *pairs = &w->pairs[first];
-        uint32_t count =
-            find_changed(w, pairs, w->pair_count - first < PART ? (uint32_t)(w->pair_count - first) : PART, changed);
-        for (uint32_t k = 0; k < count && k < AHEAD; k++) prefetch_leaves(w, &pairs[changed[k]]);
-        for (uint32_t k = 0; k < count; k++) {
-            const world_pair *p = &pairs[changed[k]];
-            if (k + AHEAD < count) prefetch_leaves(w, &pairs[changed[k + AHEAD]]);
-            if (!has_ended(w, p)) continue;
-            w->free_slots[w->free_slot_count++] = p->slot;
-            to = move_pairs(w, to, stays, first + changed[k]);
-            stays = first + changed[k] + 1;
+    size_t parts = count_parts(w->pair_count), to = 0, stays = 0; // pairs from `stays` on are to be moved
+    task_host_run(&w->host, &(task){find_ended, w, (uint32_t)parts, LEAST_PARTS});
+    for (size_t k = 0; k < parts * WORDS; k++)
+        for (uint64_t bits = w->ended[k]; bits; bits &= bits - 1) {
+            size_t pair = 64 * k + compiler_count_low_zeros_64(bits);
+            w->free_slots[w->free_slot_count++] = w->pairs[pair].slot;
+            to = move_pairs(w, to, stays, pair);
+            stays = pair + 1;
         }
-    }
     return move_pairs(w, to, stays, w->pair_count);
 }
 

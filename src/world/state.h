@@ -92,11 +92,13 @@ static inline void prefetch_two_lines(const void *at) {
     compiler_prefetch((const char *)at + 64);
 }
 
-/// The keys of new pairs that one worker found.
+/// What one worker found: the keys of new pairs; the first move that is refused, and whether moves are out of order.
 typedef struct gathered {
     uint64_t *keys;
     size_t count, capacity;
     int failed;
+    uint32_t refused; ///< NONE: no move
+    int is_unordered; ///< the indices of the bodies that are moved do not rise
 } gathered;
 
 /// Counts of a chunk of CHUNK pairs: its contacts, later the contacts before it; its pairs that were queried again, and
@@ -138,6 +140,8 @@ struct ovoid_world {
     // Pairs, sorted by a, then b.
     world_pair *pairs;
     size_t pair_count, pair_capacity;
+    uint64_t *ended; ///< a bit for each pair: its boxes no longer overlap
+    size_t ended_capacity;
     pair_cache *pair_cache;
     ovoid_witness *witnesses; ///< beside pair_cache, once a distance or depth was queried
     size_t slot_used, slot_capacity, witness_slots;

@@ -26,11 +26,12 @@ typedef struct host {
 
 static void *run_part(void *context) {
     host_part *p = context;
-    // Pieces of the part, the last ones first.
-    for (uint32_t end = p->end; end > p->first;) {
-        uint32_t first = end - p->first > 7 ? end - 7 : p->first;
-        p->run(p->work, first, end, p->worker);
-        end = first;
+    // Pieces of the part; of every second worker the last ones first.
+    enum { PIECE = 7 };
+    uint32_t pieces = (p->end - p->first + PIECE - 1) / PIECE;
+    for (uint32_t k = 0; k < pieces; k++) {
+        uint32_t first = p->first + PIECE * (p->worker % 2 ? k : pieces - 1 - k);
+        p->run(p->work, first, p->end - first > PIECE ? first + PIECE : p->end, p->worker);
     }
     return NULL;
 }
@@ -39,7 +40,7 @@ static void *host_start(void *context, void (*run)(void *, uint32_t, uint32_t, u
                         uint32_t least) {
     host *h = context;
     h->least = least;
-    for (uint32_t i = 0; i < 4; i++) {
+    for (uint32_t i = 4; i-- > 0;) {
         uint32_t first = (uint32_t)((uint64_t)count * i / 4), end = (uint32_t)((uint64_t)count * (i + 1) / 4);
         h->parts[i] = (host_part){.run = run, .work = work, .first = first, .end = end, .worker = i};
         CHECK(pthread_create(&h->parts[i].thread, NULL, run_part, &h->parts[i]) == 0);
@@ -86,6 +87,34 @@ static void add_manifolds(const ovoid_world_manifolds *m) {
     add_frame(&m->step);
 }
 
+// A batch with two wrong poses: the first is named, and no body is moved.
+static void check_refused(ovoid_world *w, const ovoid_id *ids, ovoid_pose *poses) {
+    enum { FIRST = 800, SECOND = 1400 };
+    ovoid_pose right[2] = {poses[FIRST], poses[SECOND]};
+    ovoid_error error = {0};
+    poses[FIRST].position.x = NAN;
+    poses[SECOND].position.y = 1e60;
+    CHECK_EQ((int)ovoid_world_move_many(w, &(ovoid_world_moves){ids, poses, BODIES}, &error),
+             (int)OVOID_ERROR_NOT_FINITE);
+    CHECK_EQ(error.place, FIRST);
+    poses[FIRST] = right[0];
+    CHECK_EQ((int)ovoid_world_move_many(w, &(ovoid_world_moves){ids, poses, BODIES}, &error), (int)OVOID_ERROR_RANGE);
+    CHECK_EQ(error.place, SECOND);
+    poses[SECOND] = right[1];
+}
+
+// Moves all in another order of the bodies.
+static void move_exchanged(ovoid_world *w, ovoid_id *ids, ovoid_pose *poses) {
+    enum { ONE = 3, OTHER = 2000 };
+    for (int k = 0; k < 2; k++) {
+        ovoid_id id = ids[ONE];
+        ovoid_pose pose = poses[ONE];
+        ids[ONE] = ids[OTHER], poses[ONE] = poses[OTHER];
+        ids[OTHER] = id, poses[OTHER] = pose;
+        if (k == 0) CHECK(ovoid_world_move_many(w, &(ovoid_world_moves){ids, poses, BODIES}, NULL) == OVOID_OK);
+    }
+}
+
 // A life of a few frames, the same for all; its hash. Half of the frames have manifolds.
 static uint64_t live(ovoid_shape **shapes, const ovoid_world_options *o, size_t *contacts) {
     uint64_t s = 11;
@@ -123,11 +152,14 @@ static uint64_t live(ovoid_shape **shapes, const ovoid_world_options *o, size_t 
             p->rotation.x += random_uniform(&s, -0.01, 0.01);
             poses[i] = *p;
         }
-        // One by one, all at once, and with one of them twice.
+        check_refused(w, ids, poses);
+        // One by one, all at once, out of order, and with one of them twice: the last pose is right.
         ids[BODIES] = ids[17];
         poses[BODIES] = poses[17];
+        if (f % 4 == 3) poses[17].position.x += 1;
         for (int i = 0; i < BODIES && f % 4 == 0; i++) CHECK(ovoid_world_move(w, ids[i], &poses[i], NULL) == OVOID_OK);
-        if (f % 4)
+        if (f % 4 == 2) move_exchanged(w, ids, poses);
+        if (f % 2)
             CHECK(ovoid_world_move_many(w, &(ovoid_world_moves){ids, poses, BODIES + (f % 4 == 3)}, NULL) == OVOID_OK);
         for (int i = f; i < BODIES; i += 100) {
             CHECK(ovoid_world_remove(w, ids[i], NULL) == OVOID_OK);
