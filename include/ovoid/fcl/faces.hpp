@@ -23,10 +23,6 @@ namespace ovoid {
 namespace fcl {
 namespace detail {
 
-/// a + t b.
-inline ovoid_vec3 add_scaled(const ovoid_vec3 &a, const ovoid_vec3 &b, double t) {
-    return {a.x + t * b.x, a.y + t * b.y, a.z + t * b.z};
-}
 inline ovoid_vec3 negate(const ovoid_vec3 &v) { return {-v.x, -v.y, -v.z}; }
 
 inline bool has_faces(const ovoid_swept_sphere &s) {

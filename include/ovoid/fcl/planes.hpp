@@ -62,13 +62,6 @@ template <class S> class supporter {
         const double height = n_.dot(point);
         if (height > best_.height) best_ = {point, height, -1};
     }
-    /// The circle of a radius around the z axis at a height.
-    void add_circle(double radius, double z) {
-        const double across = std::hypot(n_[0], n_[1]);
-        add_point(across > 1e-15 ? vector(radius * n_[0] / across, radius * n_[1] / across, z) : vector(0, 0, z));
-    }
-    /// A ball around a point.
-    void add_ball(double radius, const vector &center) { add_point(center + n_ * radius); }
     const extreme &get() const { return best_; }
 
   private:
@@ -76,39 +69,12 @@ template <class S> class supporter {
     extreme best_{vector::Zero(), -std::numeric_limits<double>::infinity(), -1};
 };
 
-/// The farthest point of a geometry, no mesh, along a unit direction of its frame; its height is -infinity if there is
-/// none.
+/// The farthest point of a triangle or a convex polytope along a unit direction of its frame; its height is -infinity
+/// of other types.
 template <class S> extreme find_extreme(const typed<S> &geometry, const vector &n) {
     supporter<S> to(n);
     const auto *g = geometry.of;
     switch (geometry.type) {
-    case ::fcl::GEOM_BOX: {
-        const vector half = static_cast<const ::fcl::Box<S> *>(g)->side.template cast<double>() / 2;
-        to.add_point(vector(half[0] * side_of(n[0]), half[1] * side_of(n[1]), half[2] * side_of(n[2])));
-        break;
-    }
-    case ::fcl::GEOM_ELLIPSOID: {
-        const vector radii = static_cast<const ::fcl::Ellipsoid<S> *>(g)->radii.template cast<double>();
-        const vector scaled = radii.cwiseProduct(n);
-        to.add_point(radii.cwiseProduct(scaled) / scaled.norm());
-        break;
-    }
-    case ::fcl::GEOM_CAPSULE: {
-        const auto *s = static_cast<const ::fcl::Capsule<S> *>(g);
-        to.add_ball(s->radius, vector(0, 0, static_cast<double>(s->lz) / 2 * side_of(n[2])));
-        break;
-    }
-    case ::fcl::GEOM_CYLINDER: {
-        const auto *s = static_cast<const ::fcl::Cylinder<S> *>(g);
-        to.add_circle(s->radius, static_cast<double>(s->lz) / 2 * side_of(n[2]));
-        break;
-    }
-    case ::fcl::GEOM_CONE: {
-        const auto *s = static_cast<const ::fcl::Cone<S> *>(g);
-        to.add_circle(s->radius, -static_cast<double>(s->lz) / 2);
-        to.add_point(vector(0, 0, static_cast<double>(s->lz) / 2));
-        break;
-    }
     case ::fcl::GEOM_TRIANGLE: {
         const auto *s = static_cast<const ::fcl::TriangleP<S> *>(g);
         to.add(s->a), to.add(s->b), to.add(s->c);
@@ -180,41 +146,16 @@ struct plane_answer {
     int i;           ///< of a mesh the triangle, else -1
 };
 
-/// The answer for the lowest and the highest point of a body, heights above the plane.
-inline plane_answer answer_plane(const plane &p, const extreme &low, const extreme &high) {
-    // Above a plane, or least deep from above: the lowest point decides.
-    const bool is_low = p.is_halfspace || low.height > 0 || (high.height >= 0 && -low.height <= high.height);
-    const extreme &by = is_low ? low : high;
-    const vector on_plane = by.point - p.n * by.height;
-    return {is_low ? low.height : -high.height,
-            by.point,
-            on_plane,
-            is_low ? vector(-p.n) : p.n,
-            p.is_halfspace ? vector((by.point + on_plane) / 2) : on_plane,
-            by.i};
-}
-
-/// Heights above the plane, points in the world.
-template <class S>
-extreme find_height(const typed<S> &g, const ::fcl::Transform3<S> &pose, const plane &p, double sign) {
-    const placing<S> at(pose);
-    extreme e{vector::Zero(), 0, -1};
-    if (g.type == ::fcl::GEOM_SPHERE)
-        e.point =
-            at.position() + p.n * (sign * static_cast<double>(static_cast<const ::fcl::Sphere<S> *>(g.of)->radius));
-    else
-        e = find_extreme(g, vector(at.turn_back(p.n) * sign)), e.point = at.turn(e.point) + at.position();
-    e.height = p.n.dot(e.point) - p.d;
-    return e;
-}
-
 /// How far a geometry's lowest and highest points are above a plane.
 struct extent {
     double low, high;
 };
 
-/// The extent of a geometry that is no mesh, without its points; infinite of a type that has none here. Of a body
-/// around an axis no column of the transform is read but that.
+/// Has a type an extent in closed form?
+inline bool has_extent(::fcl::NODE_TYPE type) { return type >= ::fcl::GEOM_BOX && type <= ::fcl::GEOM_CYLINDER; }
+
+/// The extent of a geometry, without its points; infinite of a type that has none. Of a body around an axis no column
+/// of the transform is read but that.
 template <class S>
 OVOID_FCL_INLINE extent find_extent(const typed<S> &geometry, const ::fcl::Transform3<S> &pose, const plane &p) {
     const placing<S> at(pose);
@@ -258,13 +199,89 @@ OVOID_FCL_INLINE extent find_extent(const typed<S> &geometry, const ::fcl::Trans
     }
 }
 
-/// 1: a geometry is apart from a plane; -1: it meets it; 0: the extent does not tell, to rounding.
-template <class S>
-OVOID_FCL_INLINE int find_side(const typed<S> &geometry, const ::fcl::Transform3<S> &pose, const plane &p) {
-    const extent e = find_extent(geometry, pose, p);
+/// 1: a geometry of this extent is apart from a plane; -1: it meets it; 0: the extent does not tell, to rounding.
+OVOID_FCL_INLINE int find_side(const extent &e, const plane &p) {
     const double doubt = 1e-14 * (e.high - e.low + std::fabs(e.low) + std::fabs(p.d)),
                  apart = p.is_halfspace ? e.low : std::max(e.low, -e.high);
     return apart > doubt ? 1 : apart < -doubt ? -1 : 0;
+}
+
+/// The lowest (sign -1) or the highest (1) point above a plane of a geometry that has an extent.
+template <class S>
+OVOID_FCL_INLINE ovoid_vec3 find_end(const typed<S> &geometry, const ::fcl::Transform3<S> &pose, const plane &p,
+                                     double sign) {
+    const auto *g = geometry.of;
+    const ovoid_vec3 n = {p.n[0], p.n[1], p.n[2]}, axis = get_column<S>(pose, 2), middle = get_column<S>(pose, 3);
+    const double along[3] = {dot(get_column<S>(pose, 0), n), dot(get_column<S>(pose, 1), n), dot(axis, n)};
+    const auto go_along = [&](double lz) { return add_scaled(middle, axis, sign * side_of(along[2]) * lz / 2); };
+    // From a point of the axis to the rim around it.
+    const auto go_across = [&](const ovoid_vec3 &from, double radius) {
+        const ovoid_vec3 off = add_scaled(n, axis, -along[2]);
+        const double length = std::sqrt(dot(off, off));
+        return length > 1e-15 ? add_scaled(from, off, sign * radius / length) : from;
+    };
+    const auto go = [&](double x, double y, double z) {
+        return add_scaled(add_scaled(add_scaled(middle, get_column<S>(pose, 0), x), get_column<S>(pose, 1), y), axis,
+                          z);
+    };
+    switch (geometry.type) {
+    case ::fcl::GEOM_SPHERE:
+        return add_scaled(middle, n, sign * static_cast<double>(static_cast<const ::fcl::Sphere<S> *>(g)->radius));
+    case ::fcl::GEOM_BOX: {
+        const auto &side = static_cast<const ::fcl::Box<S> *>(g)->side;
+        const auto half = [&](int k) { return sign * side_of(along[k]) * static_cast<double>(side[k]) / 2; };
+        return go(half(0), half(1), half(2));
+    }
+    case ::fcl::GEOM_ELLIPSOID: {
+        const auto &radii = static_cast<const ::fcl::Ellipsoid<S> *>(g)->radii;
+        const auto scale = [&](int k) { return static_cast<double>(radii[k]) * along[k]; };
+        const double part = sign / std::sqrt(scale(0) * scale(0) + scale(1) * scale(1) + scale(2) * scale(2));
+        const auto reach = [&](int k) { return part * static_cast<double>(radii[k]) * scale(k); };
+        return go(reach(0), reach(1), reach(2));
+    }
+    case ::fcl::GEOM_CAPSULE: {
+        const auto *s = static_cast<const ::fcl::Capsule<S> *>(g);
+        return add_scaled(go_along(s->lz), n, sign * static_cast<double>(s->radius));
+    }
+    case ::fcl::GEOM_CYLINDER: {
+        const auto *s = static_cast<const ::fcl::Cylinder<S> *>(g);
+        return go_across(go_along(s->lz), s->radius);
+    }
+    default: { // a cone
+        const auto *s = static_cast<const ::fcl::Cone<S> *>(g);
+        const double half = static_cast<double>(s->lz) / 2;
+        const ovoid_vec3 apex = add_scaled(middle, axis, half),
+                         rim = go_across(add_scaled(middle, axis, -half), s->radius);
+        return sign * (dot(apex, n) - dot(rim, n)) > 0 ? apex : rim;
+    }
+    }
+}
+
+/// Does the lowest point decide, and not the highest one? Above a plane it does, or where it is less deep.
+OVOID_FCL_INLINE bool is_low_deciding(const plane &p, const extent &e) {
+    return p.is_halfspace || e.low > 0 || (e.high >= 0 && -e.low <= e.high);
+}
+/// The answer for the point that decides, with its height above the plane.
+OVOID_FCL_INLINE plane_answer answer_plane(const plane &p, const extreme &by, bool is_low) {
+    const vector on_plane = by.point - p.n * by.height;
+    return {is_low ? by.height : -by.height,
+            by.point,
+            on_plane,
+            is_low ? vector(-p.n) : p.n,
+            p.is_halfspace ? vector((by.point + on_plane) / 2) : on_plane,
+            by.i};
+}
+inline plane_answer answer_plane(const plane &p, const extreme &low, const extreme &high) {
+    const bool is_low = is_low_deciding(p, {low.height, high.height});
+    return answer_plane(p, is_low ? low : high, is_low);
+}
+/// The same of a geometry that has an extent.
+template <class S>
+OVOID_FCL_INLINE plane_answer answer_plane(const typed<S> &g, const ::fcl::Transform3<S> &pose, const plane &p,
+                                           const extent &e) {
+    const bool is_low = is_low_deciding(p, e);
+    const ovoid_vec3 end = find_end(g, pose, p, is_low ? -1 : 1);
+    return answer_plane(p, {vector(end.x, end.y, end.z), is_low ? e.low : e.high, -1}, is_low);
 }
 
 /// A mesh and a plane: the height of a corner needs no transform of it.
@@ -322,6 +339,16 @@ template <class S> class mesh_heights {
     double offset_;
 };
 
+/// The farthest point of a triangle or a convex polytope along a plane's normal (sign 1) or against it, in the world.
+template <class S>
+extreme find_height(const typed<S> &g, const ::fcl::Transform3<S> &pose, const plane &p, double sign) {
+    const placing<S> at(pose);
+    extreme e = find_extreme(g, vector(at.turn_back(p.n) * sign));
+    e.point = at.turn(e.point) + at.position();
+    e.height = p.n.dot(e.point) - p.d;
+    return e;
+}
+
 template <class S> plane_answer ask_plane(const typed<S> &g, const ::fcl::Transform3<S> &pose, const plane &p) {
     mesh_view<S> mesh;
     if (g.type < ::fcl::GEOM_BOX && view_mesh(g.of, mesh)) {
@@ -329,6 +356,7 @@ template <class S> plane_answer ask_plane(const typed<S> &g, const ::fcl::Transf
         const extreme low = heights.find_end(1);
         return answer_plane(p, low, p.is_halfspace ? low : heights.find_end(-1));
     }
+    if (has_extent(g.type)) return answer_plane(g, pose, p, find_extent(g, pose, p));
     const extreme low = find_height(g, pose, p, -1);
     return answer_plane(p, low, p.is_halfspace ? low : find_height(g, pose, p, 1));
 }

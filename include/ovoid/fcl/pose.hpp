@@ -26,6 +26,10 @@ template <class S>::fcl::Vector3<S> from_vec3(const ovoid_vec3 &v) {
 }
 
 inline double dot(const ovoid_vec3 &a, const ovoid_vec3 &b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+/// a + t b.
+inline ovoid_vec3 add_scaled(const ovoid_vec3 &a, const ovoid_vec3 &b, double t) {
+    return {a.x + t * b.x, a.y + t * b.y, a.z + t * b.z};
+}
 
 /// How far the columns of a transform may be from unit vectors at right angles: the sum of what their products are off.
 constexpr double columns_rounding = 32 * 1.1102230246251565e-16;
