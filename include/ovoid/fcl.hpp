@@ -67,10 +67,11 @@ template <class S> struct posed {
         return type == ::fcl::GEOM_SPHERE ? place_sphere<S>(shape, pose, to) : detail::place<S>(shape, pose, to);
     }
 };
-/// Two geometries that are swept spheres, at their poses; false if one is none.
+/// Two geometries that are swept spheres, at their poses; false if one is none. Both types are asked before one is read.
 template <class S>
 OVOID_FCL_INLINE bool make_swept_pair(const posed<S> &a, const posed<S> &b, ovoid_swept_sphere (&to)[2]) {
-    return make_swept<S>(a.self(), a.pose, to[0]) && make_swept<S>(b.self(), b.pose, to[1]);
+    return has_extent(a.type) && has_extent(b.type) && make_swept<S>(a.self(), a.pose, to[0]) &&
+           make_swept<S>(b.self(), b.pose, to[1]);
 }
 /// A convex polytope beside a cylinder, a cone or an ellipsoid; of other pairs with a polytope the shapes answer
 /// faster.

@@ -36,8 +36,8 @@ constexpr double columns_rounding = 32 * 1.1102230246251565e-16;
 
 /// Column k of a transform.
 template <class S> OVOID_FCL_INLINE ovoid_vec3 get_column(const ::fcl::Transform3<S> &t, int k) {
-    const auto m = [&](int i) { return static_cast<double>(t.matrix().coeff(i, k)); };
-    return {m(0), m(1), m(2)};
+    const auto &m = t.matrix();
+    return {static_cast<double>(m.coeff(0, k)), static_cast<double>(m.coeff(1, k)), static_cast<double>(m.coeff(2, k))};
 }
 
 /// How far a column is from a unit vector, and the products of all three from those of a rotation.
