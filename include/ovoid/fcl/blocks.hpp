@@ -154,12 +154,13 @@ class block_tree {
     }
     /// The pairs of two places whose boxes meet.
     template <class Take> bool find_own(const Take &take) const {
-        for (std::size_t block = 0; block < blocks_.size(); block++)
-            if (take_own<0>(block, take) || take_own<4>(block, take) || take_own<8>(block, take) ||
-                take_own<12>(block, take))
-                return true;
+        const auto take_block = [&](std::size_t block) {
+            return take_own<0>(block, take) || take_own<4>(block, take) || take_own<8>(block, take) ||
+                   take_own<12>(block, take);
+        };
         const auto take_blocks = [&](std::size_t x, std::size_t y) { return take_pairs(*this, x, y, take); };
-        return count_ > 0 && visit_own(pair_search(boxes_.data(), boxes_.data(), overlap_test(), take_blocks), root());
+        return count_ > 0 &&
+               visit_own(pair_search(boxes_.data(), boxes_.data(), overlap_test(), take_blocks), take_block, root());
     }
     /// The pairs of a place here and a place there whose boxes meet.
     template <class Take> bool find_both(const block_tree &there, const Take &take) const {
@@ -186,9 +187,12 @@ class block_tree {
                 if (compute_gap2(leaves_[i], all_[y]) < bound2 && take_all(i, y * block_size)) return true;
             return false;
         };
-        for (std::size_t i = 0; i < count_; i++)
-            if ((i + 1) % block_size != 0 && take_all(i, i + 1)) return true;
-        return count_ > 0 && visit_own(near_search(boxes_.data(), boxes_.data(), bound2, take_blocks), root());
+        const auto take_block = [&](std::size_t block) {
+            for (std::size_t i = block * block_size; i + 1 < (block + 1) * block_size; i++)
+                if (take_all(i, i + 1)) return true;
+            return false;
+        };
+        return count_ > 0 && visit_own(near_search(boxes_.data(), boxes_.data(), bound2, take_blocks), take_block, root());
     }
 
   private:
