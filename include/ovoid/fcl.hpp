@@ -103,7 +103,6 @@ template <class S> bool place_couple(const posed<S> &a, const posed<S> &b, body_
 /// 1: the balls around two shapes are apart; -1: those within them meet; 0: neither, or a transform is not rigid to a
 /// few roundings. All roundings are less than a part in 1e13 of the lengths that are summed.
 template <class S> int compare_balls(const posed<S> &a, const posed<S> &b, const body_couple &couple) {
-    if (!is_rotation<S>(a.pose) || !is_rotation<S>(b.pose)) return 0;
     const shape_balls &of_a = couple.a->balls(), &of_b = couple.b->balls();
     const ovoid_vec3 p = turn<S>(a.pose, of_a.center), q = turn<S>(b.pose, of_b.center);
     const auto between = [&](int i) {
@@ -113,7 +112,8 @@ template <class S> int compare_balls(const posed<S> &a, const posed<S> &b, const
                  distance = std::sqrt(x * x + y * y + z * z), outer = of_a.outer + of_b.outer,
                  doubt = 1e-12 * (distance + outer + sum_abs(p) + sum_abs(q));
     if (!(distance < 1e50)) return 0;
-    return distance - outer > doubt ? 1 : distance - (of_a.inner + of_b.inner) < -doubt ? -1 : 0;
+    const int side = distance - outer > doubt ? 1 : distance - (of_a.inner + of_b.inner) < -doubt ? -1 : 0;
+    return side != 0 && is_rotation<S>(a.pose) && is_rotation<S>(b.pose) ? side : 0;
 }
 
 /// A plane and the other geometry of a call.
@@ -148,9 +148,8 @@ template <class S> class plane_contacts {
     plane_contacts(contact_list<S> &to, bool is_a) : to_(to), is_a_(is_a) {}
     bool add(const plane_answer &at) {
         const int i = is_a_ ? -1 : at.i, j = is_a_ ? at.i : -1;
-        const auto vec = [](const vector &v) { return ovoid_vec3{v[0], v[1], v[2]}; };
         if (to_.is_detailed())
-            to_.add(i, j, vec(at.position), vec(is_a_ ? vector(-at.normal) : at.normal), -at.distance);
+            to_.add(i, j, at.position, is_a_ ? negate(at.normal) : at.normal, -at.distance);
         else
             to_.add(i, j);
         return to_.room() > 0;
@@ -294,10 +293,8 @@ inline distance_answer measure_meshes(const body_couple &of, bool is_signed) {
 
 /// Of a plane. The unsigned distance of an overlap is -1.
 inline distance_answer measure_plane(const plane_answer &x, bool is_a, bool is_signed) {
-    const ovoid_vec3 point = {x.point[0], x.point[1], x.point[2]},
-                     on_plane = {x.on_plane[0], x.on_plane[1], x.on_plane[2]};
     const double distance = is_signed || x.distance >= 0 ? x.distance : -1;
-    return {distance, is_a ? on_plane : point, is_a ? point : on_plane, is_a ? -1 : x.i, is_a ? x.i : -1};
+    return {distance, is_a ? x.on_plane : x.point, is_a ? x.point : x.on_plane, is_a ? -1 : x.i, is_a ? x.i : -1};
 }
 
 /// The distance of other geometries than swept spheres, and of those that need their shapes; false if FCL has to
