@@ -341,8 +341,7 @@ void test_many(std::size_t count) {
     const std::vector<CollisionObjectd *> rest(list.begin(), list.begin() + 270);
     ovoid::fcl::BroadPhaseManager<double> ours, ours_too;
     NaiveCollisionManager<double> theirs, theirs_too;
-    for (BroadPhaseCollisionManager<double> *manager :
-         {(BroadPhaseCollisionManager<double> *)&ours, (BroadPhaseCollisionManager<double> *)&theirs}) {
+    for (auto *manager : std::vector<BroadPhaseCollisionManager<double> *>{&ours, &theirs}) {
         manager->registerObjects(list);
         manager->unregisterObject(list[3]);
     }
