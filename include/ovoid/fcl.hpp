@@ -67,10 +67,12 @@ template <class S> struct posed {
         return type == ::fcl::GEOM_SPHERE ? place_sphere<S>(shape, pose, to) : detail::place<S>(shape, pose, to);
     }
 };
-/// Two geometries that are swept spheres, at their poses; false if one is none.
+/// Two geometries that are swept spheres, at their poses; false if one is none. Both types are asked before one is
+/// read.
 template <class S>
 OVOID_FCL_INLINE bool make_swept_pair(const posed<S> &a, const posed<S> &b, ovoid_swept_sphere (&to)[2]) {
-    return make_swept<S>(a.self(), a.pose, to[0]) && make_swept<S>(b.self(), b.pose, to[1]);
+    return has_extent(a.type) && has_extent(b.type) && make_swept<S>(a.self(), a.pose, to[0]) &&
+           make_swept<S>(b.self(), b.pose, to[1]);
 }
 /// A convex polytope beside a cylinder, a cone or an ellipsoid; of other pairs with a polytope the shapes answer
 /// faster.
@@ -102,7 +104,6 @@ template <class S> bool place_couple(const posed<S> &a, const posed<S> &b, body_
 /// 1: the balls around two shapes are apart; -1: those within them meet; 0: neither, or a transform is not rigid to a
 /// few roundings. All roundings are less than a part in 1e13 of the lengths that are summed.
 template <class S> int compare_balls(const posed<S> &a, const posed<S> &b, const body_couple &couple) {
-    if (!is_rotation<S>(a.pose) || !is_rotation<S>(b.pose)) return 0;
     const shape_balls &of_a = couple.a->balls(), &of_b = couple.b->balls();
     const ovoid_vec3 p = turn<S>(a.pose, of_a.center), q = turn<S>(b.pose, of_b.center);
     const auto between = [&](int i) {
@@ -112,7 +113,8 @@ template <class S> int compare_balls(const posed<S> &a, const posed<S> &b, const
                  distance = std::sqrt(x * x + y * y + z * z), outer = of_a.outer + of_b.outer,
                  doubt = 1e-12 * (distance + outer + sum_abs(p) + sum_abs(q));
     if (!(distance < 1e50)) return 0;
-    return distance - outer > doubt ? 1 : distance - (of_a.inner + of_b.inner) < -doubt ? -1 : 0;
+    const int side = distance - outer > doubt ? 1 : distance - (of_a.inner + of_b.inner) < -doubt ? -1 : 0;
+    return side != 0 && is_rotation<S>(a.pose) && is_rotation<S>(b.pose) ? side : 0;
 }
 
 /// A plane and the other geometry of a call.
@@ -147,10 +149,8 @@ template <class S> class plane_contacts {
     plane_contacts(contact_list<S> &to, bool is_a) : to_(to), is_a_(is_a) {}
     bool add(const plane_answer &at) {
         const int i = is_a_ ? -1 : at.i, j = is_a_ ? at.i : -1;
-        const auto vec = [](const vector &v) { return ovoid_vec3{v[0], v[1], v[2]}; };
         if (to_.is_detailed())
-            to_.add(i, j, {vec(at.position), vec(at.position), at.distance, 0},
-                    vec(is_a_ ? vector(-at.normal) : at.normal));
+            to_.add(i, j, at.position, is_a_ ? negate(at.normal) : at.normal, -at.distance);
         else
             to_.add(i, j);
         return to_.room() > 0;
@@ -161,8 +161,8 @@ template <class S> class plane_contacts {
     bool is_a_;
 };
 
-/// The contacts with a plane that are more than a yes: of a mesh one for each triangle, else the deepest. False if FCL
-/// has to answer.
+/// The contacts with a plane of a geometry without an extent: of a mesh one for each triangle, else the deepest. False
+/// if FCL has to answer.
 template <class S> OVOID_FCL_APART bool list_plane_contacts(contact_list<S> &to, const plane_pair<S> &pair) {
     const plane_answer answer = pair.ask();
     if (!std::isfinite(answer.distance)) return false;
@@ -175,30 +175,30 @@ template <class S> OVOID_FCL_APART bool list_plane_contacts(contact_list<S> &to,
     return true;
 }
 
-/// The contacts that FCL finds itself.
+/// The contacts that FCL finds itself; their number, as of all of these functions.
 template <class S>
-OVOID_FCL_APART std::size_t collide_itself(const posed<S> &a, const posed<S> &b,
-                                           const ::fcl::CollisionRequest<S> &request,
-                                           ::fcl::CollisionResult<S> &result) {
-    return OVOID_FCL_ITSELF::template collide<S>(a.of, a.pose, b.of, b.pose, request, result);
+OVOID_FCL_APART std::size_t collide_itself(const posed<S> &a, const posed<S> &b, const contact_list<S> &to) {
+    return OVOID_FCL_ITSELF::template collide<S>(a.of, a.pose, b.of, b.pose, to.request(), to.result());
 }
 
-/// The contacts with a plane, of which a yes or no mostly needs no more than the side that the other geometry is on.
-template <class S>
-OVOID_FCL_APART std::size_t collide_plane(const posed<S> &a, const posed<S> &b,
-                                          const ::fcl::CollisionRequest<S> &request,
-                                          ::fcl::CollisionResult<S> &result) {
+/// The contacts with a plane. Where the extent of the other geometry is known, a yes or no needs no more than that.
+template <class S> OVOID_FCL_APART std::size_t collide_plane(const posed<S> &a, const posed<S> &b, contact_list<S> to) {
     const auto asked = make_plane_pair(a, b);
     const plane_pair<S> &pair = asked.first;
-    if (!asked.second) return collide_itself<S>(a, b, request, result);
-    const int side = find_side<S>(pair.other.self(), pair.other.pose, pair.at);
-    if (side < 0 && !request.enable_contact) {
-        result.addContact(::fcl::Contact<S>(a.of, b.of, -1, -1));
-    } else if (side <= 0) {
-        contact_list<S> to(a.self(), b.self(), request, result);
-        if (!list_plane_contacts<S>(to, plane_pair<S>(pair))) return collide_itself<S>(a, b, request, result);
+    if (!asked.second) return collide_itself<S>(a, b, to);
+    if (!has_extent(pair.other.type))
+        return list_plane_contacts<S>(to, pair) ? to.count() : collide_itself<S>(a, b, to);
+    const extent reach = find_extent(pair.other.self(), pair.other.pose, pair.at);
+    const int side = find_side(reach, pair.at);
+    if (side > 0) return to.count();
+    if (side < 0 && !to.is_detailed()) {
+        to.add(-1, -1);
+        return to.count();
     }
-    return result.numContacts();
+    const plane_answer answer = answer_plane(pair.other.self(), pair.other.pose, pair.at, reach);
+    if (!std::isfinite(answer.distance)) return collide_itself<S>(a, b, to);
+    if (answer.distance <= 0) plane_contacts<S>(to, pair.is_a).add(answer);
+    return to.count();
 }
 
 /// The contacts of bodies, or false if FCL has to answer.
@@ -223,40 +223,33 @@ template <class S> bool collide_bodies(contact_list<S> &to, const posed<S> &a, c
 
 /// The contacts of other geometries than swept spheres, and of those that need their shapes.
 template <class S>
-OVOID_FCL_APART std::size_t collide_others(const posed<S> &a, const posed<S> &b,
-                                           const ::fcl::CollisionRequest<S> &request,
-                                           ::fcl::CollisionResult<S> &result) {
-    contact_list<S> to(a.self(), b.self(), request, result);
-    return collide_bodies(to, a, b) ? result.numContacts() : collide_itself<S>(a, b, request, result);
+OVOID_FCL_APART std::size_t collide_others(const posed<S> &a, const posed<S> &b, contact_list<S> to) {
+    return collide_bodies(to, a, b) ? to.count() : collide_itself<S>(a, b, to);
 }
 
-/// The contacts of swept spheres with their details.
+/// The contacts of the faces of swept spheres.
 template <class S>
-OVOID_FCL_APART std::size_t list_swept(const posed<S> &a, const posed<S> &b, const ovoid_swept_pair &pair,
-                                       const ::fcl::CollisionRequest<S> &request, ::fcl::CollisionResult<S> &result) {
-    contact_list<S> to(a.self(), b.self(), request, result);
-    return collide_swept<S>(to, pair) ? result.numContacts() : collide_others(a, b, request, result);
+OVOID_FCL_APART std::size_t collide_faced(const posed<S> &a, const posed<S> &b, const ovoid_swept_pair &pair,
+                                          contact_list<S> to) {
+    return list_faces<S>(to, pair) ? to.count() : collide_others<S>(a, b, to);
 }
 
 /// The poses are passed on by copies, so that a call that is answered here keeps its own in registers.
 template <class S>
 OVOID_FCL_INLINE std::size_t collide(const posed<S> &a, const posed<S> &b, const ::fcl::CollisionRequest<S> &request,
                                      ::fcl::CollisionResult<S> &result) {
-    // request.isSatisfied(result), which is a call of libfcl, as numContacts is.
-    const std::size_t before = result.isCollision() ? result.numContacts() : 0;
-    if (!request.enable_cost && before > 0 && request.num_max_contacts <= before) return before;
+    contact_list<S> to(a.self(), b.self(), request, result);
+    // request.isSatisfied(result), which is a call of libfcl.
+    if (!request.enable_cost && to.count() > 0 && to.room() == 0) return to.count();
     if (request.enable_cost || request.num_max_contacts == 0)
-        return collide_itself<S>(posed<S>(a), posed<S>(b), request, result);
-    if (a.is_flat() || b.is_flat()) return collide_plane<S>(posed<S>(a), posed<S>(b), request, result);
+        return collide_itself<S>(posed<S>(a), posed<S>(b), contact_list<S>(to));
+    if (a.is_flat() || b.is_flat()) return collide_plane<S>(posed<S>(a), posed<S>(b), to);
     ovoid_swept_sphere swept[2];
-    if (!make_swept_pair(a, b, swept)) return collide_others<S>(posed<S>(a), posed<S>(b), request, result);
+    if (!make_swept_pair(a, b, swept)) return collide_others<S>(posed<S>(a), posed<S>(b), to);
     const ovoid_swept_pair pair = {&swept[0], &swept[1]};
-    if (request.enable_contact) return list_swept<S>(posed<S>(a), posed<S>(b), pair, request, result);
-    const ovoid_verdict found = ovoid_swept_collide(pair);
-    if (found.status == OVOID_UNDECIDED) return collide_others<S>(posed<S>(a), posed<S>(b), request, result);
-    if (!is_hit(found)) return before;
-    result.addContact(::fcl::Contact<S>(a.of, b.of, -1, -1));
-    return before + 1;
+    if (request.enable_contact && have_faces(pair, to.room()))
+        return collide_faced<S>(posed<S>(a), posed<S>(b), pair, to);
+    return collide_swept<S>(to, pair) ? to.count() : collide_others<S>(posed<S>(a), posed<S>(b), to);
 }
 
 /// A distance in FCL's terms, before it is written to a result.
@@ -267,7 +260,7 @@ struct distance_answer {
 };
 
 /// Of shapes that overlap FCL's distance is -1, unless the signed one is wanted.
-inline distance_answer make_distance(const ovoid_verdict &x, const ovoid_witness &at, bool is_signed) {
+OVOID_FCL_INLINE distance_answer make_distance(const ovoid_verdict &x, const ovoid_witness &at, bool is_signed) {
     const bool is_apart = x.status == OVOID_SEPARATED || (x.status == OVOID_UNDECIDED && !is_hit(x));
     const double apart = is_apart || is_signed ? middle(x) : x.status == OVOID_TOUCHING ? 0 : -1;
     return {apart, at.point_a, at.point_b, -1, -1};
@@ -280,7 +273,7 @@ inline distance_answer measure_shapes(const body_couple &of, bool is_signed) {
     return make_distance(x, at, is_signed);
 }
 /// Of swept spheres; false if their shapes have to be asked.
-inline bool measure_swept(const ovoid_swept_pair &pair, bool is_signed, distance_answer &found) {
+OVOID_FCL_INLINE bool measure_swept(const ovoid_swept_pair &pair, bool is_signed, distance_answer &found) {
     ovoid_witness at;
     const ovoid_verdict x = is_signed ? ovoid_swept_depth(pair, &at) : ovoid_swept_distance(pair, &at);
     if (x.status == OVOID_UNDECIDED) return false;
@@ -300,10 +293,8 @@ inline distance_answer measure_meshes(const body_couple &of, bool is_signed) {
 
 /// Of a plane. The unsigned distance of an overlap is -1.
 inline distance_answer measure_plane(const plane_answer &x, bool is_a, bool is_signed) {
-    const ovoid_vec3 point = {x.point[0], x.point[1], x.point[2]},
-                     on_plane = {x.on_plane[0], x.on_plane[1], x.on_plane[2]};
     const double distance = is_signed || x.distance >= 0 ? x.distance : -1;
-    return {distance, is_a ? on_plane : point, is_a ? point : on_plane, is_a ? -1 : x.i, is_a ? x.i : -1};
+    return {distance, is_a ? x.on_plane : x.point, is_a ? x.point : x.on_plane, is_a ? -1 : x.i, is_a ? x.i : -1};
 }
 
 /// The distance of other geometries than swept spheres, and of those that need their shapes; false if FCL has to
@@ -325,8 +316,8 @@ template <class S> bool measure_others(const posed<S> &a, const posed<S> &b, boo
 
 /// result.update, which is a call of libfcl. Points are written whether or not they were asked for, as FCL does.
 template <class S>
-void write_distance(const distance_answer &found, const geometry<S> *a, const geometry<S> *b,
-                    ::fcl::DistanceResult<S> &to) {
+OVOID_FCL_INLINE void write_distance(const distance_answer &found, const geometry<S> *a, const geometry<S> *b,
+                                     ::fcl::DistanceResult<S> &to) {
     const S distance = static_cast<S>(found.distance);
     if (!(to.min_distance > distance)) return;
     to.min_distance = distance;

@@ -55,14 +55,14 @@ struct box_block {
     float_box get(std::size_t lane) const {
         return {{low[0][lane], low[1][lane], low[2][lane]}, {high[0][lane], high[1][lane], high[2][lane]}};
     }
-    /// The lanes, as bits, whose boxes may meet a box.
+    /// The lanes, as bits, whose boxes may meet a box; none before `first`, a multiple of four.
 #if defined(__GNUC__)
     // The compiler's own vectors, which it has for every processor.
-    std::uint32_t find(const float_box &b) const {
+    OVOID_FCL_INLINE std::uint32_t find(const float_box &b, int first = 0) const {
         using flags = std::int32_t __attribute__((vector_size(16)));
         using halves = std::int64_t __attribute__((vector_size(16)));
         flags found = {0, 0, 0, 0};
-        for (int i = 0; i < static_cast<int>(block_size); i += 4) {
+        for (int i = first; i < static_cast<int>(block_size); i += 4) {
             flags beyond = {0, 0, 0, 0};
             for (int k = 0; k < 3; k++)
                 beyond |= (load(&low[k][i]) > spread(b.high[k])) | (spread(b.low[k]) > load(&high[k][i]));
@@ -83,9 +83,9 @@ struct box_block {
     }
     static four spread(float x) { return four{x, x, x, x}; }
 #else
-    std::uint32_t find(const float_box &b) const {
+    std::uint32_t find(const float_box &b, int first = 0) const {
         std::uint32_t found = 0;
-        for (std::size_t i = 0; i < block_size; i++) {
+        for (std::size_t i = static_cast<std::size_t>(first); i < block_size; i++) {
             const bool is_beyond = (low[0][i] > b.high[0]) | (low[1][i] > b.high[1]) | (low[2][i] > b.high[2]) |
                                    (b.low[0] > high[0][i]) | (b.low[1] > high[1][i]) | (b.low[2] > high[2][i]);
             found |= static_cast<std::uint32_t>(!is_beyond) << i;
@@ -154,11 +154,13 @@ class block_tree {
     }
     /// The pairs of two places whose boxes meet.
     template <class Take> bool find_own(const Take &take) const {
-        for (std::size_t block = 0; block < blocks_.size(); block++)
-            for (std::size_t i = 0; i < block_size; i++)
-                if (take_lanes(*this, block, block * block_size + i, above(i), take)) return true;
+        const auto take_block = [&](std::size_t block) {
+            return take_own<0>(block, take) || take_own<4>(block, take) || take_own<8>(block, take) ||
+                   take_own<12>(block, take);
+        };
         const auto take_blocks = [&](std::size_t x, std::size_t y) { return take_pairs(*this, x, y, take); };
-        return count_ > 0 && visit_own(pair_search(boxes_.data(), boxes_.data(), overlap_test(), take_blocks), root());
+        return count_ > 0 &&
+               visit_own(pair_search(boxes_.data(), boxes_.data(), overlap_test(), take_blocks), take_block, root());
     }
     /// The pairs of a place here and a place there whose boxes meet.
     template <class Take> bool find_both(const block_tree &there, const Take &take) const {
@@ -185,16 +187,19 @@ class block_tree {
                 if (compute_gap2(leaves_[i], all_[y]) < bound2 && take_all(i, y * block_size)) return true;
             return false;
         };
-        for (std::size_t i = 0; i < count_; i++)
-            if ((i + 1) % block_size != 0 && take_all(i, i + 1)) return true;
-        return count_ > 0 && visit_own(near_search(boxes_.data(), boxes_.data(), bound2, take_blocks), root());
+        const auto take_block = [&](std::size_t block) {
+            for (std::size_t i = block * block_size; i + 1 < (block + 1) * block_size; i++)
+                if (take_all(i, i + 1)) return true;
+            return false;
+        };
+        return count_ > 0 &&
+               visit_own(near_search(boxes_.data(), boxes_.data(), bound2, take_blocks), take_block, root());
     }
 
   private:
     box_range root() const { return {0, 0, blocks_.size()}; }
-    static constexpr std::uint32_t every = (std::uint32_t{1} << block_size) - 1;
     /// The lanes after lane i.
-    static std::uint32_t above(std::size_t i) { return every << i << 1 & every; }
+    static std::uint32_t above(std::size_t i) { return std::uint32_t{0xfffffffe} << i; }
 
     void set_leaf(std::size_t place, const ovoid_box &box) {
         leaves_[place] = box;
@@ -218,21 +223,30 @@ class block_tree {
 
     /// Takes a place there with those lanes of a block here whose boxes meet its box.
     template <class Take>
-    bool take_lanes(const block_tree &there, std::size_t block, std::size_t j, std::uint32_t among,
-                    const Take &take) const {
-        const float_box outer = there.blocks_[j / block_size].get(j % block_size);
-        for (std::uint32_t lanes = blocks_[block].find(outer) & among; lanes; lanes &= lanes - 1) {
+    OVOID_FCL_INLINE bool take_lanes(const block_tree &there, std::size_t block, std::size_t j, std::uint32_t lanes,
+                                     const Take &take) const {
+        for (; lanes; lanes &= lanes - 1) {
             const std::size_t i = block * block_size + find_lowest(lanes);
             if (i < count_ && j < there.count_ && overlap_test()(leaves_[i], there.leaves_[j]) && take(i, j))
                 return true;
         }
         return false;
     }
+    /// Takes the pairs of one of four lanes of a block and a lane after it.
+    template <int first, class Take> bool take_own(std::size_t block, const Take &take) const {
+        const box_block &boxes = blocks_[block];
+        for (std::size_t i = first; i < first + 4; i++)
+            if (take_lanes(*this, block, block * block_size + i, boxes.find(boxes.get(i), first) & above(i), take))
+                return true;
+        return false;
+    }
     /// Takes the pairs of block x here and block y there: first the lanes of y that meet all of x are found.
     template <class Take>
     bool take_pairs(const block_tree &there, std::size_t x, std::size_t y, const Take &take) const {
-        for (std::uint32_t lanes = there.blocks_[y].find(outer_[x]); lanes; lanes &= lanes - 1)
-            if (take_lanes(there, x, y * block_size + find_lowest(lanes), every, take)) return true;
+        for (std::uint32_t lanes = there.blocks_[y].find(outer_[x]); lanes; lanes &= lanes - 1) {
+            const std::size_t j = find_lowest(lanes);
+            if (take_lanes(there, x, y * block_size + j, blocks_[x].find(there.blocks_[y].get(j)), take)) return true;
+        }
         return false;
     }
     /// Takes the places from `first` to the end of its block that are near a box.

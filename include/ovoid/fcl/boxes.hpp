@@ -56,10 +56,12 @@ inline bool is_first_halved(const box_range &x, const box_range &y) {
     return y.is_leaf() || (!x.is_leaf() && x.end - x.first >= y.end - y.first);
 }
 
-/// The pairs of two leaves of one range by search.visit, both of whose trees are the same, until it returns true.
-template <class Search> bool visit_own(const Search &search, const box_range &x) {
-    return !x.is_leaf() &&
-           (visit_own(search, x.lower()) || visit_own(search, x.upper()) || search.visit(x.lower(), x.upper()));
+/// The leaves of one range by take_leaf, and their pairs by search.visit, both of whose trees are the same, until one
+/// returns true. Leaves come soon before the pairs that are theirs.
+template <class Search, class Take> bool visit_own(const Search &search, const Take &take_leaf, const box_range &x) {
+    if (x.is_leaf()) return take_leaf(x.first);
+    return visit_own(search, take_leaf, x.lower()) || visit_own(search, take_leaf, x.upper()) ||
+           search.visit(x.lower(), x.upper());
 }
 
 /// The number of boxes of a tree of so many leaves.

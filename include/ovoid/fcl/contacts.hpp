@@ -30,40 +30,49 @@ inline ovoid_vec3 between(const ovoid_vec3 &a, const ovoid_vec3 &b, double part)
     return {a.x + part * (b.x - a.x), a.y + part * (b.y - a.y), a.z + part * (b.z - a.z)};
 }
 /// Where a contact is between the two deepest points: in the middle; of two spheres, as in FCL, by their radii.
-template <class S> double get_part(const typed<S> &o1, const typed<S> &o2) {
+template <class S> OVOID_FCL_INLINE double get_part(const typed<S> &o1, const typed<S> &o2) {
     if (o1.type != ::fcl::GEOM_SPHERE || o2.type != ::fcl::GEOM_SPHERE) return 0.5;
     const double a = static_cast<const ::fcl::Sphere<S> *>(o1.of)->radius,
                  b = static_cast<const ::fcl::Sphere<S> *>(o2.of)->radius;
     return a + b > 0 ? a / (a + b) : 0.5;
 }
 
-/// Adds contacts to a result of FCL.
+/// Adds the contacts that a request wants to a result. FCL's functions for it are calls of libfcl, so their number is
+/// kept here.
 template <class S> class contact_list {
   public:
     contact_list(const typed<S> &o1, const typed<S> &o2, const ::fcl::CollisionRequest<S> &request,
                  ::fcl::CollisionResult<S> &result)
-        : o1_(o1), o2_(o2), request_(&request), result_(&result) {}
+        : o1_(o1), o2_(o2), request_(&request), result_(&result), count_(result.numContacts()) {}
 
+    const ::fcl::CollisionRequest<S> &request() const { return *request_; }
+    ::fcl::CollisionResult<S> &result() const { return *result_; }
+    /// How many contacts are in the result.
+    std::size_t count() const { return count_; }
     /// How many more contacts are wanted.
-    std::size_t room() const {
-        const std::size_t have = result_->numContacts();
-        return have < request_->num_max_contacts ? request_->num_max_contacts - have : 0;
-    }
+    std::size_t room() const { return count_ < request_->num_max_contacts ? request_->num_max_contacts - count_ : 0; }
     bool is_detailed() const { return request_->enable_contact; }
 
     /// A contact without details, of parts i and j (-1: not of a mesh).
-    void add(int i, int j) { result_->addContact(::fcl::Contact<S>(o1_.of, o2_.of, i, j)); }
+    OVOID_FCL_INLINE void add(int i, int j) {
+        result_->addContact(::fcl::Contact<S>(o1_.of, o2_.of, i, j));
+        count_++;
+    }
     /// A contact with details. FCL's depths are not negative.
-    void add(int i, int j, const ovoid_manifold_point &at, const ovoid_vec3 &normal) {
-        result_->addContact(::fcl::Contact<S>(o1_.of, o2_.of, i, j,
-                                              from_vec3<S>(between(at.point_a, at.point_b, get_part(o1_, o2_))),
-                                              from_vec3<S>(normal), static_cast<S>(std::max(0.0, -at.separation))));
+    OVOID_FCL_INLINE void add(int i, int j, const ovoid_vec3 &position, const ovoid_vec3 &normal, double depth) {
+        result_->addContact(::fcl::Contact<S>(o1_.of, o2_.of, i, j, from_vec3<S>(position), from_vec3<S>(normal),
+                                              static_cast<S>(std::max(0.0, depth))));
+        count_++;
+    }
+    OVOID_FCL_INLINE void add(int i, int j, const ovoid_manifold_point &at, const ovoid_vec3 &normal) {
+        add(i, j, between(at.point_a, at.point_b, get_part(o1_, o2_)), normal, -at.separation);
     }
 
   private:
     typed<S> o1_, o2_;
     const ::fcl::CollisionRequest<S> *request_;
     ::fcl::CollisionResult<S> *result_;
+    std::size_t count_;
 };
 
 /// A bracket, and its points and normal; without the proof, which FCL's callers have no place for.
@@ -92,7 +101,7 @@ inline double contact_distance(const ovoid_verdict &depth) {
 }
 
 /// The deepest point of two overlapping shapes as a contact.
-template <class S> void add_deepest(contact_list<S> &to, int i, int j, const measured &depth) {
+template <class S> OVOID_FCL_INLINE void add_deepest(contact_list<S> &to, int i, int j, const measured &depth) {
     to.add(i, j, {depth.at.point_a, depth.at.point_b, contact_distance(depth.bracket), 0}, depth.at.normal);
 }
 

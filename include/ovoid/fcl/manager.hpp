@@ -9,6 +9,7 @@
 #define OVOID_FCL_MANAGER_HPP
 
 #include "ovoid/fcl/blocks.hpp"
+#include "ovoid/fcl/pairs.hpp"
 #include "ovoid/fcl/pose.hpp"
 
 #include <fcl/fcl.h>
@@ -53,7 +54,7 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
         if (found == places_.end()) return;
         const std::size_t place = found->second;
         places_.erase(found);
-        objects_[place] = nullptr;
+        objects_[place].of = nullptr;
         set_box(place, detail::empty_box());
         if (places_.size() < objects_.size() / 2) build();
     }
@@ -87,8 +88,8 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
     /** Writes the objects in the place of what the vector holds. */
     void getObjects(std::vector<object *> &objects) const override {
         objects.clear();
-        for (object *o : objects_)
-            if (o) objects.push_back(o);
+        for (const auto &o : objects_)
+            if (o.of) objects.push_back(o.of);
     }
     bool empty() const override { return places_.empty(); }
     std::size_t size() const override { return places_.size(); }
@@ -96,7 +97,7 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
     /** Calls back with each object whose box meets that of `o`, and `o`. */
     void collide(object *o, void *data, ::fcl::CollisionCallBack<S> callback) const override {
         const ovoid_box box = box_of(o);
-        const auto take = [&](std::size_t i) { return objects_[i] && callback(objects_[i], o, data); };
+        const auto take = [&](std::size_t i) { return objects_[i].of && callback(objects_[i].of, o, data); };
         find_overlaps(box, objects_.size(), take);
     }
     /** Calls back with the objects whose boxes are nearer to that of `o` than the least distance so far, and `o`. */
@@ -104,21 +105,21 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
         nearest found(callback, data);
         find_near(o, found);
     }
-    /** Calls back with each two objects whose boxes meet. */
+    /** Calls back with each two objects whose boxes meet, in an order that helps the callback. */
     void collide(void *data, ::fcl::CollisionCallBack<S> callback) const override {
-        pair_queue queue(callback, data, objects_.size());
-        const auto take = [&](std::size_t i, std::size_t j) { return queue.push(objects_[i], objects_[j]); };
+        pair_queue queue(callback, data, objects_, objects_);
+        const auto take = [&](std::size_t i, std::size_t j) { return queue.push(i, j); };
         if (tree_.find_own(take)) return;
         for (std::size_t k = leaves_; k < objects_.size(); k++)
-            if (objects_[k] && find_overlaps(box_at(k), k, [&](std::size_t i) { return take(i, k); })) return;
-        queue.finish();
+            if (objects_[k].of && find_overlaps(box_at(k), k, [&](std::size_t i) { return take(i, k); })) return;
+        queue.flush();
     }
     /** Calls back with two objects while their boxes are nearer than the least distance so far. */
     void distance(void *data, ::fcl::DistanceCallBack<S> callback) const override {
         nearest found(callback, data);
         if (find_own(found)) return;
         for (std::size_t k = leaves_; k < objects_.size(); k++)
-            if (objects_[k] && find_near(box_at(k), k, found, objects_[k])) return;
+            if (objects_[k].of && find_near(box_at(k), k, found, objects_[k].of)) return;
     }
     /**
      * Calls back with each object of this manager and each of the other whose boxes meet. The other one may be any
@@ -127,24 +128,16 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
      */
     void collide(base *other, void *data, ::fcl::CollisionCallBack<S> callback) const override {
         if (other == this) return collide(data, callback);
-        pair_queue queue(callback, data, objects_.size());
-        const auto take = [&](object *x, object *y) { return queue.push(x, y); };
         const auto *ours = dynamic_cast<const BroadPhaseManager *>(other);
-        if (!ours) {
-            for (object *o : objects_of(*other))
-                if (find_overlaps(box_of(o), objects_.size(), [&](std::size_t i) { return take(objects_[i], o); }))
-                    return;
-            queue.finish();
-            return;
-        }
-        const auto take_leaves = [&](std::size_t i, std::size_t j) { return take(objects_[i], ours->objects_[j]); };
-        if (tree_.find_both(ours->tree_, take_leaves)) return;
+        if (!ours) return collide_objects(objects_of(*other), data, callback);
+        pair_queue queue(callback, data, objects_, ours->objects_);
+        const auto take = [&](std::size_t i, std::size_t j) { return queue.push(i, j); };
+        if (tree_.find_both(ours->tree_, take)) return;
         for (std::size_t k = ours->leaves_; k < ours->objects_.size(); k++)
-            if (find_overlaps(ours->box_at(k), objects_.size(), [&](std::size_t i) { return take_leaves(i, k); }))
-                return;
+            if (find_overlaps(ours->box_at(k), objects_.size(), [&](std::size_t i) { return take(i, k); })) return;
         for (std::size_t k = leaves_; k < objects_.size(); k++)
-            if (ours->find_overlaps(box_at(k), ours->leaves_, [&](std::size_t j) { return take_leaves(k, j); })) return;
-        queue.finish();
+            if (ours->find_overlaps(box_at(k), ours->leaves_, [&](std::size_t j) { return take(k, j); })) return;
+        queue.flush();
     }
     /** Calls back with an object of each manager while their boxes are nearer than the least distance so far. */
     void distance(base *other, void *data, ::fcl::DistanceCallBack<S> callback) const override {
@@ -155,57 +148,6 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
     }
 
   private:
-    /// Pairs on the way to the callback, in their order. In a large scene objects and geometries are not in the nearer
-    /// caches: they are fetched while the pairs before them are asked. In a small one the callback is called at once.
-    class pair_queue {
-      public:
-        pair_queue(::fcl::CollisionCallBack<S> callback, void *data, std::size_t objects)
-            : callback_(callback), data_(data), is_large_(objects > 2000) {}
-        /// True if the query is over: the callback says so.
-        OVOID_FCL_INLINE bool push(object *x, object *y) {
-            if (!x || !y) return false;
-            if (!is_large_) return callback_(x, y, data_);
-            const couple &last = pairs_[(count_ - 1) % size], &middle = pairs_[(count_ - size / 2) % size];
-            // Many pairs one after the other have the same second object.
-            if (last.y != y) fetch<0, 1, 2>(y);
-            fetch<0, 1, 2>(x);
-            if (middle.x) fetch<0, 2>(middle.x->collisionGeometry().get());
-            if (middle.x && last.y != middle.y) fetch<0, 2>(middle.y->collisionGeometry().get());
-            pairs_[count_++ % size] = {x, y};
-            return count_ - done_ == size && call();
-        }
-        /// Calls back with those that are left.
-        void finish() {
-            for (bool is_over = false; !is_over && done_ < count_;) is_over = call();
-        }
-
-      private:
-        static constexpr std::size_t size = 8;
-        struct couple {
-            object *x, *y;
-        };
-
-        bool call() {
-            const couple &next = pairs_[done_++ % size];
-            return callback_(next.x, next.y, data_);
-        }
-        /// Cache lines: an object has its transform in the first three, a geometry its type in the first and its sizes
-        /// in the third.
-        template <int... line> OVOID_FCL_INLINE static void fetch(const void *from) {
-#if defined(__GNUC__)
-            (__builtin_prefetch(static_cast<const char *>(from) + 64 * line), ...);
-#else
-            (void)from;
-#endif
-        }
-
-        ::fcl::CollisionCallBack<S> callback_;
-        void *data_;
-        bool is_large_;
-        std::size_t count_ = 0, done_ = 0;
-        couple pairs_[size] = {};
-    };
-
     /// The callback of a distance query, and the least distance so far.
     class nearest {
       public:
@@ -227,6 +169,19 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
         double bound2_ = std::numeric_limits<double>::infinity();
     };
 
+    using pair_queue = detail::pair_queue<S>;
+
+    /// Calls back with each object of this manager and each of others, by their present boxes.
+    void collide_objects(const std::vector<object *> &others, void *data, ::fcl::CollisionCallBack<S> callback) const {
+        detail::registered_objects<S> there;
+        for (object *o : others) there.emplace_back(o);
+        pair_queue queue(callback, data, objects_, there);
+        for (std::size_t k = 0; k < there.size(); k++)
+            if (find_overlaps(there[k].get_box(), objects_.size(), [&](std::size_t i) { return queue.push(i, k); }))
+                return;
+        queue.flush();
+    }
+
     static ovoid_box box_of(const object *o) {
         const auto &box = o->getAABB();
         return {detail::to_vec3<S>(box.min_), detail::to_vec3<S>(box.max_)};
@@ -243,7 +198,7 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
     void add(object *o) {
         const auto found = places_.emplace(o, objects_.size());
         if (!found.second) return set_box(found.first->second, box_of(o));
-        objects_.push_back(o);
+        objects_.emplace_back(o);
         recent_.push_back(box_of(o));
     }
     /// Sets the box of an object, and those of the tree that hold it.
@@ -254,33 +209,36 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
             tree_.set(place, box);
     }
     void refit() {
-        tree_.fill(leaves_, [this](std::size_t i) { return objects_[i] ? box_of(objects_[i]) : detail::empty_box(); });
+        tree_.fill(leaves_, [this](std::size_t i) {
+            objects_[std::min(i + 16, leaves_ - 1)].fetch_box();
+            return objects_[i].of ? objects_[i].get_box() : detail::empty_box();
+        });
     }
 
     /// An object and the doubled centre of its box, for the build.
     struct item {
-        object *of;
+        detail::registered<S> of;
         double centre[3];
     };
     /// Builds the tree over all objects that are registered.
     void build() {
         std::vector<item> items;
         items.reserve(places_.size());
-        for (object *o : objects_)
-            if (o && places_.count(o) > 0) items.push_back(make_item(o));
+        for (const auto &o : objects_)
+            if (o.of && places_.count(o.of) > 0) items.push_back(make_item(o));
         if (!items.empty()) split(items.data(), items.data() + items.size());
         leaves_ = items.size();
-        objects_.resize(leaves_);
+        objects_.clear();
         recent_.clear();
-        for (std::size_t i = 0; i < leaves_; i++) {
-            objects_[i] = items[i].of;
-            places_[items[i].of] = i;
+        for (const item &x : items) {
+            places_[x.of.of] = objects_.size();
+            objects_.push_back(x.of);
         }
         refit();
         measure_ = tree_.measure();
     }
-    static item make_item(object *o) {
-        const ovoid_box box = box_of(o);
+    static item make_item(const detail::registered<S> &o) {
+        const ovoid_box box = o.get_box();
         item made{o, {box.min.x + box.max.x, box.min.y + box.max.y, box.min.z + box.max.z}};
         for (double &c : made.centre)
             if (!std::isfinite(c)) c = 0; // no order is known of NaN
@@ -315,7 +273,7 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
     bool find_near(object *o, nearest &found) const { return find_near(box_of(o), objects_.size(), found, o); }
     /// Asks for the places below `end` and an object with this box.
     bool find_near(const ovoid_box &box, std::size_t end, nearest &found, object *o) const {
-        const auto take = [&](std::size_t i) { return found.take(objects_[i], o); };
+        const auto take = [&](std::size_t i) { return found.take(objects_[i].of, o); };
         if (tree_.find_near(box, found.bound2(), take)) return true;
         for (std::size_t k = leaves_; k < end; k++)
             if (detail::compute_gap2(box_at(k), box) < found.bound2() && take(k)) return true;
@@ -331,16 +289,16 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
             return least2 == 0;
         };
         tree_.find_own_near(least2, seek);
-        if (first != second && found.take(objects_[first], objects_[second])) return true;
+        if (first != second && found.take(objects_[first].of, objects_[second].of)) return true;
         const auto take = [&](std::size_t i, std::size_t j) {
-            return (i != first || j != second) && found.take(objects_[i], objects_[j]);
+            return (i != first || j != second) && found.take(objects_[i].of, objects_[j].of);
         };
         return tree_.find_own_near(found.bound2(), take);
     }
 
-    std::vector<object *> objects_; ///< of the tree's leaves, then those registered since; NULL: removed
-    detail::block_tree tree_;       ///< of the boxes of the first objects
-    std::vector<ovoid_box> recent_; ///< of the objects that are not in the tree
+    detail::registered_objects<S> objects_; ///< of the tree's leaves, then those registered since
+    detail::block_tree tree_;               ///< of the boxes of the first objects
+    std::vector<ovoid_box> recent_;         ///< of the objects that are not in the tree
     std::unordered_map<object *, std::size_t> places_;
     std::size_t leaves_ = 0; ///< of the tree
     double measure_ = 0;     ///< of the tree, when it was built

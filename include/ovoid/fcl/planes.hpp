@@ -21,26 +21,14 @@ namespace ovoid {
 namespace fcl {
 namespace detail {
 
-using vector = ::fcl::Vector3<double>;
-
-template <class S> vector to_vector(const ::fcl::Vector3<S> &v) {
-    return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
+/// The components of a vector along the columns of a transform.
+template <class S> ovoid_vec3 turn_back(const ::fcl::Transform3<S> &t, const ovoid_vec3 &v) {
+    return {dot(get_column<S>(t, 0), v), dot(get_column<S>(t, 1), v), dot(get_column<S>(t, 2), v)};
 }
-
-/// A transform in doubles, entry by entry: Eigen would copy the matrix for a cast of type.
-template <class S> class placing {
-  public:
-    explicit placing(const ::fcl::Transform3<S> &of) : of_(of) {}
-    vector turn(const vector &v) const { return {row(0, v), row(1, v), row(2, v)}; }
-    vector turn_back(const vector &v) const { return {column(0, v), column(1, v), column(2, v)}; }
-    vector position() const { return {at(0, 3), at(1, 3), at(2, 3)}; }
-
-  private:
-    double at(int i, int k) const { return static_cast<double>(of_.matrix().coeff(i, k)); }
-    double row(int i, const vector &v) const { return at(i, 0) * v[0] + at(i, 1) * v[1] + at(i, 2) * v[2]; }
-    double column(int k, const vector &v) const { return at(0, k) * v[0] + at(1, k) * v[1] + at(2, k) * v[2]; }
-    const ::fcl::Transform3<S> &of_;
-};
+/// Where a transform puts a point.
+template <class S> ovoid_vec3 move(const ::fcl::Transform3<S> &t, const ovoid_vec3 &point) {
+    return add_scaled(turn<S>(t, point), get_column<S>(t, 3), 1);
+}
 
 /// The sign of a direction's component; 0 where the component is no more than a rounding, so that of a face or an edge
 /// that is parallel to the plane the middle counts, as in FCL.
@@ -48,67 +36,33 @@ inline double side_of(double component) { return std::fabs(component) <= 1e-15 ?
 
 /// A point set's farthest point along a direction; i: of a mesh its triangle, else -1.
 struct extreme {
-    vector point;
+    ovoid_vec3 point;
     double height;
     int i;
 };
 
 template <class S> class supporter {
   public:
-    explicit supporter(const vector &direction) : n_(direction) {}
+    explicit supporter(const ovoid_vec3 &direction) : n_(direction) {}
 
-    void add(const ::fcl::Vector3<S> &point) { add_point(to_vector<S>(point)); }
-    void add_point(const vector &point) {
-        const double height = n_.dot(point);
+    void add(const ::fcl::Vector3<S> &at) {
+        const ovoid_vec3 point = to_vec3<S>(at);
+        const double height = dot(n_, point);
         if (height > best_.height) best_ = {point, height, -1};
     }
-    /// The circle of a radius around the z axis at a height.
-    void add_circle(double radius, double z) {
-        const double across = std::hypot(n_[0], n_[1]);
-        add_point(across > 1e-15 ? vector(radius * n_[0] / across, radius * n_[1] / across, z) : vector(0, 0, z));
-    }
-    /// A ball around a point.
-    void add_ball(double radius, const vector &center) { add_point(center + n_ * radius); }
     const extreme &get() const { return best_; }
 
   private:
-    vector n_;
-    extreme best_{vector::Zero(), -std::numeric_limits<double>::infinity(), -1};
+    ovoid_vec3 n_;
+    extreme best_{{0, 0, 0}, -std::numeric_limits<double>::infinity(), -1};
 };
 
-/// The farthest point of a geometry, no mesh, along a unit direction of its frame; its height is -infinity if there is
-/// none.
-template <class S> extreme find_extreme(const typed<S> &geometry, const vector &n) {
+/// The farthest point of a triangle or a convex polytope along a unit direction of its frame; its height is -infinity
+/// of other types.
+template <class S> extreme find_extreme(const typed<S> &geometry, const ovoid_vec3 &n) {
     supporter<S> to(n);
     const auto *g = geometry.of;
     switch (geometry.type) {
-    case ::fcl::GEOM_BOX: {
-        const vector half = static_cast<const ::fcl::Box<S> *>(g)->side.template cast<double>() / 2;
-        to.add_point(vector(half[0] * side_of(n[0]), half[1] * side_of(n[1]), half[2] * side_of(n[2])));
-        break;
-    }
-    case ::fcl::GEOM_ELLIPSOID: {
-        const vector radii = static_cast<const ::fcl::Ellipsoid<S> *>(g)->radii.template cast<double>();
-        const vector scaled = radii.cwiseProduct(n);
-        to.add_point(radii.cwiseProduct(scaled) / scaled.norm());
-        break;
-    }
-    case ::fcl::GEOM_CAPSULE: {
-        const auto *s = static_cast<const ::fcl::Capsule<S> *>(g);
-        to.add_ball(s->radius, vector(0, 0, static_cast<double>(s->lz) / 2 * side_of(n[2])));
-        break;
-    }
-    case ::fcl::GEOM_CYLINDER: {
-        const auto *s = static_cast<const ::fcl::Cylinder<S> *>(g);
-        to.add_circle(s->radius, static_cast<double>(s->lz) / 2 * side_of(n[2]));
-        break;
-    }
-    case ::fcl::GEOM_CONE: {
-        const auto *s = static_cast<const ::fcl::Cone<S> *>(g);
-        to.add_circle(s->radius, -static_cast<double>(s->lz) / 2);
-        to.add_point(vector(0, 0, static_cast<double>(s->lz) / 2));
-        break;
-    }
     case ::fcl::GEOM_TRIANGLE: {
         const auto *s = static_cast<const ::fcl::TriangleP<S> *>(g);
         to.add(s->a), to.add(s->b), to.add(s->c);
@@ -124,7 +78,7 @@ template <class S> extreme find_extreme(const typed<S> &geometry, const vector &
 
 /// A halfspace { n x <= d } or a plane { n x = d }, n of length 1.
 struct plane {
-    vector n;
+    ovoid_vec3 n;
     double d;
     bool is_halfspace;
 };
@@ -132,27 +86,29 @@ struct plane {
 /// The plane in the world; its normal is not finite if it was no plane.
 template <class S> OVOID_FCL_INLINE plane make_plane(const typed<S> &geometry, const ::fcl::Transform3<S> &pose) {
     const bool is_halfspace = geometry.type == ::fcl::GEOM_HALFSPACE;
-    vector n;
+    ovoid_vec3 n;
     double d;
     if (is_halfspace) {
         const auto *h = static_cast<const ::fcl::Halfspace<S> *>(geometry.of);
-        n = to_vector<S>(h->n), d = static_cast<double>(h->d);
+        n = to_vec3<S>(h->n), d = static_cast<double>(h->d);
     } else {
         const auto *h = static_cast<const ::fcl::Plane<S> *>(geometry.of);
-        n = to_vector<S>(h->n), d = static_cast<double>(h->d);
+        n = to_vec3<S>(h->n), d = static_cast<double>(h->d);
     }
     // FCL's constructors leave a normal of length 1; whoever writes another one into the geometry means its direction.
-    const double square = n.squaredNorm();
-    const placing<S> at(pose);
-    n = at.turn(n);
-    if (!(std::fabs(square - 1) <= 1e-15)) n /= std::sqrt(square), d /= std::sqrt(square);
-    return {n, d + n.dot(at.position()), is_halfspace};
+    const double square = dot(n, n);
+    n = turn<S>(pose, n);
+    if (!(std::fabs(square - 1) <= 1e-15)) {
+        const double length = std::sqrt(square);
+        n = {n.x / length, n.y / length, n.z / length}, d /= length;
+    }
+    return {n, d + dot(n, get_column<S>(pose, 3)), is_halfspace};
 }
 
 /// Is the plane's transform one of ours? No more of the rotation is read than the normal; one that is not a unit vector
 /// to a few roundings is asked for the rest.
 template <class S> OVOID_FCL_INLINE bool is_placed(const plane &p, const ::fcl::Transform3<S> &pose) {
-    return off_unit({p.n[0], p.n[1], p.n[2]}) <= columns_rounding ? is_in_range<S>(pose) : is_rigid<S>(pose);
+    return off_unit(p.n) <= columns_rounding ? is_in_range<S>(pose) : is_rigid<S>(pose);
 }
 /// Is that of a geometry beside it? Of a sphere the rotation is not read, of a body around an axis the axis alone; a
 /// box and an ellipsoid may be mirrored.
@@ -172,56 +128,30 @@ template <class S> OVOID_FCL_INLINE bool is_placed(const typed<S> &geometry, con
 
 /// Where a geometry meets a plane: points and normal in the world, from the geometry to the plane.
 struct plane_answer {
-    double distance; ///< signed
-    vector point;    ///< of the geometry
-    vector on_plane;
-    vector normal;
-    vector position; ///< of a contact, as in FCL: on a plane; half way between a halfspace's plane and the point
-    int i;           ///< of a mesh the triangle, else -1
+    double distance;  ///< signed
+    ovoid_vec3 point; ///< of the geometry
+    ovoid_vec3 on_plane;
+    ovoid_vec3 normal;
+    ovoid_vec3 position; ///< of a contact, as in FCL: on a plane; half way between a halfspace's plane and the point
+    int i;               ///< of a mesh the triangle, else -1
 };
-
-/// The answer for the lowest and the highest point of a body, heights above the plane.
-inline plane_answer answer_plane(const plane &p, const extreme &low, const extreme &high) {
-    // Above a plane, or least deep from above: the lowest point decides.
-    const bool is_low = p.is_halfspace || low.height > 0 || (high.height >= 0 && -low.height <= high.height);
-    const extreme &by = is_low ? low : high;
-    const vector on_plane = by.point - p.n * by.height;
-    return {is_low ? low.height : -high.height,
-            by.point,
-            on_plane,
-            is_low ? vector(-p.n) : p.n,
-            p.is_halfspace ? vector((by.point + on_plane) / 2) : on_plane,
-            by.i};
-}
-
-/// Heights above the plane, points in the world.
-template <class S>
-extreme find_height(const typed<S> &g, const ::fcl::Transform3<S> &pose, const plane &p, double sign) {
-    const placing<S> at(pose);
-    extreme e{vector::Zero(), 0, -1};
-    if (g.type == ::fcl::GEOM_SPHERE)
-        e.point =
-            at.position() + p.n * (sign * static_cast<double>(static_cast<const ::fcl::Sphere<S> *>(g.of)->radius));
-    else
-        e = find_extreme(g, vector(at.turn_back(p.n) * sign)), e.point = at.turn(e.point) + at.position();
-    e.height = p.n.dot(e.point) - p.d;
-    return e;
-}
 
 /// How far a geometry's lowest and highest points are above a plane.
 struct extent {
     double low, high;
 };
 
-/// The extent of a geometry that is no mesh, without its points; infinite of a type that has none here. Of a body
-/// around an axis no column of the transform is read but that.
+/// Has a type an extent in closed form?
+inline bool has_extent(::fcl::NODE_TYPE type) { return type >= ::fcl::GEOM_BOX && type <= ::fcl::GEOM_CYLINDER; }
+
+/// The extent of a geometry, without its points; infinite of a type that has none. Of a body around an axis no column
+/// of the transform is read but that.
 template <class S>
 OVOID_FCL_INLINE extent find_extent(const typed<S> &geometry, const ::fcl::Transform3<S> &pose, const plane &p) {
-    const placing<S> at(pose);
     const auto *g = geometry.of;
-    const double middle = p.n.dot(at.position()) - p.d;
+    const double middle = dot(p.n, get_column<S>(pose, 3)) - p.d;
     const auto around = [middle](double reach) { return extent{middle - reach, middle + reach}; };
-    const ovoid_vec3 n = {p.n[0], p.n[1], p.n[2]}, axis = get_column<S>(pose, 2);
+    const ovoid_vec3 &n = p.n, axis = get_column<S>(pose, 2);
     const double z = dot(axis, n);
     const auto across = [&] {
         const ovoid_vec3 off = {n.x - z * axis.x, n.y - z * axis.y, n.z - z * axis.z};
@@ -258,22 +188,97 @@ OVOID_FCL_INLINE extent find_extent(const typed<S> &geometry, const ::fcl::Trans
     }
 }
 
-/// 1: a geometry is apart from a plane; -1: it meets it; 0: the extent does not tell, to rounding.
-template <class S>
-OVOID_FCL_INLINE int find_side(const typed<S> &geometry, const ::fcl::Transform3<S> &pose, const plane &p) {
-    const extent e = find_extent(geometry, pose, p);
+/// 1: a geometry of this extent is apart from a plane; -1: it meets it; 0: the extent does not tell, to rounding.
+OVOID_FCL_INLINE int find_side(const extent &e, const plane &p) {
     const double doubt = 1e-14 * (e.high - e.low + std::fabs(e.low) + std::fabs(p.d)),
                  apart = p.is_halfspace ? e.low : std::max(e.low, -e.high);
     return apart > doubt ? 1 : apart < -doubt ? -1 : 0;
+}
+
+/// The lowest (sign -1) or the highest (1) point above a plane of a geometry that has an extent.
+template <class S>
+OVOID_FCL_INLINE ovoid_vec3 find_end(const typed<S> &geometry, const ::fcl::Transform3<S> &pose, const plane &p,
+                                     double sign) {
+    const auto *g = geometry.of;
+    const ovoid_vec3 &n = p.n, axis = get_column<S>(pose, 2), middle = get_column<S>(pose, 3);
+    const double along[3] = {dot(get_column<S>(pose, 0), n), dot(get_column<S>(pose, 1), n), dot(axis, n)};
+    const auto go_along = [&](double lz) { return add_scaled(middle, axis, sign * side_of(along[2]) * lz / 2); };
+    // From a point of the axis to the rim around it.
+    const auto go_across = [&](const ovoid_vec3 &from, double radius) {
+        const ovoid_vec3 off = add_scaled(n, axis, -along[2]);
+        const double length = std::sqrt(dot(off, off));
+        return length > 1e-15 ? add_scaled(from, off, sign * radius / length) : from;
+    };
+    const auto go = [&](double x, double y, double z) {
+        return add_scaled(add_scaled(add_scaled(middle, get_column<S>(pose, 0), x), get_column<S>(pose, 1), y), axis,
+                          z);
+    };
+    switch (geometry.type) {
+    case ::fcl::GEOM_SPHERE:
+        return add_scaled(middle, n, sign * static_cast<double>(static_cast<const ::fcl::Sphere<S> *>(g)->radius));
+    case ::fcl::GEOM_BOX: {
+        const auto &side = static_cast<const ::fcl::Box<S> *>(g)->side;
+        const auto half = [&](int k) { return sign * side_of(along[k]) * static_cast<double>(side[k]) / 2; };
+        return go(half(0), half(1), half(2));
+    }
+    case ::fcl::GEOM_ELLIPSOID: {
+        const auto &radii = static_cast<const ::fcl::Ellipsoid<S> *>(g)->radii;
+        const auto scale = [&](int k) { return static_cast<double>(radii[k]) * along[k]; };
+        const double part = sign / std::sqrt(scale(0) * scale(0) + scale(1) * scale(1) + scale(2) * scale(2));
+        const auto reach = [&](int k) { return part * static_cast<double>(radii[k]) * scale(k); };
+        return go(reach(0), reach(1), reach(2));
+    }
+    case ::fcl::GEOM_CAPSULE: {
+        const auto *s = static_cast<const ::fcl::Capsule<S> *>(g);
+        return add_scaled(go_along(s->lz), n, sign * static_cast<double>(s->radius));
+    }
+    case ::fcl::GEOM_CYLINDER: {
+        const auto *s = static_cast<const ::fcl::Cylinder<S> *>(g);
+        return go_across(go_along(s->lz), s->radius);
+    }
+    default: { // a cone
+        const auto *s = static_cast<const ::fcl::Cone<S> *>(g);
+        const double half = static_cast<double>(s->lz) / 2;
+        const ovoid_vec3 apex = add_scaled(middle, axis, half),
+                         rim = go_across(add_scaled(middle, axis, -half), s->radius);
+        return sign * (dot(apex, n) - dot(rim, n)) > 0 ? apex : rim;
+    }
+    }
+}
+
+/// Does the lowest point decide, and not the highest one? Above a plane it does, or where it is less deep.
+OVOID_FCL_INLINE bool is_low_deciding(const plane &p, const extent &e) {
+    return p.is_halfspace || e.low > 0 || (e.high >= 0 && -e.low <= e.high);
+}
+/// The answer for the point that decides, with its height above the plane.
+OVOID_FCL_INLINE plane_answer answer_plane(const plane &p, const extreme &by, bool is_low) {
+    const double sign = is_low ? -1 : 1;
+    return {-sign * by.height,
+            by.point,
+            add_scaled(by.point, p.n, -by.height),
+            {sign * p.n.x, sign * p.n.y, sign * p.n.z},
+            add_scaled(by.point, p.n, p.is_halfspace ? by.height / -2 : -by.height),
+            by.i};
+}
+inline plane_answer answer_plane(const plane &p, const extreme &low, const extreme &high) {
+    const bool is_low = is_low_deciding(p, {low.height, high.height});
+    return answer_plane(p, is_low ? low : high, is_low);
+}
+/// The same of a geometry that has an extent.
+template <class S>
+OVOID_FCL_INLINE plane_answer answer_plane(const typed<S> &g, const ::fcl::Transform3<S> &pose, const plane &p,
+                                           const extent &e) {
+    const bool is_low = is_low_deciding(p, e);
+    return answer_plane(p, {find_end(g, pose, p, is_low ? -1 : 1), is_low ? e.low : e.high, -1}, is_low);
 }
 
 /// A mesh and a plane: the height of a corner needs no transform of it.
 template <class S> class mesh_heights {
   public:
     mesh_heights(const mesh_view<S> &mesh, const ::fcl::Transform3<S> &pose, const plane &p)
-        : mesh_(mesh), at_(pose), n_(at_.turn_back(p.n)), offset_(p.n.dot(at_.position()) - p.d) {}
+        : mesh_(mesh), pose_(pose), n_(turn_back<S>(pose, p.n)), offset_(dot(p.n, get_column<S>(pose, 3)) - p.d) {}
 
-    double at(int vertex) const { return n_.dot(to_vector<S>(mesh_.vertices[vertex])) + offset_; }
+    double at(int vertex) const { return dot(n_, to_vec3<S>(mesh_.vertices[vertex])) + offset_; }
     /// FCL's operator for this is no inline function.
     int corner(int i, int k) const {
         static_assert(std::is_standard_layout<::fcl::Triangle>::value &&
@@ -284,7 +289,7 @@ template <class S> class mesh_heights {
     }
     /// A corner of triangle i, in the world.
     extreme make(int vertex, double height, int i) const {
-        return {at_.turn(to_vector<S>(mesh_.vertices[vertex])) + at_.position(), height, i};
+        return {move<S>(pose_, to_vec3<S>(mesh_.vertices[vertex])), height, i};
     }
     int count() const { return mesh_.vertex_count; }
     int triangle_count() const { return mesh_.triangle_count; }
@@ -317,10 +322,20 @@ template <class S> class mesh_heights {
 
   private:
     const mesh_view<S> &mesh_;
-    placing<S> at_;
-    vector n_;
+    const ::fcl::Transform3<S> &pose_;
+    ovoid_vec3 n_;
     double offset_;
 };
+
+/// The farthest point of a triangle or a convex polytope along a plane's normal (sign 1) or against it, in the world.
+template <class S>
+extreme find_height(const typed<S> &g, const ::fcl::Transform3<S> &pose, const plane &p, double sign) {
+    const ovoid_vec3 n = turn_back<S>(pose, p.n);
+    extreme e = find_extreme(g, {sign * n.x, sign * n.y, sign * n.z});
+    e.point = move<S>(pose, e.point);
+    e.height = dot(p.n, e.point) - p.d;
+    return e;
+}
 
 template <class S> plane_answer ask_plane(const typed<S> &g, const ::fcl::Transform3<S> &pose, const plane &p) {
     mesh_view<S> mesh;
@@ -329,6 +344,7 @@ template <class S> plane_answer ask_plane(const typed<S> &g, const ::fcl::Transf
         const extreme low = heights.find_end(1);
         return answer_plane(p, low, p.is_halfspace ? low : heights.find_end(-1));
     }
+    if (has_extent(g.type)) return answer_plane(g, pose, p, find_extent(g, pose, p));
     const extreme low = find_height(g, pose, p, -1);
     return answer_plane(p, low, p.is_halfspace ? low : find_height(g, pose, p, 1));
 }

@@ -26,14 +26,18 @@ template <class S>::fcl::Vector3<S> from_vec3(const ovoid_vec3 &v) {
 }
 
 inline double dot(const ovoid_vec3 &a, const ovoid_vec3 &b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+/// a + t b.
+inline ovoid_vec3 add_scaled(const ovoid_vec3 &a, const ovoid_vec3 &b, double t) {
+    return {a.x + t * b.x, a.y + t * b.y, a.z + t * b.z};
+}
 
 /// How far the columns of a transform may be from unit vectors at right angles: the sum of what their products are off.
 constexpr double columns_rounding = 32 * 1.1102230246251565e-16;
 
 /// Column k of a transform.
 template <class S> OVOID_FCL_INLINE ovoid_vec3 get_column(const ::fcl::Transform3<S> &t, int k) {
-    const auto m = [&](int i) { return static_cast<double>(t.matrix().coeff(i, k)); };
-    return {m(0), m(1), m(2)};
+    const auto &m = t.matrix();
+    return {static_cast<double>(m.coeff(0, k)), static_cast<double>(m.coeff(1, k)), static_cast<double>(m.coeff(2, k))};
 }
 
 /// How far a column is from a unit vector, and the products of all three from those of a rotation.

@@ -114,22 +114,30 @@ template <class S> bool make_swept_or_points(const typed<S> &g, const ::fcl::Tra
     return make_points<S>(static_cast<const ::fcl::Convex<S> *>(g.of)->getVertices(), t, to);
 }
 
-/// The contacts of two swept spheres; false if their shapes have to be asked.
-template <class S> bool collide_swept(contact_list<S> &to, const ovoid_swept_pair &pair) {
+/// Are the contacts of two swept spheres those of faces? Else they have one.
+inline bool have_faces(const ovoid_swept_pair &pair, std::size_t room) {
+    // The one contact of two boxes is in the middle of the faces that meet.
+    return has_faces(*pair.a) && has_faces(*pair.b) &&
+           (room > 1 || (pair.a->core == OVOID_SWEPT_BOX && pair.b->core == OVOID_SWEPT_BOX));
+}
+/// The contacts of faces; false if their shapes have to be asked.
+template <class S> bool list_faces(contact_list<S> &to, const ovoid_swept_pair &pair) {
+    // The middle of faces is what shapes know.
+    return to.room() > 1 ? collide_faces<S>(to, pair) : ovoid_swept_collide(pair).status == OVOID_SEPARATED;
+}
+/// The one contact of two swept spheres, with or without details; false if their shapes have to be asked. The verdict
+/// is read where it was written: to copy it would wait for its parts.
+template <class S> OVOID_FCL_INLINE bool collide_swept(contact_list<S> &to, const ovoid_swept_pair &pair) {
     if (!to.is_detailed()) {
         const ovoid_verdict found = ovoid_swept_collide(pair);
         if (found.status == OVOID_UNDECIDED) return false;
         if (is_hit(found)) to.add(-1, -1);
         return true;
     }
-    if (to.room() > 1 && has_faces(*pair.a) && has_faces(*pair.b)) return collide_faces<S>(to, pair);
-    // The one contact of two boxes is in the middle of the faces that meet, which their shapes know.
-    if (pair.a->core == OVOID_SWEPT_BOX && pair.b->core == OVOID_SWEPT_BOX)
-        return ovoid_swept_collide(pair).status == OVOID_SEPARATED;
-    measured depth;
-    depth.bracket = ovoid_swept_contact(pair, &depth.at);
-    if (depth.bracket.status == OVOID_UNDECIDED) return false;
-    if (is_hit(depth.bracket)) add_deepest(to, -1, -1, depth);
+    ovoid_witness at;
+    const ovoid_verdict found = ovoid_swept_contact(pair, &at);
+    if (found.status == OVOID_UNDECIDED) return false;
+    if (is_hit(found)) to.add(-1, -1, {at.point_a, at.point_b, contact_distance(found), 0}, at.normal);
     return true;
 }
 
