@@ -22,7 +22,7 @@ def at(x, y=0, z=0):
 
 class Shapes(unittest.TestCase):
     def test_lean(self):
-        points = [[math.sin(7 * (3 * i + k) + 1) for k in range(3)] for i in range(100)]
+        points = [[math.sin((3 * i + k) ** 2) for k in range(3)] for i in range(100)]
         lean, full = (ovoid.Shape.from_points(points, inner=inner) for inner in ("lean", "maximum"))
         self.assertTrue(lean.is_lean and not full.is_lean and ovoid.Shape.from_bytes(lean.to_bytes()).is_lean)
         self.assertTrue(0.5 * full.inner.volume < lean.inner.volume < full.inner.volume)

@@ -129,7 +129,10 @@ static void check_bodies(void) {
         ovoid_shape *shapes[2] = {make(count, OVOID_INNER_LEAN), make(count, OVOID_INNER_MAXIMUM)};
         if (!shapes[0] || !shapes[1]) return;
         double share = check_lean(shapes[0], shapes[1]);
-        if (thin > 0.1) least = fmin(least, share), sum += share, plain++;
+        if (thin > 0.1) {
+            least = fmin(least, share), sum += share, plain++;
+            CHECK(isinf(ovoid_shape_get_inner(shapes[0]).gap));
+        }
         check_file(shapes[0]);
         check_copies(shapes[0]);
         for (int k = 0; k < 4 && before[0]; k++) {
