@@ -155,6 +155,7 @@ static void check_others(void) {
     ovoid_shape *box = ovoid_shape_create_box((vec3){1, 2, 3}, &lean, NULL);
     CHECK(ovoid_shape_is_lean(box));
     CHECK_NEAR(ovoid_shape_get_inner(box).volume, 4 * 3.141592653589793 / 3 * 6, 1e-6);
+    CHECK_LE(ovoid_shape_get_inner(box).gap, 1e-13);
     check_file(box);
     ovoid_shape_destroy(box);
     ovoid_shape *cylinder = ovoid_shape_create_cylinder(1, 2, &lean, NULL);
