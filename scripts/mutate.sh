@@ -34,7 +34,7 @@ tests_of() {
     swept) echo "test_query_swept" ;;
     exact) echo "test_linear test_hull $query" ;;
     hull) echo "test_linear test_hull_sort test_hull test_measures test_shape $query" ;;
-    shape) echo "test_centered_box test_regular_solid test_measures test_shape test_shape_triangles test_shape_file test_shape_rim test_shape_ellipsoid $query" ;;
+    shape) echo "test_centered_box test_regular_solid test_measures test_shape test_shape_triangles test_shape_file test_shape_lean test_shape_rim test_shape_ellipsoid $query" ;;
     ellipsoid) echo "test_ellipsoid_quick test_ellipsoid_contain test_ellipsoid_overlap test_ellipsoid_gap test_ellipsoid_exact test_ellipsoid_nearest test_ellipsoid_outer test_ellipsoid_inner $query" ;;
     simd) echo "test_simd $query" ;;
     environment) echo "test_environment $query" ;;

@@ -1,6 +1,7 @@
 // The cost of a shape: made from points, read from its file, and the parts of it that can be run alone, beside Qhull's
 // hull and the hulls of peers; and many boxes, cylinders and cones, a size each, all kept. All contestants get the same
-// points, in turn, pass after pass; a sample is the mean over the bodies, in processor time.
+// points, in turn, pass after pass; a sample is the mean over the bodies, in processor time. Of few points there are
+// thousands of bodies, since a processor learns the branches of bodies that it meets again soon.
 #include "setup/setup.h"
 
 #include "common/build.h"
@@ -19,9 +20,12 @@
 #include <libqhull_r/qhull_ra.h>
 #endif
 
-enum { PASSES = 9, CONTESTANTS_MOST = 16, CLOUDS_MOST = 40, LARGE = 50000 };
+enum { PASSES = 9, CONTESTANTS_MOST = 16, CLOUDS_MOST = 4000, CLOUD_POINTS = 128000, LARGE = 50000, SMOKE_CLOUDS = 40 };
 
-static uint32_t get_cloud_count(uint32_t size) { return size > LARGE ? 1 : size > 400 ? 4 : CLOUDS_MOST; }
+static uint32_t get_cloud_count(uint32_t size, int smoke) {
+    uint32_t count = CLOUD_POINTS / (size ? size : 1), most = smoke ? SMOKE_CLOUDS : CLOUDS_MOST;
+    return count < 1 ? 1 : count < most ? count : most;
+}
 
 /// Points, the shape of their hull, and its file.
 typedef struct cloud {
@@ -31,6 +35,11 @@ typedef struct cloud {
     size_t size;
     uint32_t count;
 } cloud;
+
+typedef struct cloud_list {
+    cloud *items;
+    uint32_t count;
+} cloud_list;
 
 static void cloud_destroy(cloud *c) {
     ovoid_shape_destroy(c->shape);
@@ -64,6 +73,13 @@ typedef int (*step)(const cloud *c);
 
 static int make_shape(const cloud *c) {
     ovoid_shape *shape = ovoid_shape_create_from_points(c->points, c->count, NULL, NULL);
+    ovoid_shape_destroy(shape);
+    return shape != NULL;
+}
+
+static int make_lean(const cloud *c) {
+    ovoid_shape *shape =
+        ovoid_shape_create_from_points(c->points, c->count, &(ovoid_shape_options){.inner = OVOID_INNER_LEAN}, NULL);
     ovoid_shape_destroy(shape);
     return shape != NULL;
 }
@@ -120,8 +136,8 @@ static const struct {
     const char *name;
     step run;
 } steps[] = {
-    {"shape", make_shape},          {"shape's file read", read_file},   {"outer ellipsoid", fit_outer},
-    {"inner ellipsoid", fit_inner}, {"ovoid_areas, k = 8", make_areas},
+    {"shape", make_shape},          {"lean shape", make_lean},      {"shape's file read", read_file},
+    {"outer ellipsoid", fit_outer}, {"inner ellipsoid", fit_inner}, {"ovoid_areas, k = 8", make_areas},
 #if defined(OVOID_HAVE_QHULL)
     {"Qhull's hull", run_qhull},
 #endif
@@ -155,20 +171,19 @@ static int load_all(contestants *all, const setup_plan *plan) {
 // --- the table
 
 /// Runs contestant i on all clouds; microseconds a cloud. Negative: it failed.
-static double time_contestant(const contestants *all, uint32_t i, const cloud *clouds, uint32_t count) {
+static double time_contestant(const contestants *all, uint32_t i, const cloud_list *clouds) {
     int good = 1;
     double start = get_own_seconds();
-    for (uint32_t k = 0; k < count && good; k++)
-        good =
-            i < STEPS ? steps[i].run(&clouds[k]) : all->peers[i - STEPS]->make(clouds[k].points, clouds[k].count) > 0;
-    return good ? (get_own_seconds() - start) / count * 1e6 : -1;
+    for (const cloud *c = clouds->items; c < clouds->items + clouds->count && good; c++)
+        good = i < STEPS ? steps[i].run(c) : all->peers[i - STEPS]->make(c->points, c->count) > 0;
+    return good ? (get_own_seconds() - start) / clouds->count * 1e6 : -1;
 }
 
-static void add_clouds(rows *table, const contestants *all, const cloud *clouds, row named) {
-    uint32_t count = get_cloud_count(clouds->count), passes = clouds->count > LARGE ? 2 : PASSES;
+static void add_clouds(rows *table, const contestants *all, const cloud_list *clouds, row named) {
+    uint32_t passes = clouds->items->count > LARGE ? 2 : PASSES;
     static double samples[CONTESTANTS_MOST][PASSES];
     for (uint32_t pass = 0; pass < passes; pass++)
-        for (uint32_t i = 0; i < STEPS + all->count; i++) samples[i][pass] = time_contestant(all, i, clouds, count);
+        for (uint32_t i = 0; i < STEPS + all->count; i++) samples[i][pass] = time_contestant(all, i, clouds);
     for (uint32_t i = 0; i < STEPS + all->count; i++) {
         named.line = i < STEPS ? steps[i].name : all->peers[i - STEPS]->name;
         named.y = timing_make(samples[i], passes);
@@ -176,19 +191,27 @@ static void add_clouds(rows *table, const contestants *all, const cloud *clouds,
     }
 }
 
-static int add_size(rows *table, const contestants *all, uint32_t size, int is_inside) {
-    cloud clouds[CLOUDS_MOST] = {{0}};
-    uint32_t count = get_cloud_count(size);
-    uint64_t state = size;
-    int good = 1;
-    for (uint32_t k = 0; k < count && good; k++) good = cloud_create(&clouds[k], size, is_inside, &state);
-    row named = {.chart = is_inside ? "Making a shape of points in an ellipsoid"
-                                    : "Making a shape of points on an ellipsoid",
+/// Clouds of a size: on ellipsoids or in them.
+typedef struct cloud_plan {
+    uint32_t size;
+    int is_inside, smoke;
+} cloud_plan;
+
+static int add_size(rows *table, const contestants *all, cloud_plan plan) {
+    cloud_list clouds = {.count = get_cloud_count(plan.size, plan.smoke)};
+    clouds.items = calloc(clouds.count, sizeof *clouds.items);
+    uint64_t state = plan.size;
+    int good = clouds.items != NULL;
+    for (uint32_t k = 0; k < clouds.count && good; k++)
+        good = cloud_create(&clouds.items[k], plan.size, plan.is_inside, &state);
+    row named = {.chart = plan.is_inside ? "Making a shape of points in an ellipsoid"
+                                         : "Making a shape of points on an ellipsoid",
                  .x_name = "points",
                  .y_name = "us",
-                 .x = size};
-    if (good) add_clouds(table, all, clouds, named);
-    for (uint32_t k = 0; k < count; k++) cloud_destroy(&clouds[k]);
+                 .x = plan.size};
+    if (good) add_clouds(table, all, &clouds, named);
+    for (uint32_t k = 0; k < clouds.count && clouds.items; k++) cloud_destroy(&clouds.items[k]);
+    free(clouds.items);
     return good;
 }
 
@@ -265,7 +288,7 @@ int setup_run(const setup_plan *plan, const char *csv, const char *svg) {
     uint32_t sizes = plan->smoke && plan->size_count > 2 ? 2 : plan->size_count;
     for (int is_inside = 0; is_inside < 2; is_inside++)
         for (uint32_t i = 0; i < sizes; i++)
-            if (!add_size(&table, &all, plan->sizes[i], is_inside)) return 0;
+            if (!add_size(&table, &all, (cloud_plan){plan->sizes[i], is_inside, plan->smoke})) return 0;
     for (size_t kind = 0; kind < sizeof kinds / sizeof *kinds; kind++)
         for (int is_read = 0; is_read < 2; is_read++)
             if (!add_bodies(&table, kind, plan->smoke ? 1000 : kinds[kind].count, is_read)) return 0;

@@ -19,6 +19,7 @@ typedef struct fitted {
     ovoid_convexity convexity; ///< of the mesh; volumes NaN for a .ovoid file
     ovoid_measures measures;
     uint32_t triangles, facets;
+    int is_lean; ///< the shape that was made or read
     double radius;
     ovoid_allowance allowance;
     double measure;                    ///< volume, area (one side) or length, by rank; 0 for a point

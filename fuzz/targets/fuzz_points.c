@@ -40,7 +40,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     fuzz_bytes from = {data, size};
     double xyz[3 * MOST] = {0};
     size_t count = (size_t)((unsigned)take_byte(&from) % (MOST + 1));
-    ovoid_shape_options options = {.inner = (ovoid_inner_method)(take_byte(&from) & 1)};
+    ovoid_shape_options options = {.inner = (ovoid_inner_method)(take_byte(&from) % 3)};
     uint8_t kind = take_byte(&from);
     if (kind > 64) options.radius = take_double(&from);
     if (kind > 192) options.allowance = (ovoid_allowance){.outside = take_double(&from), .inside = take_double(&from)};

@@ -105,6 +105,11 @@ static PyObject *get_allowance_axis(PyObject *self, void *closure) {
     return vec3_make(axis);
 }
 
+static PyObject *get_is_lean(PyObject *self, void *closure) {
+    (void)closure;
+    return PyBool_FromLong(ovoid_shape_is_lean(get(self)));
+}
+
 static PyObject *get_round(PyObject *self, void *closure) {
     (void)closure;
     ovoid_round round = ovoid_shape_get_round(get(self));
@@ -251,6 +256,7 @@ static PyGetSetDef fields[] = {
                "The box of the vertices: ((x, y, z) of its least corner, of its greatest)."),
     {"outer", get_fit, NULL, "Ellipsoid: The smallest ellipsoid around the polyhedron.", NULL},
     {"inner", get_fit, NULL, "Ellipsoid: The largest ellipsoid inside the polyhedron.", ""},
+    {"is_lean", get_is_lean, NULL, "bool: Was it made with inner='lean'?", NULL},
     FIELD_FACT(load_facts, shape_facts, DOUBLE, "radius", radius, "The rounding radius, part of the body."),
     FIELD_FACT(load_facts, shape_facts, PAIR, "allowance", allowance,
                "(outside, inside): what the true body may differ by."),

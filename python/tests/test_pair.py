@@ -21,6 +21,19 @@ def at(x, y=0, z=0):
 
 
 class Shapes(unittest.TestCase):
+    def test_lean(self):
+        points = [[math.sin((3 * i + k) ** 2) for k in range(3)] for i in range(100)]
+        lean, full = (ovoid.Shape.from_points(points, inner=inner) for inner in ("lean", "maximum"))
+        self.assertTrue(lean.is_lean and not full.is_lean and ovoid.Shape.from_bytes(lean.to_bytes()).is_lean)
+        self.assertTrue(0.5 * full.inner.volume < lean.inner.volume < full.inner.volume)
+        self.assertEqual(lean.inner.gap, math.inf)
+        for question in (ovoid.collide, ovoid.distance, ovoid.depth):
+            for x in (0.5, 4):
+                a, b = (question(s, s, None, at(x)) for s in (lean, full))
+                self.assertEqual(a.status, b.status)
+                self.assertTrue(a.lower <= b.upper and b.lower <= a.upper)
+                ovoid.verify(a)
+
     def test_box(self):
         self.assertEqual(sorted(map(tuple, BOX.vertices.tolist())),
                          sorted((x, y, z) for x in (-1, 1) for y in (-2, 2) for z in (-3, 3)))
@@ -318,7 +331,7 @@ class Queries(unittest.TestCase):
                 (lambda: ovoid.Shape.from_points([(0, 0, 0), (0, 0)]), ovoid.Error, "3 items"),
                 (lambda: ovoid.Shape.from_points([(0, 0, None)]), TypeError, "NoneType"),
                 (lambda: ovoid.Shape.from_points("points"), TypeError, "points"),
-                (lambda: ovoid.Shape.box((1, 1, 1), inner="best"), ovoid.Error, "'maximum' or 'phases'"),
+                (lambda: ovoid.Shape.box((1, 1, 1), inner="best"), ovoid.Error, "'maximum', 'phases' or 'lean'"),
                 (lambda: ovoid.Shape.prism(1, 1, 2), ovoid.Error, "sides"),
                 (lambda: ovoid.Shape.from_faces([(0, 0, 0)], [(0, 1, -2)]), ovoid.Error, "no vertex -2")):
             with self.assertRaisesRegex(kind, sentence):

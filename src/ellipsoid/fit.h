@@ -33,4 +33,8 @@ static inline ovoid_code fit_explain(ovoid_code code, ovoid_error *error) {
     return code;
 }
 
+/// The ellipsoid of a solid's first and second moments, scaled until it is proven to be inside, in doubles; its gap is
+/// not known. 0 if that fails. Cost: a pass over the triangles, a twentieth of ellipsoid_fit_inner of few vertices.
+int ellipsoid_fit_moments(const ovoid_polytope *polytope, const ovoid_measures *measures, ovoid_fit *fit);
+
 #endif

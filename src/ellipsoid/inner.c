@@ -47,19 +47,27 @@ static void map_planes(const ovoid_polytope *p, vec3 origin, lower3 root, ovoid_
     }
 }
 
-// Rounds { center + map u }, scales it to fit, and proves it. 0 if the proofs fail or do not show the gap.
-static int prove_quickly(const ovoid_polytope *p, const certificate *c, vec3 center, lower3 map, ovoid_fit *fit) {
+// Rounds { center + map u }, scales it to fit, and proves it. Returns the factor, 0 if the proof fails; *size: of the
+// factor of Q, in roundings.
+static double scale_to_fit(const ovoid_polytope *p, vec3 center, lower3 map, ovoid_fit *fit, double *size) {
     ovoid_ellipsoid e = {center, lower3_square(map)};
-    double clear = ellipsoid_compute_clear_bound_roughly(p, &e), size;
-    if (!(clear > 0.5 && clear < 2)) return 0;
-    e.q = sym3_scale(e.q, clear * clear * (1 - 8 * ROUNDING));
+    double clear = ellipsoid_compute_clear_bound_roughly(p, &e);
     factor f;
-    if (!factor_make_quickly(e.q, &f, &size) || polytope_compute_winding(p, center) == 0) return 0;
-    // The entries of Q are products of the map's, summed, scaled and rounded: 6 roundings.
-    double most = certificate_compute_bound_quickly(c, p, center, map) * (1 + 16 * ROUNDING * size);
+    if (!(clear > 0x1p-10 && clear < 2)) return 0;
+    e.q = sym3_scale(e.q, clear * clear * (1 - 8 * ROUNDING));
+    if (!factor_make_quickly(e.q, &f, size) || polytope_compute_winding(p, center) == 0) return 0;
     fit->ellipsoid = e;
     fit->volume =
         f.defect < FACTOR_DEFECT_MOST ? ball_get_measure(3) * factor_get_content(&f) : ellipsoid_compute_measure(&e, 3);
+    return clear;
+}
+
+// The gap of the ellipsoid that scale_to_fit makes. 0 if the proofs fail or do not show it.
+static int prove_quickly(const ovoid_polytope *p, const certificate *c, vec3 center, lower3 map, ovoid_fit *fit) {
+    double size, clear = scale_to_fit(p, center, map, fit, &size);
+    if (!(clear > 0.5)) return 0;
+    // The entries of Q are products of the map's, summed, scaled and rounded: 6 roundings.
+    double most = certificate_compute_bound_quickly(c, p, center, map) * (1 + 16 * ROUNDING * size);
     fit->gap = most / (clear * clear * clear * (1 - 32 * ROUNDING)) - 1;
     return fit->gap >= 0;
 }
@@ -331,6 +339,14 @@ ovoid_code ellipsoid_fit_inner(const ovoid_polytope *polytope, const fit_options
         return OVOID_OK;
     }
     return compute(polytope, options, fit);
+}
+
+int ellipsoid_fit_moments(const ovoid_polytope *polytope, const ovoid_measures *measures, ovoid_fit *fit) {
+    lower3 root;
+    double size;
+    *fit = (ovoid_fit){.gap = INFINITY};
+    return polytope->rank == 3 && make_root(measures, &root) &&
+           scale_to_fit(polytope, measures->centroid, root, fit, &size) > 0;
 }
 
 ovoid_code ovoid_ellipsoid_compute_inner(const ovoid_polytope *polytope, const ovoid_ellipsoid_options *options,

@@ -67,6 +67,7 @@ struct ovoid_shape {
     parallelepiped box;
     // The rest.
     block_counts counts;
+    uint32_t is_lean; ///< made by OVOID_INNER_LEAN: there is no table of supports
     ovoid_fit outer_fit, inner_fit;
     ovoid_report report;
     ovoid_measures measures;

@@ -51,7 +51,7 @@ ovoid_code shape_options_make(const ovoid_shape_options *given, ovoid_shape_opti
     o->allowance.axis = make_axis(&o->allowance);
     if (!(o->gap >= 0 && o->gap < 1))
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "the ellipsoids' gap %g is not in [0, 1)", o->gap);
-    if (o->inner != OVOID_INNER_MAXIMUM && o->inner != OVOID_INNER_PHASES)
+    if (o->inner < OVOID_INNER_MAXIMUM || o->inner > OVOID_INNER_LEAN)
         return error_set(error, OVOID_ERROR_ARGUMENT, -1, "no such inner method: %d", (int)o->inner);
     return OVOID_OK;
 }
@@ -98,17 +98,24 @@ int shape_is_inner(const ovoid_shape *shape, const ovoid_ellipsoid *e) {
     return is_vertex(&p, e) || is_flat_inner(&p, &shape->measures, e, 1e-7 * shape->extent);
 }
 
+// The outer ellipsoid of a lean shape, which is not improved to the last.
+#define LEAN_GAP 0.1
+
 static ovoid_code fit_ellipsoids(ovoid_shape *shape, const ovoid_shape_options *o, const closed_form *form,
                                  const ovoid_allocator *work) {
     ovoid_polytope p = ovoid_shape_get_polytope(shape);
     ovoid_fit outer, inner;
-    fit_options options = {o->gap, &shape->measures, work, form};
+    double gap = o->inner == OVOID_INNER_LEAN && !(o->gap > 0) ? LEAN_GAP : o->gap;
+    fit_options options = {gap, &shape->measures, work, form};
     ovoid_code code = ellipsoid_fit_outer(&p, &options, &outer);
     if (code != OVOID_OK) return code;
-    if (o->inner == OVOID_INNER_MAXIMUM)
-        code = ellipsoid_fit_inner(&p, &options, &inner);
-    else
+    // A closed form has the largest one at once; of thin bodies the moments' is not proven.
+    int is_done =
+        o->inner == OVOID_INNER_LEAN && form->kind == FORM_NONE && ellipsoid_fit_moments(&p, &shape->measures, &inner);
+    if (o->inner == OVOID_INNER_PHASES)
         inner = compute_phases(&p, &outer.ellipsoid);
+    else if (!is_done)
+        code = ellipsoid_fit_inner(&p, &options, &inner);
     if (code != OVOID_OK) return code;
     // That of a solid is proven. Ribbons thinner than 1e-8 of their length may have none that can be stored; a vertex
     // always can be.
@@ -166,34 +173,35 @@ void shape_set_fits(ovoid_shape *shape, const ovoid_fit *outer, const ovoid_fit 
     shape_floats_fill_ellipsoids(shape);
 }
 
-ovoid_shape *shape_create_block(const hull *polytope, const ovoid_allocator *allocator, const ovoid_allocator *work,
-                                ovoid_error *error) {
+ovoid_shape *shape_create_block(const hull *polytope, const block_making *how, ovoid_error *error) {
     ovoid_polytope p = hull_get_polytope(polytope);
-    support_table support;
-    support_block *blocks;
-    ovoid_code code = support_table_create(&p, work, &support, &blocks);
+    support_table support = {.k = 0};
+    support_block *blocks = NULL;
+    ovoid_code code = how->is_lean ? OVOID_OK : support_table_create(&p, how->work, &support, &blocks);
     if (code != OVOID_OK) {
         error_write(error, code, -1, "no memory for the table of supports of %u vertices", p.vertex_count);
         return NULL;
     }
     block_counts counts = {polytope->vertex_count, polytope->triangle_count, polytope->facet_count,
                            polytope->neighbor_starts[polytope->vertex_count], support.cell_count};
-    uint32_t *room = allocator_allocate(work, loops_get_room(counts), sizeof *room);
+    uint32_t *room = allocator_allocate(how->work, loops_get_room(counts), sizeof *room);
     if (!room) error_write(error, OVOID_ERROR_MEMORY, -1, "no memory for the loops of %u facets", counts.facets);
-    ovoid_shape *shape = room ? block_create(counts, allocator, error) : NULL;
+    ovoid_shape *shape = room ? block_create(counts, how->allocator, error) : NULL;
     if (shape) {
+        shape->is_lean = how->is_lean;
         block_fill(shape, &p, &polytope->form, room);
         shape->support = support;
         support_table_fill(p.vertices, blocks, support.cell_count, (simd_cell *)((char *)shape + shape->at.cells));
     }
-    allocator_release(work, room);
-    allocator_release(work, blocks);
+    allocator_release(how->work, room);
+    allocator_release(how->work, blocks);
     return shape;
 }
 
 ovoid_shape *shape_create_from_hull(const hull *polytope, const ovoid_shape_options *o, const ovoid_allocator *work,
                                     ovoid_error *error) {
-    ovoid_shape *shape = shape_create_block(polytope, o->allocator, work, error);
+    const block_making how = {o->allocator, work, o->inner == OVOID_INNER_LEAN};
+    ovoid_shape *shape = shape_create_block(polytope, &how, error);
     if (!shape) return NULL;
     block_set_radius(shape, o->radius, o->allowance);
     shape->report = polytope->report;

@@ -17,9 +17,14 @@ int shape_tolerance_is_length(double tolerance, ovoid_error *error);
 /// 1 if the allowance's axis is zero, or has length 1 and belongs to an `outside` above zero.
 int allowance_is_normal(const ovoid_allowance *allowance);
 
+/// How a block is made.
+typedef struct block_making {
+    const ovoid_allocator *allocator, *work; ///< of the block; of working memory
+    uint32_t is_lean;                        ///< without a table of supports
+} block_making;
+
 /// A block with everything that follows from the hull; radius, report and ellipsoids are not set. NULL with MEMORY.
-ovoid_shape *shape_create_block(const hull *polytope, const ovoid_allocator *allocator, const ovoid_allocator *work,
-                                ovoid_error *error);
+ovoid_shape *shape_create_block(const hull *polytope, const block_making *how, ovoid_error *error);
 
 /// 1 if the ellipsoid is proven to lie in the shape's hull; for a flat body, if it lies there to 1e-7 of its size.
 int shape_is_inner(const ovoid_shape *shape, const ovoid_ellipsoid *ellipsoid);

@@ -130,7 +130,7 @@ static void put_vec3(writer *w, ovoid_vec3 v) {
     put_double(w, v.z);
 }
 
-static void put_fit(writer *w, const ovoid_fit *f) {
+static void put_fit(writer *w, const ovoid_fit *f, uint32_t mark) {
     const ovoid_sym3 *q = &f->ellipsoid.q;
     put_vec3(w, f->ellipsoid.center);
     put_vec3(w, (ovoid_vec3){q->xx, q->xy, q->xz});
@@ -139,7 +139,7 @@ static void put_fit(writer *w, const ovoid_fit *f) {
     put_integer(w, f->iterations, 4);
     put_integer(w, f->converged, 4);
     put_integer(w, f->facet, 4);
-    put_integer(w, 0, 4);
+    put_integer(w, mark, 4);
 }
 
 size_t shape_write_version(const ovoid_shape *shape, uint32_t written, void *buffer, size_t capacity) {
@@ -160,8 +160,8 @@ size_t shape_write_version(const ovoid_shape *shape, uint32_t written, void *buf
     put_integer(&w, shape->report.interior, 8);
     put_integer(&w, shape->report.coplanar, 8);
     put_integer(&w, shape->report.faces, 8);
-    put_fit(&w, &shape->outer_fit);
-    put_fit(&w, &shape->inner_fit);
+    put_fit(&w, &shape->outer_fit, 0);
+    put_fit(&w, &shape->inner_fit, shape->is_lean);
     if (version > 1) {
         put_double(&w, shape->allowance.outside);
         put_double(&w, shape->allowance.inside);
@@ -246,7 +246,7 @@ static ovoid_fit get_fit(reader *r) {
 // The content of a file.
 typedef struct content {
     layout at;
-    uint32_t rank, vertex_count;
+    uint32_t rank, vertex_count, is_lean;
     double radius;
     ovoid_allowance allowance;
     ovoid_round round;
@@ -291,10 +291,12 @@ static int is_fit(const ovoid_fit *f) {
            isfinite(f->volume) && f->beta >= 0 && isfinite(f->beta) && f->converged <= 1;
 }
 
-static ovoid_code read_fit(reader *r, ovoid_fit *f) {
+// The number behind it, which is at most `most`, is *mark.
+static ovoid_code read_fit(reader *r, ovoid_fit *f, uint32_t most, uint32_t *mark) {
     size_t start = r->at;
     *f = get_fit(r);
-    if (get_half(r) != 0 || !is_fit(f)) return refuse(r, start, "a number of an ellipsoid is out of its range");
+    *mark = get_half(r);
+    if (*mark > most || !is_fit(f)) return refuse(r, start, "a number of an ellipsoid is out of its range");
     return OVOID_OK;
 }
 
@@ -362,8 +364,9 @@ static ovoid_code read_header(reader *r, content *c) {
     c->origin = get_vec3(r);
     if (!is_vec3(c->origin)) return refuse(r, 40, "the origin is not a point");
     ovoid_code code = read_report(r, c);
-    if (!code) code = read_fit(r, &c->outer);
-    if (!code) code = read_fit(r, &c->inner);
+    uint32_t nothing;
+    if (!code) code = read_fit(r, &c->outer, 0, &nothing);
+    if (!code) code = read_fit(r, &c->inner, 1, &c->is_lean);
     if (!code) code = read_allowance(r, c);
     return code ? code : read_round(r, c);
 }
@@ -425,7 +428,8 @@ static ovoid_code set_radius(const reader *r, const content *c, ovoid_shape *sha
 
 static ovoid_shape *make_shape(const reader *r, const content *c, hull *polytope) {
     polytope->origin = c->origin;
-    ovoid_shape *shape = shape_create_block(polytope, r->allocator, r->work, r->error);
+    const block_making how = {r->allocator, r->work, c->is_lean};
+    ovoid_shape *shape = shape_create_block(polytope, &how, r->error);
     if (!shape) return NULL;
     shape->report = c->report;
     shape_set_fits(shape, &c->outer, &c->inner);

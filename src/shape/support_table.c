@@ -34,8 +34,8 @@
 // times the ratio of the map's radii, at most 1e3, so its place on the cube's face by 1e-12; each cell is taken wider
 // by 1e-7 of itself, at least 1e-10.
 //
-// Cost: about 0.1 us a vertex. Lists of round bodies have 5 vertices and take 270 bytes a vertex. If lists stay long,
-// as for the rings of a cylinder, cells are coarser, and at most 512 bytes a vertex are used.
+// Cost: about 0.1 us a vertex. Lists of round bodies have 5 to 12 vertices and take 140 to 270 bytes a vertex. If lists
+// stay long, as for the rings of a cylinder, cells are coarser, and at most 512 bytes a vertex are used.
 #include "shape/support_table.h"
 
 #include "base/allocator.h"
@@ -48,7 +48,9 @@
 #include <stddef.h>
 #include <string.h>
 
-enum { LIMITS_MAX = 96, FEW = 24, NESTED_MOST = 4, K_MOST = 128 };
+// FEW: entries that are sorted by insertion. LEAF_MOST: entries of a cell that is not divided; two blocks are read as
+// fast as a divided cell and one block.
+enum { LIMITS_MAX = 96, FEW = 24, NESTED_MOST = 4, K_MOST = 128, LEAF_MOST = 2 * SIMD_CELL };
 
 /// A vertex on a face of the cube: its product with the face's point (a, b) is m + a p + b q.
 typedef struct mapped {
@@ -187,7 +189,6 @@ static void find_list(builder *b, const square *s, uint32_t first) {
     corners c = make_corners(s);
     grow(b, &c, first);
     if (b->count > SIMD_CELL && b->count <= LIMITS_MAX) cull_by_pairs(b, &c);
-    sort_list(b);
 }
 
 // ---- cells ----
@@ -211,6 +212,7 @@ static void fill_block(const builder *b, support_block *block, uint32_t first) {
 }
 
 static int fill_list(builder *b, uint32_t at) {
+    sort_list(b);
     uint32_t more = (b->count + SIMD_CELL - 1) / SIMD_CELL - 1, next = 0;
     if (more && !reserve(b, more, &next)) return 0;
     fill_block(b, &b->blocks[at], 0);
@@ -226,7 +228,7 @@ static int fill_cell(builder *b, const square *s, uint32_t at, uint32_t *near, i
     uint32_t next;
     *near = climb(b, *near, s->a + 0.5 * s->side, s->b + 0.5 * s->side);
     find_list(b, s, *near);
-    if (b->count <= SIMD_CELL || nested == NESTED_MOST || b->used > b->divided_most) return fill_list(b, at);
+    if (b->count <= LEAF_MOST || nested == NESTED_MOST || b->used > b->divided_most) return fill_list(b, at);
     if (!reserve(b, 4, &next)) return 0;
     b->blocks[at] = (support_block){.next = next};
     uint32_t inside = *near;

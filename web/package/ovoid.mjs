@@ -60,8 +60,9 @@ function bindShapes(core) {
       checkFields(options, known, 'options');
       checkFields(options?.allowance, ALLOWANCE, 'allowance');
       const { radius = 0, gap = 0, inner = 'maximum', allowance = {} } = options ?? {};
-      if (inner !== 'maximum' && inner !== 'phases') throw new TypeError(`inner: maximum or phases, not ${inner}`);
-      memory.set([radius, gap, inner === 'phases' ? 1 : 0, allowance.outside ?? 0, allowance.inside ?? 0, ...(allowance.axis ?? [0, 0, 0]), ...numbers]);
+      const method = ['maximum', 'phases', 'lean'].indexOf(inner);
+      if (method < 0) throw new TypeError(`inner: maximum, phases or lean, not ${inner}`);
+      memory.set([radius, gap, method, allowance.outside ?? 0, allowance.inside ?? 0, ...(allowance.axis ?? [0, 0, 0]), ...numbers]);
       const address = call();
       if (!address) throw memory.error();
       return new Shape(secret, address);
@@ -140,11 +141,11 @@ function bindShapes(core) {
 
     get description() {
       calls.shape_describe(this.address);
-      const n = memory.get(51), fit = (at) => ({ center: n.slice(at, at + 3), q: n.slice(at + 3, at + 9), volume: n[at + 9], gap: n[at + 10] });
+      const n = memory.get(52), fit = (at) => ({ center: n.slice(at, at + 3), q: n.slice(at + 3, at + 9), volume: n[at + 9], gap: n[at + 10] });
       return {
         vertexCount: n[0], triangleCount: n[1], rank: n[2], radius: n[3], allowance: { outside: n[4], inside: n[5], axis: n.slice(48, 51).some((x) => x !== 0) ? n.slice(48, 51) : null },
         volume: n[6], area: n[7], centroid: n.slice(8, 11), inertia: n.slice(11, 17),
-        box: { min: n.slice(17, 20), max: n.slice(20, 23) }, origin: n.slice(23, 26), outer: fit(26), inner: fit(37),
+        box: { min: n.slice(17, 20), max: n.slice(20, 23) }, origin: n.slice(23, 26), outer: fit(26), inner: fit(37), isLean: n[51] !== 0,
       };
     }
     get vertices() {

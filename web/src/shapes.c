@@ -6,7 +6,7 @@ static ovoid_shape_options read_shape_options(void) {
     const double *x = exchange;
     return (ovoid_shape_options){.radius = x[0],
                                  .gap = x[1],
-                                 .inner = x[2] == 1 ? OVOID_INNER_PHASES : OVOID_INNER_MAXIMUM,
+                                 .inner = (ovoid_inner_method)x[2],
                                  .allowance = {.outside = x[3], .inside = x[4], .axis = {x[5], x[6], x[7]}}};
 }
 
@@ -50,7 +50,7 @@ static double *write_fit(double *to, ovoid_fit f) {
 }
 
 /// Counts of vertices and triangles, rank, radius, allowance, volume, area, centroid, inertia, box, origin, both fits,
-/// the allowance's axis.
+/// the allowance's axis, 1 if it is lean.
 void EXPORT(shape_describe)(const ovoid_shape *shape) {
     ovoid_polytope p = ovoid_shape_get_polytope(shape);
     ovoid_measures m = ovoid_shape_get_measures(shape);
@@ -63,7 +63,8 @@ void EXPORT(shape_describe)(const ovoid_shape *shape) {
     to = write_vec3(write_vec3(to, m.box.min), m.box.max);
     to = write_vec3(to, p.origin);
     to = write_fit(write_fit(to, ovoid_shape_get_outer(shape)), ovoid_shape_get_inner(shape));
-    write_vec3(to, allowance.axis);
+    to = write_vec3(to, allowance.axis);
+    *to = ovoid_shape_is_lean(shape);
 }
 
 /// Views into the shape: three numbers a vertex, three indices a triangle.

@@ -160,6 +160,16 @@ test('known shapes', () => {
   assert.equal(Shape.fromPoints(new Float64Array([0, 0, 0, 1, 0, 0, 0, 1, 0])).description.rank, 2);
 });
 
+test('a lean shape says so, in its bytes too, and has true answers', () => {
+  const points = Float64Array.from({ length: 300 }, (_, i) => Math.sin(i * i)), ball = Shape.sphere(0.5), pose = { xyz: [0, 4, 0] };
+  const lean = Shape.fromPoints(points, { inner: 'lean' }), full = Shape.fromPoints(points);
+  assert.ok(lean.description.isLean && !full.description.isLean && Shape.fromBytes(lean.toBytes()).description.isLean);
+  assert.ok(lean.inner.volume < full.inner.volume && lean.inner.volume > 0.5 * full.inner.volume);
+  const [a, b] = [lean, full].map((shape) => ovoid.distance(shape, ball, null, pose));
+  assert.ok(a.lower <= b.upper && b.lower <= a.upper && a.upper - a.lower < 1e-8);
+  assert.throws(() => Shape.sphere(1, { inner: 'lane' }), /maximum, phases or lean/);
+});
+
 test('round bodies are the true ones', () => {
   const ball = Shape.sphere(0.5), at = { xyz: [0, 4, 0] };
   for (const [shape, gap] of [[Shape.cylinder(2, 1), 1.5], [Shape.ellipsoid([1, 2, 3]), 1.5], [Shape.ellipsoid([1, 2, 3], { tolerance: 0.01 }), 1.5]]) {

@@ -56,6 +56,8 @@ class shape_view {
     ovoid_round round() const noexcept { return ovoid_shape_get_round(shape_); }
     /** What the constructor did with the given points. */
     ovoid_report report() const noexcept { return ovoid_shape_get_report(shape_); }
+    /** Was it made as a lean shape? */
+    bool is_lean() const noexcept { return ovoid_shape_is_lean(shape_) != 0; }
     /** The outer ellipsoid of the polyhedron. */
     ovoid_fit outer() const noexcept { return ovoid_shape_get_outer(shape_); }
     /** The inner ellipsoid of the polyhedron. */
