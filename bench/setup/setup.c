@@ -16,6 +16,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
 #if defined(OVOID_HAVE_QHULL)
 #include <libqhull_r/qhull_ra.h>
 #endif
@@ -280,9 +284,19 @@ static int add_bodies(rows *table, size_t kind, uint32_t count, int is_read) {
     return 1;
 }
 
+/// The C library keeps what is freed: else whether a loop gets fresh pages each time depends on the sizes it happens to
+/// meet.
+static void keep_memory(void) {
+#if defined(__GLIBC__)
+    (void)mallopt(M_MMAP_THRESHOLD, 1 << 25);
+    (void)mallopt(M_TRIM_THRESHOLD, 1 << 30);
+#endif
+}
+
 int setup_run(const setup_plan *plan, const char *csv, const char *svg) {
     static rows table;
     contestants all = {.count = 0};
+    keep_memory();
     if (!load_all(&all, plan)) return 0;
     printf("%s\n", get_build());
     uint32_t sizes = plan->smoke && plan->size_count > 2 ? 2 : plan->size_count;

@@ -201,6 +201,7 @@ void check_shapes() {
     CHECK_EQ(box.report().vertices, 8);
     CHECK_NEAR(box.measures().volume, 48, 1e-12);
     CHECK_EQ(box.size_in_bytes(), ovoid_shape_get_size(box.get()));
+    CHECK(!box.is_lean());
     CHECK(box.outer().volume > 48 && box.inner().volume < 48);
     CHECK(is_same_shape(box.copy(), box.get()) && box.copy().get() != box.get());
     CHECK(is_same_shape(shape::read(box.write()), box.get()));
