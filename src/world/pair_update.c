@@ -146,7 +146,7 @@ static void query_shapes(const ovoid_world *w, const world_pair *p, ovoid_cover 
     const query_goal goal = make_goal(w, p->a, p->b);
     ovoid_options options = w->query_options;
     options.iterations = cover_get_iterations(cover, options.iterations);
-    answer_find_internal(&both, &(query_request){&options, &goal, is_warm ? &earlier : NULL, cover}, out);
+    answer_find_internal(&both, &(query_request){&options, &goal, is_warm ? &earlier : NULL, cover, NULL}, out);
 }
 
 static void cache_answer(ovoid_world *w, const world_pair *p, pair_cache *cache, const ovoid_answer *answer) {
