@@ -68,10 +68,12 @@ ovoid_world *ovoid_world_create(const ovoid_world_options *options, ovoid_error 
 static void destroy(ovoid_world *w) {
     thread_pool_destroy(w->host.own, &w->allocator);
     ovoid_shape_destroy(w->point);
-    void *all[] = {w->bodies,     w->places,       w->marks,    w->leaf_of,           w->changed,      w->generations,
-                   w->tree.nodes, w->ignored.keys, w->pairs,    w->pair_cache,        w->witnesses,    w->free_slots,
-                   w->keys,       w->chunks,       w->contacts, w->contact_witnesses, w->cover_memory, w->tree.wide,
-                   w->materials,  w->ranges,       w->seen};
+    void *all[] = {w->bodies,       w->places,      w->marks,      w->leaf_of,
+                   w->changed,      w->generations, w->tree.nodes, w->ignored.keys,
+                   w->pairs,        w->pair_cache,  w->witnesses,  w->free_slots,
+                   w->keys,         w->chunks,      w->contacts,   w->contact_witnesses,
+                   w->cover_memory, w->tree.wide,   w->materials,  w->ranges,
+                   w->seen,         w->depths};
     manifolds_destroy(w);
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) allocator_release(&w->allocator, all[i]);
     for (uint32_t i = 0; w->gathered && i < w->threads; i++) allocator_release(&w->allocator, w->gathered[i].keys);
