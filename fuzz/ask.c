@@ -55,9 +55,9 @@ static void ask_all(findings *f, double margin, const ovoid_options *options, co
     check(f, &x, NULL, is_full && x.status == OVOID_SEPARATED);
     x = ovoid_depth(f->pair, options, earlier, &cover);
     check(f, &x, &cover, is_full);
-    // With its own proof.
+    // With its own proof and cover.
     ovoid_proof own = x.proof;
-    x = ovoid_depth(f->pair, options, &own, &cover);
+    x = ovoid_depth_from(f->pair, options, &own, &cover);
     check(f, &x, &cover, is_full);
     f->options = NULL;
     x = ovoid_pair_compute_bounds(f->pair);

@@ -8,6 +8,8 @@ typedef struct self {
     ovoid_pair *pairs;
     double *margins;
     ovoid_proof *proofs; ///< of each track's last frame
+    ovoid_cover *covers; ///< of each track's last depth
+    unsigned char *cover_memory;
     uint32_t count, tracks;
 } self;
 
@@ -17,6 +19,8 @@ static void destroy(void *state) {
     free(s->pairs);
     free(s->margins);
     free(s->proofs);
+    free(s->covers);
+    free(s->cover_memory);
     free(s);
 }
 
@@ -28,10 +32,14 @@ static void *create(const workload *work) {
     s->pairs = malloc(sizeof *s->pairs * s->count);
     s->margins = malloc(sizeof *s->margins * s->count);
     s->proofs = malloc(sizeof *s->proofs * s->tracks);
-    if (!s->pairs || !s->margins || !s->proofs) {
+    s->covers = calloc(s->tracks, sizeof *s->covers);
+    s->cover_memory = malloc(OVOID_COVER_SIZE * s->tracks);
+    if (!s->pairs || !s->margins || !s->proofs || !s->covers || !s->cover_memory) {
         destroy(s);
         return NULL;
     }
+    for (uint32_t i = 0; i < s->tracks; i++)
+        s->covers[i] = (ovoid_cover){.memory = s->cover_memory + OVOID_COVER_SIZE * i, .size = OVOID_COVER_SIZE};
     for (uint32_t i = 0; i < s->count; i++) {
         s->pairs[i] = workload_get_pair(work, i);
         s->margins[i] = work->pairs[i].margin;
@@ -57,11 +65,20 @@ static verdict read_verdict(const ovoid_answer *answer, question what, double ma
     return answer->status == OVOID_SEPARATED ? VERDICT_NO : VERDICT_YES;
 }
 
+/// In motion a depth starts from the proof and the cover of the last frame, the other questions from its proof.
+static ovoid_answer ask_warm(self *s, uint32_t i, question what) {
+    uint32_t track = i % s->tracks;
+    const ovoid_proof *proof = i >= s->tracks ? &s->proofs[track] : NULL;
+    if (what != QUESTION_DEPTH) return ours_get_answer(&s->pairs[i], what, s->margins[i], proof);
+    if (!proof) s->covers[track].point_count = 0;
+    return ovoid_depth_from(&s->pairs[i], NULL, proof, &s->covers[track]);
+}
+
 static void run(void *state, question what, int warm, found *answers) {
     self *s = state;
     for (uint32_t i = 0; i < s->count; i++) {
         ovoid_proof *proof = warm ? &s->proofs[i % s->tracks] : NULL;
-        ovoid_answer answer = ours_get_answer(&s->pairs[i], what, s->margins[i], warm && i >= s->tracks ? proof : NULL);
+        ovoid_answer answer = warm ? ask_warm(s, i, what) : ours_get_answer(&s->pairs[i], what, s->margins[i], NULL);
         if (proof) *proof = answer.proof;
         double distance = what == QUESTION_DEPTH ? -answer.upper : answer.upper;
         answers[i] = (found){read_verdict(&answer, what, s->margins[i]), distance, answer.point_a, answer.point_b,

@@ -31,7 +31,7 @@ typedef enum ovoid_status {
 /** The stage that decided. */
 typedef enum ovoid_stage {
     OVOID_STAGE_NONE = 0,
-    OVOID_STAGE_PROOF,   /**< the earlier proof handed in */
+    OVOID_STAGE_PROOF,   /**< the earlier proof or cover handed in */
     OVOID_STAGE_SPHERE,  /**< enclosing spheres */
     OVOID_STAGE_OUTER,   /**< outer ellipsoids */
     OVOID_STAGE_SUPPORT, /**< the polyhedra's supports along the ellipsoids' direction, or the closed form of points,
@@ -196,6 +196,17 @@ OVOID_API ovoid_answer ovoid_distance(const ovoid_pair *pair, const ovoid_option
  */
 OVOID_API ovoid_answer ovoid_depth(const ovoid_pair *pair, const ovoid_options *options, const ovoid_proof *earlier,
                                    ovoid_cover *cover);
+
+/**
+ * ovoid_depth of a pair that has moved a little since its last depth. The search starts from the surface of that
+ * depth's cover, where it has at most 32 points and is one around the origin yet; else from the proof. In motion that
+ * takes half the time of ovoid_depth with the proof alone. cover: in, what ovoid_depth or this function showed of the
+ * pair the last time, counts of 0 for nothing; out, as of ovoid_depth. Its arrays may be anywhere, and hold anything:
+ * what is read is checked, and changes only the way to the depth. The answer follows from the pair, the options, the
+ * proof and the counts and arrays of the cover. cover NULL: the same as ovoid_depth.
+ */
+OVOID_API ovoid_answer ovoid_depth_from(const ovoid_pair *pair, const ovoid_options *options,
+                                        const ovoid_proof *earlier, ovoid_cover *cover);
 
 /** Bytes of memory of a cover for a search of up to that many points: 10 KB, and beyond 512 150 a point. 0: too many.
  */

@@ -93,8 +93,9 @@ static int read_earlier(module_state *state, PyObject *from, query_input *in) {
     if (!from || from == Py_None) return 0;
     in->has_earlier = 1;
     if (Py_TYPE(from) == state->answer) {
-        const ovoid_body_answer *of = &((const answer_object *)from)->of;
-        in->earlier = ovoid_body_answer_get_proof(of);
+        const answer_object *answer = (const answer_object *)from;
+        in->earlier = ovoid_body_answer_get_proof(&answer->of);
+        in->cover = answer->cover;
         return 0;
     }
     Py_buffer view;
@@ -140,6 +141,7 @@ static int read_bodies(module_state *state, PyObject *const x[ARGUMENT_COUNT], q
 static int read_input(module_state *state, PyObject *const x[ARGUMENT_COUNT], query_input *in) {
     in->margin = 0;
     in->has_earlier = 0;
+    in->cover = NULL;
     in->options = (ovoid_options){0};
     if (read_bodies(state, x, in)) return -1;
     if (read_double(x[MARGIN], "margin", &in->margin) ||
@@ -172,6 +174,8 @@ static int query_shapes(const query_input *in, answer_object *to) {
     ovoid_answer *answer = &to->of.deciding;
     cover_room room;
     cover_room_make(&room);
+    // A depth starts from the cover of an earlier Answer, where that one has it.
+    if (in->name == QUERY_DEPTH) (void)cover_unpack(in->cover, &room.cover);
     if (in->prepared_a && in->name != QUERY_DEPTH)
         query_prepared(in, to);
     else if (in->name == QUERY_COLLIDE)
@@ -181,7 +185,7 @@ static int query_shapes(const query_input *in, answer_object *to) {
     else if (in->name == QUERY_DISTANCE)
         *answer = ovoid_distance(&pair, &in->options, earlier);
     else
-        do *answer = ovoid_depth(&pair, &in->options, earlier, &room.cover);
+        do *answer = ovoid_depth_from(&pair, &in->options, earlier, &room.cover);
         while (cover_room_grow(&room, answer->limit));
     to->of = ovoid_body_answer_make(answer, 0, 0);
     return cover_room_keep(&room, &to->cover);

@@ -15,6 +15,7 @@ typedef struct query_input {
     ovoid_options options;
     ovoid_body_proof earlier;
     int has_earlier;
+    const kept_cover *cover; ///< of an earlier Answer; NULL: none
 } query_input;
 
 /// The Answer to the query.

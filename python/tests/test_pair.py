@@ -285,6 +285,21 @@ class Queries(unittest.TestCase):
         # A proof of another pair is no trouble.
         ovoid.verify(ovoid.distance(BALL, BALL, None, at(4), earlier=cold))
 
+    def test_warm_depth(self):
+        # A depth starts from the cover of an earlier answer, which another query does not take over.
+        points = [(math.cos(i) * math.sin(2.4 * i), math.sin(i) * math.sin(2.4 * i), math.cos(2.4 * i)) for i in range(40)]
+        hull, answer, stages = ovoid.Shape.from_points(points), None, []
+        for i in range(20):
+            pose = ovoid.Pose.from_quaternion((0.5 + 0.002 * i, 0.1, 0.2), wxyz=(1, 0.003 * i, 0.1, 0))
+            answer = ovoid.depth(hull, hull, None, pose, earlier=answer)
+            cold = ovoid.depth(hull, hull, None, pose)
+            ovoid.verify(answer)
+            self.assertTrue(answer.lower <= cold.upper and cold.lower <= answer.upper)
+            stages.append(answer.stage)
+        self.assertGreater(stages.count(ovoid.Stage.PROOF), 10)
+        ovoid.verify(ovoid.depth(BALL, BALL, None, at(0.1), earlier=answer))
+        ovoid.verify(ovoid.distance(hull, hull, None, pose, earlier=answer))
+
     def test_compounds(self):
         dumbbell = ovoid.Compound([BALL, BALL], [at(-2), at(2)])
         answer = ovoid.distance(dumbbell, BALL, None, at(4))

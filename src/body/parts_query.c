@@ -179,7 +179,7 @@ static int search_parts(body_search *state, const ovoid_body_pair *pair, const b
     }
     if (pair->a.shape && pair->b.shape) {
         ovoid_pair shapes = {pair->a.shape, pair->b.shape, pair->a.pose, pair->b.pose};
-        const query_request of_shapes = {&given, goal, earlier ? &earlier->proof : NULL, cover};
+        const query_request of_shapes = {&given, goal, earlier ? &earlier->proof : NULL, cover, NULL};
         answer_find_internal(&shapes, &of_shapes, &out->deciding);
         out->tested = 1;
         return 0;

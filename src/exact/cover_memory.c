@@ -40,6 +40,8 @@ static char *get_end(const ovoid_cover *cover) {
 }
 
 void *cover_find_room(const ovoid_cover *cover, uint32_t *points) {
+    *points = 0;
+    if (cover->size < OVOID_COVER_SIZE) return NULL;
     cover_arrays *arrays = cover_get_arrays(cover);
     char *room = (char *)(arrays + 1), *end = get_end(cover);
     uintptr_t shown = (uintptr_t)cover->a;

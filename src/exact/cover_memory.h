@@ -10,6 +10,12 @@ typedef struct cover_arrays {
     uint16_t triangles[2 * OVOID_COVER_POINTS][3];
 } cover_arrays;
 
+/// The memory of a small cover, of a surface that grew in lanes: what the next depth starts from.
+typedef struct small_cover {
+    uint32_t a[EPA8_POINTS], b[EPA8_POINTS];
+    uint16_t triangles[2 * EPA8_POINTS][3];
+} small_cover;
+
 /// Bytes of memory for covers of so many points; 0: too many.
 size_t cover_get_memory_size(uint32_t point_count);
 

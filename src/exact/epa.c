@@ -397,9 +397,9 @@ static void find_next(growth *g) {
 // Grows in lanes. 1 if that answered the query; else the surface, if there is one, is to be continued.
 static int grow_in_lanes(growth *g, const simplex *points) {
     epa8 *lanes = &g->room.few.lanes;
-    epa8_end end = epa_lanes_grow(lanes, &g->p, points, g->e.slack, g->e.doubt);
+    epa8_end end = epa_lanes_grow(lanes, &g->p, points);
     if (end == EPA8_FLAT) return 0;
-    if (end == EPA8_NARROW && !g->cover && epa_lanes_take_depth(g->s, lanes)) return 1;
+    if (end == EPA8_NARROW && epa_lanes_take_depth(g->s, lanes, g->cover)) return 1;
     g->nearest = expansion_take(&g->e, lanes);
     g->gap = end == EPA8_NARROW ? lanes->gap : NAN;
     g->is_grown = end == EPA8_NARROW;
@@ -442,8 +442,8 @@ int epa_run(search *s, simplex *points, int is_first, ovoid_cover *cover) {
     g.is_grown = g.is_moved = 0;
     expansion_room_give(&g.room.all, &g.e);
     prober_make(&g.p, s, 1);
-    expansion_clear(&g.e, 16 * 0x1p-53 * s->frame->size);
-    g.e.doubt = triangle_compute_doubt(s->frame->size, s->frame->claim);
+    expansion_clear(&g.e, epa_get_slack(s));
+    g.e.doubt = epa_get_doubt(s);
     uint32_t before = s->iterations;
     if (!begin(&g, points, is_first)) return search_is_done(s);
     for (; !g.is_grown; s->iterations++) {

@@ -4,6 +4,10 @@
 #include "exact/epa_lanes.h"
 
 #include "base/compiler.h"
+#include "exact/cover_memory.h"
+#include "pair/cover.h"
+
+#include <string.h>
 
 // The surfaces of curved bodies have slivers, at which growth in lanes ends.
 int epa_lanes_serve(const search *s) {
@@ -16,17 +20,34 @@ static simd_difference find(const void *bodies, vec3 n) {
     return (simd_difference){w.gap, w.w.x, w.w.y, w.w.z, w.a, w.b};
 }
 
-epa8_end epa_lanes_grow(epa8 *lanes, const prober *p, const simplex *points, double slack, double doubt) {
+static void set_point(epa8 *lanes, uint32_t i, const difference *d) {
+    lanes->w[0][i] = d->w.x, lanes->w[1][i] = d->w.y, lanes->w[2][i] = d->w.z;
+    lanes->a[i] = d->a, lanes->b[i] = d->b;
+}
+
+// Grows from the points that the polytope holds, or a kept surface of them.
+static epa8_end grow(epa8 *lanes, const prober *p, const epa8_kept *kept) {
+    const search *s = p->s;
+    double claim = s->frame->claim;
+    epa8_query query = {.a = p->a,
+                        .b = p->b,
+                        .find = p->is_posed ? NULL : find,
+                        .bodies = p,
+                        .claim = claim,
+                        .narrow = s->goal.tolerance - s->goal.allowance - 2 * claim,
+                        .near = 2 * epa_get_face_doubt(s),
+                        .slack = epa_get_slack(s),
+                        .doubt = epa_get_doubt(s),
+                        .most = s->goal.iterations,
+                        .kept = kept};
+    return epa8_grow(lanes, &query);
+}
+
+epa8_end epa_lanes_grow(epa8 *lanes, const prober *p, const simplex *points) {
     search *s = p->s;
-    double claim = s->frame->claim, narrow = s->goal.tolerance - s->goal.allowance - 2 * claim;
-    epa8_query query = {p->a,  p->b,  p->is_posed ? NULL : find, p, claim, narrow, 2 * epa_get_face_doubt(s),
-                        slack, doubt, s->goal.iterations};
     lanes->points = (uint32_t)points->count;
-    for (int i = 0; i < points->count; i++) {
-        lanes->w[0][i] = points->p[i].w.x, lanes->w[1][i] = points->p[i].w.y, lanes->w[2][i] = points->p[i].w.z;
-        lanes->a[i] = points->p[i].a, lanes->b[i] = points->p[i].b;
-    }
-    epa8_end end = epa8_grow(lanes, &query);
+    for (int i = 0; i < points->count; i++) set_point(lanes, (uint32_t)i, &points->p[i]);
+    epa8_end end = grow(lanes, p, NULL);
     if (end == EPA8_FLAT) return end;
     double lower = s->lower;
     search_take_gap(s, vec3_neg(lanes->best_n), lanes->best_gap);
@@ -73,7 +94,28 @@ static int find_witness(const search *s, const epa8 *lanes, evidence *foot) {
     return 0;
 }
 
-int epa_lanes_take_depth(search *s, const epa8 *lanes) {
+// Shows the surface, in the arrays of a small cover or of any.
+static void show(const epa8 *lanes, ovoid_cover *cover) {
+    small_cover *few = cover->memory;
+    cover_arrays *all = cover_get_arrays(cover);
+    int is_small = cover->size < OVOID_COVER_SIZE;
+    uint32_t *a = is_small ? few->a : all->a, *b = is_small ? few->b : all->b, count = 0;
+    uint16_t(*triangles)[3] = is_small ? few->triangles : all->triangles;
+    memcpy(a, lanes->a, lanes->points * sizeof *a);
+    memcpy(b, lanes->b, lanes->points * sizeof *b);
+    for (uint32_t half = 0; half < 2; half++)
+        for (uint64_t rest = lanes->alive[half]; rest; rest &= rest - 1, count++) {
+            const uint8_t *v = lanes->v[64 * half + compiler_count_low_zeros_64(rest)];
+            for (int k = 0; k < 3; k++) triangles[count][k] = v[k];
+        }
+    cover->point_count = lanes->points;
+    cover->triangle_count = count;
+    cover->a = a;
+    cover->b = b;
+    cover->triangles = (const uint16_t(*)[3])triangles;
+}
+
+int epa_lanes_take_depth(search *s, const epa8 *lanes, ovoid_cover *cover) {
     if (lanes->inward[0] | lanes->inward[1]) return 0;
     double depth = measure(s, lanes);
     double upper = -depth - s->frame->upper_radii, lower = lanes->gap - s->frame->lower_radii - s->frame->claim;
@@ -86,6 +128,46 @@ int epa_lanes_take_depth(search *s, const epa8 *lanes) {
     s->stage = OVOID_STAGE_EPA;
     s->kind = OVOID_PROOF_COVER;
     s->witness = foot;
+    if (search_wants_cover(s, cover, upper) || search_wants_start(s, cover)) show(lanes, cover);
+    return 1;
+}
+
+// The points of an earlier cover, up to a full group. 0 if they are too many or not of these bodies.
+static int take_points(epa8 *lanes, const pair_frame *f, const ovoid_cover *kept) {
+    uint32_t count = kept->point_count;
+    if (count < EPA8_START || count > EPA8_POINTS) return 0;
+    for (uint32_t i = 0; i < count; i++) {
+        lanes->a[i] = kept->a[i], lanes->b[i] = kept->b[i];
+        if (kept->a[i] >= f->a->vertex_count || kept->b[i] >= f->b->vertex_count) return 0;
+    }
+    for (uint32_t i = count; i % EPA8; i++) lanes->a[i] = lanes->b[i] = 0;
+    lanes->points = count;
+    return 1;
+}
+
+// The corners are differences of vertices at the present poses, to the frame's claim, so points of the difference body
+// wherever the bodies are. A closed surface of them whose triangles all have the origin behind them, beyond rounding
+// (`doubt`), winds around it: each crossing of a ray counts +1 (pair/cover.c). That needs no convexity. So the ball up
+// to the nearest triangle is in the body, and `measure` lowers its radius as that of a surface that grew: the planes
+// are computed by the same operations. What is not closed, or not outward, the kernel refuses.
+//
+// Not inlined, so that its memory is given back before a search without the cover.
+COMPILER_NOINLINE int epa_lanes_run_kept(search *s, const ovoid_cover *kept, ovoid_cover *cover) {
+    const pair_frame *f = s->frame;
+    mat3 r = f->rotation;
+    vec3 t = f->translation;
+    uint32_t faces = kept->triangle_count;
+    epa8 lanes;
+    prober p;
+    if (!epa_lanes_serve(s) || faces < EPA8_START || faces > EPA8_FACES / 2 || !take_points(&lanes, f, kept)) return 0;
+    prober_make(&p, s, 0);
+    epa8_kept given = {kept->triangles,
+                       faces,
+                       {r.r0.x, r.r0.y, r.r0.z, r.r1.x, r.r1.y, r.r1.z, r.r2.x, r.r2.y, r.r2.z},
+                       {t.x, t.y, t.z}};
+    if (grow(&lanes, &p, &given) != EPA8_NARROW || !epa_lanes_take_depth(s, &lanes, cover)) return 0;
+    s->iterations = lanes.points - kept->point_count;
+    if (!s->iterations) s->stage = OVOID_STAGE_PROOF;
     return 1;
 }
 

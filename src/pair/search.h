@@ -77,9 +77,15 @@ static inline int query_goal_is_met(const query_goal *goal, double lower, double
     return upper <= goal->near || upper < 0 || (goal->wants_bracket && upper - lower <= goal->tolerance);
 }
 
-/// 1 if a cover that proves `upper` is to be written: the caller's is wanted, and proves less if it is to be kept.
+/// 1 if a cover that proves `upper` is to be written: the caller's is wanted, and proves less if it is to be kept. The
+/// memory of one that is smaller than OVOID_COVER_SIZE is for the start of the next depth alone (exact/cover_memory.h).
 static inline int search_wants_cover(const search *s, const ovoid_cover *cover, double upper) {
-    return cover && !(s->goal.has_cover && !(upper < s->goal.covered));
+    return cover && cover->size >= OVOID_COVER_SIZE && !(s->goal.has_cover && !(upper < s->goal.covered));
+}
+
+/// 1 if the next depth is to start from this one's surface: the cover is a small one.
+static inline int search_wants_start(const search *s, const ovoid_cover *cover) {
+    return cover && cover->size < OVOID_COVER_SIZE && !s->goal.has_cover;
 }
 
 /// 1 if the bounds answer the query.

@@ -8,6 +8,7 @@
 #include "exact/cores.h"
 #include "exact/cover_memory.h"
 #include "exact/epa.h"
+#include "exact/epa_lanes.h"
 #include "exact/gjk.h"
 #include "exact/inside.h"
 #include "exact/refine.h"
@@ -195,12 +196,21 @@ static vec3 find_line(const pair_frame *f) {
     return vec3_norm_squared(n) > 0.5 ? n : (vec3){1, 0, 0};
 }
 
+// Of a depth of many vertices: the corners of the last nearest face make a thin tetrahedron, from which the growth
+// takes more steps, and comes upon more slivers, than from the line of centres.
+enum { PROOF_VERTICES = 512 }; // of both together
+static int starts_afresh(const search *s) {
+    uint32_t vertices = s->frame->a->vertex_count + s->frame->b->vertex_count;
+    return s->goal.wants_depth && vertices > PROOF_VERTICES && may_overlap(s);
+}
+
 // The stages before the exact search, and the simplex that it starts from. A depth query whose spheres overlap goes to
 // EPA at once. A distance query starts from the earlier proof's simplex; where a separating direction may end the
 // query, that of the ellipsoids is tried.
 static void run_stages(search *s, double sphere_gap, const ovoid_proof *earlier, simplex *start) {
     stage_proof(s, earlier, start);
     if (search_is_done(s)) return;
+    if (starts_afresh(s)) start->count = 0;
     if (!s->goal.wants_depth) stage_inner(s);
     if (search_is_done(s) || (start->count && s->goal.far == INFINITY)) return;
     vec3 n;
@@ -216,6 +226,12 @@ static void run_stages(search *s, double sphere_gap, const ovoid_proof *earlier,
     stage_support(s, n, is_kept ? &fresh : start);
 }
 
+// The closed forms of a box and another body.
+static int take_closed_depth(search *s, ovoid_cover *cover) {
+    if (!(s->frame->a->box.is_present | s->frame->b->box.is_present)) return 0;
+    return !s->frame->is_true && (boxes_take_depth(s, cover) || inside_take_depth(s, cover));
+}
+
 // GJK, then EPA where the cores touch or overlap and GJK cannot narrow the bracket. A depth query tries EPA first,
 // unless the cores are known to be apart.
 static void run_exact(search *s, simplex *start, ovoid_cover *cover) {
@@ -223,10 +239,7 @@ static void run_exact(search *s, simplex *start, ovoid_cover *cover) {
     int cores_apart = s->lower + s->frame->lower_radii > 0;
     // A depth of overlapping spheres begins without a simplex; the ellipsoids' cores may have parted the bodies since.
     if (cores_apart && start->count == 0) stage_support(s, s->normal, start);
-    if (s->goal.wants_depth && !cores_apart &&
-        ((!s->frame->is_true && (boxes_take_depth(s, cover) || inside_take_depth(s, cover))) ||
-         epa_run(s, start, 1, cover)))
-        return;
+    if (s->goal.wants_depth && !cores_apart && (take_closed_depth(s, cover) || epa_run(s, start, 1, cover))) return;
     gjk_end end = gjk_run(s, start);
     if (end == GJK_ANSWERED) return;
     if (end == GJK_ITERATIONS) s->limit = OVOID_LIMIT_ITERATIONS;
@@ -359,9 +372,20 @@ COMPILER_NOINLINE static void search_again(const open_query *q, search *s, ovoid
     *out = warm;
 }
 
+// A depth from the surface of an earlier one, or where the bodies have a closed form, from that. 0 if it does not
+// answer the query, which is then as without the surface.
+static int run_kept(const open_query *q, search *s) {
+    search_make(s, q->placed.frame, q->placed.goal);
+    return take_closed_depth(s, q->cover) || epa_lanes_run_kept(s, q->kept, q->cover) ? search_is_done(s) : 0;
+}
+
 static void run_search(const open_query *q, ovoid_answer *out) {
     const ovoid_proof *earlier = q->placed.earlier;
     search s;
+    if (q->kept && run_kept(q, &s)) {
+        answer_write(&s, out);
+        return;
+    }
     search_in_doubles(q, earlier, &s);
     if (!search_is_done(&s) && earlier) {
         search_again(q, &s, out);
@@ -397,7 +421,7 @@ void answer_run_search(const open_query *q, ovoid_answer *out) {
 
 static open_query make_open(const ovoid_pair *pair, const query_request *request, query_start *s) {
     frame_relate(&s->frame);
-    return (open_query){pair, s->placed, request->cover};
+    return (open_query){pair, s->placed, request->cover, request->kept};
 }
 
 void answer_find_internal(const ovoid_pair *pair, const query_request *request, ovoid_answer *out) {

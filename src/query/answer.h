@@ -75,6 +75,7 @@ typedef struct query_request {
     const query_goal *goal;
     const ovoid_proof *earlier; ///< of an earlier call, or NULL
     ovoid_cover *cover;         ///< room for a cover, or NULL
+    const ovoid_cover *kept;    ///< of a depth's earlier call, of any content, or NULL
 } query_request;
 
 /// The whole pipeline for one query.
@@ -88,7 +89,8 @@ COMPILER_NOINLINE ovoid_answer answer_find_by_value(const ovoid_pair *pair, cons
 typedef struct open_query {
     const ovoid_pair *pair;
     placed_query placed;
-    ovoid_cover *cover; ///< room for a cover, or NULL
+    ovoid_cover *cover;      ///< room for a cover, or NULL
+    const ovoid_cover *kept; ///< of a depth's earlier call, or NULL
 } open_query;
 
 /// The rest of the pipeline. The frame is related (frame_relate).

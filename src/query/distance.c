@@ -3,7 +3,7 @@
 
 ovoid_answer ovoid_distance(const ovoid_pair *pair, const ovoid_options *options, const ovoid_proof *earlier) {
     const query_goal goal = query_goal_make_distance(options);
-    return answer_find(pair, &(query_request){options, &goal, earlier, NULL});
+    return answer_find(pair, &(query_request){options, &goal, earlier, NULL, NULL});
 }
 
 double ovoid_answer_get_distance(const ovoid_answer *answer) {

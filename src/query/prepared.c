@@ -142,7 +142,7 @@ COMPILER_NOINLINE static ovoid_verdict find_afresh(ovoid_prepared_pair both, con
 COMPILER_NOINLINE static ovoid_verdict search_on(ovoid_prepared_pair both, const placed_query *query,
                                                  const ovoid_evidence *out) {
     ovoid_pair pair = get_pair(both);
-    const open_query open = {&pair, *query, NULL};
+    const open_query open = {&pair, *query, NULL, NULL};
     ovoid_answer answer;
     answer_run_search(&open, &answer);
     if (out) write_evidence(out, &answer);
@@ -188,7 +188,7 @@ COMPILER_NOINLINE static ovoid_verdict find_near(ovoid_prepared_pair pair, const
     ovoid_options options;
     query_goal goal = *wanted;
     if (!(pair.a->is_ready & pair.b->is_ready) || !options_make(given, &options) || !(goal.far >= 0))
-        return find_afresh(pair, &(query_request){given, wanted, earlier, NULL}, out);
+        return find_afresh(pair, &(query_request){given, wanted, earlier, NULL, NULL}, out);
     pair_frame frame;
     rejection found;
     small_end end;
@@ -203,7 +203,7 @@ COMPILER_NOINLINE static ovoid_verdict find_near(ovoid_prepared_pair pair, const
     default: break;
     }
     if ((pair.a->is_ready | pair.b->is_ready) & FRAME_BY_MATRIX)
-        return find_afresh(pair, &(query_request){given, wanted, earlier, NULL}, out);
+        return find_afresh(pair, &(query_request){given, wanted, earlier, NULL, NULL}, out);
     frame_relate(&frame);
     return search_on(pair, &query, out);
 }

@@ -9,7 +9,7 @@
 #include "simd/kernels/small_gjk_kept.h"
 
 #include "simd/kernels/box_axes.h"
-#include "simd/kernels/epa8.h"
+#include "simd/kernels/epa8/epa8.h"
 #include "simd/kernels/extents.h"
 #include "simd/kernels/pair8.h"
 

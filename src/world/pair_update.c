@@ -135,7 +135,14 @@ static int has_failed(const ovoid_world *w, const pair_cache *cache, const ovoid
     return is_small && cache->status == OVOID_OVERLAPPING && !world_is_measuring(w);
 }
 
-// cover: with memory for the search, or NULL.
+// The memory of a kept depth as a cover, which shows what is in it.
+static ovoid_cover show_kept(kept_depth *kept) {
+    return (ovoid_cover){
+        kept->point_count, kept->triangle_count, kept->of.a, kept->of.b, (const uint16_t(*)[3])kept->of.triangles,
+        &kept->of,         sizeof kept->of};
+}
+
+// cover: with memory for the search, or NULL: then a depth starts from the surface of the last one, and keeps its own.
 static void query_shapes(const ovoid_world *w, const world_pair *p, ovoid_cover *cover, ovoid_answer *out) {
     const pair_cache *cache = &w->pair_cache[p->slot];
     const ovoid_body *a = &w->bodies[p->a].body, *b = &w->bodies[p->b].body;
@@ -146,7 +153,19 @@ static void query_shapes(const ovoid_world *w, const world_pair *p, ovoid_cover 
     const query_goal goal = make_goal(w, p->a, p->b);
     ovoid_options options = w->query_options;
     options.iterations = cover_get_iterations(cover, options.iterations);
-    answer_find_internal(&both, &(query_request){&options, &goal, is_warm ? &earlier : NULL, cover}, out);
+    query_request request = {&options, &goal, is_warm ? &earlier : NULL, cover, NULL};
+    if (w->kind != OVOID_QUERY_DEPTH) {
+        answer_find_internal(&both, &request, out);
+        return;
+    }
+    kept_depth *kept = &w->depths[p->slot];
+    ovoid_cover last = show_kept(kept), next = last;
+    next.point_count = next.triangle_count = 0;
+    if (!cover) request.cover = &next;
+    if (!cover && is_warm && earlier.kind == OVOID_PROOF_COVER && last.point_count) request.kept = &last;
+    answer_find_internal(&both, &request, out);
+    kept->point_count = next.point_count;
+    kept->triangle_count = next.triangle_count;
 }
 
 static void cache_answer(ovoid_world *w, const world_pair *p, pair_cache *cache, const ovoid_answer *answer) {

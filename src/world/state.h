@@ -10,6 +10,7 @@
 #define OVOID_WORLD_STATE_H
 
 #include "base/compiler.h"
+#include "exact/cover_memory.h"
 #include "ovoid/world_manifolds.h"
 #include "world/body_bounds.h"
 #include "world/ignored.h"
@@ -86,6 +87,12 @@ typedef struct pair_cache {
     uint8_t count;                       ///< entries of the proof
 } pair_cache;
 
+/// The surface that the next depth of a pair of shapes starts from; only where the pair's cached proof is a cover.
+typedef struct kept_depth {
+    uint32_t point_count, triangle_count; ///< 0: none
+    small_cover of;
+} kept_depth;
+
 /// Prefetches two cache lines: a cached answer, or what queries read of a body.
 static inline void prefetch_two_lines(const void *at) {
     compiler_prefetch(at);
@@ -144,7 +151,8 @@ struct ovoid_world {
     size_t ended_capacity;
     pair_cache *pair_cache;
     ovoid_witness *witnesses; ///< beside pair_cache, once a distance or depth was queried
-    size_t slot_used, slot_capacity, witness_slots;
+    kept_depth *depths;       ///< beside pair_cache, once a depth was queried
+    size_t slot_used, slot_capacity, witness_slots, depth_slots;
     uint32_t *free_slots;
     size_t free_slot_count, free_slot_capacity;
     gathered *gathered; ///< one for each worker

@@ -106,16 +106,19 @@ void step_take_query(ovoid_world *w, const ovoid_contact_query *q, int wants_man
 
 // ---- begin and end
 
-// Room for witness points in every slot of the cache.
-static int reserve_witnesses(ovoid_world *w) {
-    return !world_has_witnesses(w) || world_reserve(w, (void **)&w->witnesses, &w->witness_slots, w->witness_slots,
-                                                    w->slot_capacity, sizeof *w->witnesses);
+// Room in every slot of the cache for witness points, and for what a depth starts from.
+static int reserve_beside(ovoid_world *w) {
+    if (world_has_witnesses(w) && !world_reserve(w, (void **)&w->witnesses, &w->witness_slots, w->witness_slots,
+                                                 w->slot_capacity, sizeof *w->witnesses))
+        return 0;
+    return w->kind != OVOID_QUERY_DEPTH ||
+           world_reserve(w, (void **)&w->depths, &w->depth_slots, w->depth_slots, w->slot_capacity, sizeof *w->depths);
 }
 
 int step_begin(ovoid_world *w, uint32_t *chunks, ovoid_contacts *counts) {
     *counts = (ovoid_contacts){.bodies = w->count};
     counts->rebuilt = (uint32_t)world_mend_tree(w);
-    if (!world_update_pairs(w, counts) || !reserve_witnesses(w)) return 0;
+    if (!world_update_pairs(w, counts) || !reserve_beside(w)) return 0;
     *chunks = (uint32_t)((w->pair_count + CHUNK - 1) / CHUNK);
     return world_reserve(w, (void **)&w->chunks, &w->chunk_capacity, 0, *chunks, sizeof *w->chunks);
 }

@@ -73,7 +73,7 @@ static void destroy(ovoid_world *w) {
                    w->pairs,        w->pair_cache,  w->witnesses,  w->free_slots,
                    w->keys,         w->chunks,      w->contacts,   w->contact_witnesses,
                    w->cover_memory, w->tree.wide,   w->materials,  w->ranges,
-                   w->seen,         w->ended};
+                   w->seen,         w->ended,       w->depths};
     manifolds_destroy(w);
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) allocator_release(&w->allocator, all[i]);
     for (uint32_t i = 0; w->gathered && i < w->threads; i++) allocator_release(&w->allocator, w->gathered[i].keys);

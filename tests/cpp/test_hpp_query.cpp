@@ -44,6 +44,11 @@ void check_pairs() {
         CHECK_EQ(ovoid::is_within(a, 0.5), ovoid_answer_is_within(&a, 0.5));
         CHECK(ovoid::is_proven(p, a, ovoid::options(), &cover));
         ovoid::verify(p, a, ovoid::options(), &cover);
+        ovoid::cover kept;
+        CHECK(is_same_answer(ovoid::depth_from(p, kept), cold));
+        const ovoid::answer again = ovoid::depth_from(p, kept, {}, &cold.proof);
+        CHECK(ovoid::is_proven(p, again, ovoid::options(), &kept));
+        CHECK_EQ(again.status, cold.status);
         ovoid::cover large(OVOID_COVER_POINTS + 1);
         CHECK(is_same_answer(ovoid::depth(p, {}, nullptr, &large), cold));
         CHECK_EQ(large.point_count, cover.point_count);

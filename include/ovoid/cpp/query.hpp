@@ -97,6 +97,11 @@ inline answer depth(const pair &p, const ovoid_options &o = options(), const ovo
                     ovoid_cover *received = nullptr) noexcept {
     return ovoid_depth(&p, &o, earlier, received);
 }
+/** The depth of a pair that has moved a little, from the proof and the cover of the last one; the cover is renewed. */
+inline answer depth_from(const pair &p, ovoid_cover &cover, const ovoid_options &o = options(),
+                         const ovoid_proof *earlier = nullptr) noexcept {
+    return ovoid_depth_from(&p, &o, earlier, &cover);
+}
 /** The gap along a direction: a proven lower bound of the signed distance. */
 inline double compute_gap(const pair &p, const ovoid_vec3 &direction) noexcept {
     return ovoid_pair_compute_gap(&p, direction);

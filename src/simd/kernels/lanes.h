@@ -32,6 +32,9 @@ typedef __mmask8 lane_mask;
 LANES_INLINE lane lane_set(double x) { return _mm512_set1_pd(x); }
 LANES_INLINE lane lane_load(const double *x) { return _mm512_loadu_pd(x); }
 LANES_INLINE lane lane_load_floats(const float *x) { return _mm512_cvtps_pd(_mm256_loadu_ps(x)); }
+LANES_INLINE lane lane_gather(const double *p, const uint32_t *at) {
+    return _mm512_setr_pd(p[at[0]], p[at[1]], p[at[2]], p[at[3]], p[at[4]], p[at[5]], p[at[6]], p[at[7]]);
+}
 LANES_INLINE void lane_store(double *x, lane v) { _mm512_storeu_pd(x, v); }
 LANES_INLINE lane lane_sqrt(lane v) { return _mm512_sqrt_pd(v); }
 LANES_INLINE lane lane_abs(lane v) { return _mm512_abs_pd(v); }

@@ -134,6 +134,8 @@ static void ask_depth(void) {
         x.lower = x.upper;
         code = ovoid_answer_verify(&pairs[i], &x, &(ovoid_answer_basis){.cover = &cover}, NULL);
         ADD(code);
+        x = ovoid_depth_from(&pairs[i], NULL, &x.proof, &cover);
+        add_answer(&x);
     }
 }
 

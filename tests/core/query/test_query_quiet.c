@@ -66,6 +66,7 @@ int main(void) {
         sum += x.lower + ovoid_collide(&p, NULL, &x.proof).upper + ovoid_within(&p, 0.1, NULL, NULL).upper;
         sum += ovoid_distance(&p, NULL, NULL).upper + ovoid_pair_compute_bounds(&p).upper;
         sum += ovoid_answer_verify(&p, &x, &(ovoid_answer_basis){.cover = &cover}, NULL);
+        sum += ovoid_depth_from(&p, NULL, &x.proof, &cover).upper;
         static ovoid_manifold_polygon polygon;
         ovoid_manifold_points points;
         ovoid_manifold_options with = {.margin = 0.1, .cover = &cover, .points = &points};

@@ -77,6 +77,8 @@ static void ask_within(void) { answer = ovoid_within(&pair, 0.01, NULL, NULL); }
 static void ask_distance(void) { answer = ovoid_distance(&pair, NULL, NULL); }
 static void ask_bounds(void) { answer = ovoid_pair_compute_bounds(&pair); }
 static void ask_depth(void) { answer = ovoid_depth(&pair, NULL, NULL, &cover); }
+/// From the depth's cover: the query before it.
+static void ask_depth_from(void) { answer = ovoid_depth_from(&pair, NULL, &answer.proof, &cover); }
 /// Of the depth's answer: the query before them.
 static void ask_check(void) {
     CHECK(ovoid_answer_verify(&pair, &answer, &(ovoid_answer_basis){.cover = &cover}, NULL) == OVOID_OK);
@@ -236,6 +238,7 @@ static const struct {
                {"distance", ask_distance, STATED},
                {"bounds", ask_bounds, 12 << 10},
                {"depth", ask_depth, STATED},
+               {"depth_from", ask_depth_from, STATED},
                {"check", ask_check, 56 << 10},
                {"manifold", ask_manifold, STATED},
                {"manifold again", ask_manifold_again, STATED},

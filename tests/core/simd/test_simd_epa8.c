@@ -1,7 +1,8 @@
-// The polytope that grows in lanes: every instruction set against the scalar twin, bit for bit; and what the surface
-// claims. Truth: its edges are counted, each of them once and its reverse once; every face's plane, and all points
-// below it, are measured here in long double; the support of the nearest face is looked for among all differences.
-// Tolerance 1e-13 for bodies of size 1: a few hundred roundings.
+// The polytope that grows in lanes, from points or from a surface that was kept: every instruction set against the
+// scalar twin, bit for bit; and what the surface claims. What is no closed surface around the origin must be refused.
+// Truth: its edges are counted, each of them once and its reverse once; every face's plane, and all points below it,
+// are measured here in long double; the support of the nearest face is looked for among all differences. Tolerance
+// 1e-13 for bodies of size 1: a few hundred roundings.
 #include "simd/epa8.h"
 
 #include "check.h"
@@ -54,7 +55,7 @@ static epa8_query make_query(bodies *o, uint64_t *s) {
     // With much slack the faces that a point sees need not be connected, nor have one simple rim.
     double slack = random_next(s) % 4 == 0 ? random_uniform(s, 0.01, 0.1) : SLACK;
     uint32_t most = random_next(s) % 8 == 0 ? 1 + (uint32_t)(random_next(s) % 6) : 1000;
-    return (epa8_query){a, b, NULL, NULL, 1e-14, narrow, 1e-13, slack, 1e-28, most};
+    return (epa8_query){a, b, NULL, NULL, 1e-14, narrow, 1e-13, slack, 1e-28, most, NULL};
 }
 
 /// One difference to begin with, or two.
@@ -95,14 +96,15 @@ static real along(const epa8 *o, uint32_t f, uint32_t point) {
     return (real)o->n[0][f] * o->w[0][point] + (real)o->n[1][f] * o->w[1][point] + (real)o->n[2][f] * o->w[2][point];
 }
 
-/// Every edge is met once and its reverse once; the table of edges knows the faces.
-static void check_closed(const epa8 *o) {
+/// Every edge is met once and its reverse once; the table of edges knows the faces, unless they were kept and no point
+/// was joined.
+static void check_closed(const epa8 *o, int knows_edges) {
     int met[EPA8_POINTS][EPA8_POINTS] = {{0}};
     for (uint32_t f = 0; f < EPA8 * o->groups; f++)
         for (int e = 0; e < 3 && is_alive(o, f); e++) {
             uint32_t i = o->v[f][e], k = o->v[f][(e + 1) % 3];
             met[i][k]++;
-            CHECK_EQ(o->left[i][k], f);
+            if (knows_edges) CHECK_EQ(o->left[i][k], f);
         }
     for (uint32_t i = 0; i < o->points; i++)
         for (uint32_t k = 0; k < o->points; k++) CHECK(met[i][k] == met[k][i] && met[i][k] <= 1);
@@ -121,7 +123,7 @@ static int is_plain(const epa8 *o, uint32_t f) {
     return dot(u, u) * dot(v, v) * (1 - 0.999e-4L) > dot(u, v) * dot(u, v);
 }
 
-/// Planes, convexity, what is told of the origin.
+/// Planes, convexity unless the surface was kept, what is told of the origin.
 static void check_faces(const epa8 *o, const epa8_query *q) {
     for (uint32_t f = 0; f < EPA8 * o->groups; f++) {
         if (!is_alive(o, f)) continue;
@@ -130,7 +132,7 @@ static void check_faces(const epa8 *o, const epa8_query *q) {
             1e-14);
         for (int e = 0; e < 3; e++) CHECK_NEAR((double)along(o, f, o->v[f][e]), o->low[f], 1e-13);
         CHECK(is_plain(o, f));
-        for (uint32_t i = 0; i < o->points && q->slack <= SLACK; i++)
+        for (uint32_t i = 0; i < o->points && q->slack <= SLACK && !q->kept; i++)
             CHECK_LE((double)along(o, f, i), o->low[f] + 1e-12);
         if (!(o->low[f] > 0)) CHECK(o->inward[f / 64] >> f % 64 & 1);
     }
@@ -179,6 +181,161 @@ static void check_steps(const epa8_query *q, uint64_t s) {
     }
 }
 
+// ---- surfaces that are kept
+
+static long kept_ends[4];
+
+/// The faces of a surface, as a cover has them.
+typedef struct triangles {
+    uint16_t v[EPA8_FACES][3];
+    uint32_t count;
+} triangles;
+
+static triangles list_triangles(const epa8 *o) {
+    triangles t = {.count = 0};
+    for (uint32_t f = 0; f < EPA8 * o->groups; f++)
+        if (is_alive(o, f)) {
+            for (int k = 0; k < 3; k++) t.v[t.count][k] = o->v[f][k];
+            t.count++;
+        }
+    return t;
+}
+
+static void start_kept(epa8 *o, const epa8 *from) {
+    o->points = from->points;
+    for (uint32_t i = 0; i < (from->points + EPA8 - 1) / EPA8 * EPA8; i++) {
+        o->a[i] = i < from->points ? from->a[i] : 0;
+        o->b[i] = i < from->points ? from->b[i] : 0;
+    }
+}
+
+/// The same from every instruction set.
+static epa8_end grow_kept(const epa8_query *q, const epa8 *from, epa8 *truth) {
+    static epa8 other;
+    start_kept(truth, from);
+    epa8_end end = epa8_get(SIMD_SCALAR)(truth, q);
+    for (int isa = SIMD_SCALAR + 1; isa <= SIMD_ISA_COUNT; isa++) {
+        epa8_function *grow = isa == SIMD_ISA_COUNT ? epa8_grow : epa8_get((simd_isa)isa);
+        if (!grow) continue;
+        memset(&other, isa, sizeof other);
+        start_kept(&other, from);
+        CHECK_EQ(grow(&other, q), end);
+        if (end != EPA8_FLAT) CHECK(is_same(truth, &other, end));
+    }
+    return end;
+}
+
+/// The support by a function, of bodies whose points are all in the frame of the first.
+static simd_difference find_posed(const void *given, vec3 n) {
+    const epa8_query *q = given;
+    simd_difference d = simd_find_difference(&q->a, &q->b, vec3_neg(n));
+    return d;
+}
+
+/// B in a frame of its own, and supports by a function: the bits of the bodies in one frame.
+static void check_own(const epa8_query *q, const epa8 *from, bodies *of, uint64_t *s) {
+    static epa8 truth, other;
+    epa8_kept own = *q->kept;
+    bodies posed = *of;
+    for (int k = 0; k < 9; k++) own.rotation[k] = (k % 4 == 0) + random_uniform(s, -0.01, 0.01);
+    for (int k = 0; k < 3; k++) own.translation[k] = random_uniform(s, -0.02, 0.02);
+    simd_pose_points_scalar(&q->b, own.rotation, own.translation, (double *[]){posed.b[0], posed.b[1], posed.b[2]});
+    epa8_query in_one = *q, in_two = *q;
+    in_one.b = (simd_points){posed.b[0], posed.b[1], posed.b[2], q->b.padded_count};
+    in_two.find = find_posed;
+    in_two.bodies = &in_one;
+    in_two.kept = &own;
+    epa8_end end = grow_kept(&in_one, from, &truth);
+    CHECK_EQ(grow_kept(&in_two, from, &other), end);
+    if (end != EPA8_FLAT) CHECK(is_same(&truth, &other, end));
+}
+
+/// What is no closed surface of the points around the origin is refused.
+static void check_refused(const epa8_query *q, const epa8 *from, const triangles *t, uint64_t *s) {
+    static epa8 o;
+    triangles altered = *t;
+    epa8_kept kept = *q->kept;
+    epa8_query query = *q;
+    uint32_t i = (uint32_t)(random_next(s) % t->count), k = (uint32_t)(random_next(s) % 3);
+    uint16_t(*v)[3] = altered.v, first = v[i][0];
+    kept.triangles = (const uint16_t(*)[3])v;
+    query.kept = &kept;
+    switch (random_next(s) % 8) {
+    case 0: memcpy(v[i], v[t->count - 1], sizeof v[i]), kept.faces--; break;
+    case 1: memcpy(v[i], v[(i + 1) % t->count], sizeof v[i]); break;
+    case 2: v[i][0] = v[i][1], v[i][1] = first; break;
+    case 3: v[i][k] = (uint16_t)(from->points + random_next(s) % 3); break;
+    case 4: v[i][k] = (uint16_t)(v[i][k] + 32 * (1 + random_next(s) % 2000)); break;
+    case 5: v[i][k] = (uint16_t)((v[i][k] + 1 + random_next(s) % (from->points - 1)) % from->points); break;
+    case 6:
+        if (t->count > EPA8_POINTS) return;
+        memcpy(v[t->count], v[0], t->count * sizeof v[0]), kept.faces *= 2;
+        break;
+    default:
+        for (i = 0; i < t->count; i++) first = v[i][0], v[i][0] = v[i][1], v[i][1] = first;
+    }
+    CHECK_EQ(grow_kept(&query, from, &o), EPA8_FLAT);
+}
+
+/// A tetrahedron about the origin with a fifth point beside one of its edges, joined to the face there: a sliver,
+/// unless it is far from the edge.
+static epa8_end grow_with_point_beside(double far) {
+    static epa8 from, truth;
+    static const uint16_t faces[6][3] = {{1, 0, 4}, {2, 1, 4}, {0, 2, 4}, {3, 0, 1}, {3, 1, 2}, {3, 2, 0}};
+    bodies of = {.count_a = 1, .count_b = 5};
+    static const double corner[4][3] = {{1, 1, 1}, {-1, 1, -1}, {1, -1, -1}, {-1, -1, 1}};
+    double off[3], up[3];
+    for (int k = 0; k < 3; k++) {
+        double middle = (corner[0][k] + corner[1][k]) / 2;
+        off[k] = middle + far * (corner[2][k] - middle), up[k] = 0.1 * far * -corner[3][k];
+        for (int i = 0; i < 8; i++) of.b[k][i] = i < 4 ? corner[i][k] : off[k] + up[k];
+    }
+    epa8_kept kept = {.triangles = faces, .faces = 6};
+    epa8_query q = {.a = {of.a[0], of.a[1], of.a[2], 8},
+                    .b = {of.b[0], of.b[1], of.b[2], 8},
+                    .claim = 1e-14,
+                    .narrow = 1e-9,
+                    .near = 1e-13,
+                    .slack = SLACK,
+                    .doubt = 1e-28,
+                    .most = 1000,
+                    .kept = &kept};
+    from.points = 5;
+    for (uint32_t i = 0; i < 5; i++) from.a[i] = 0, from.b[i] = i;
+    return grow_kept(&q, &from, &truth);
+}
+
+static void check_slivers(void) {
+    CHECK(grow_with_point_beside(0.3) != EPA8_FLAT);
+    CHECK_EQ(grow_with_point_beside(1e-3), EPA8_FLAT);
+}
+
+/// The bodies move a little, and the growth goes on from the surface; far from the origin there is none.
+static void check_kept(const epa8_query *from_points, const epa8 *from, bodies *of, uint64_t *s) {
+    static epa8 truth;
+    triangles t = list_triangles(from);
+    if (t.count > 2 * EPA8_POINTS) return;
+    epa8_query q = *from_points;
+    epa8_kept kept = {.triangles = (const uint16_t(*)[3])t.v, .faces = t.count};
+    q.kept = &kept;
+    q.most = 1000;
+    double step[3], far = random_next(s) % 4 ? 0.01 : 0.3;
+    for (int k = 0; k < 3; k++) step[k] = random_uniform(s, -far, far);
+    for (uint32_t i = 0; i < q.b.padded_count; i++)
+        for (int k = 0; k < 3; k++) of->b[k][i] += step[k];
+    epa8_end end = grow_kept(&q, from, &truth);
+    kept_ends[end]++;
+    check_refused(&q, from, &t, s);
+    check_own(&q, from, of, s);
+    if (end == EPA8_FLAT) return;
+    check_closed(&truth, truth.supports > 1 || end == EPA8_LEFT);
+    check_faces(&truth, &q);
+    check_result(&truth, &q, of, end);
+
+    for (uint32_t i = 0; i < q.b.padded_count; i++) of->b[0][i] += 5;
+    CHECK_EQ(grow_kept(&q, from, &truth), EPA8_FLAT);
+}
+
 static void check_query(uint64_t seed) {
     static epa8 truth, other;
     bodies of;
@@ -198,18 +355,23 @@ static void check_query(uint64_t seed) {
         if (!CHECK(is_same(&truth, &other, end))) printf("  %d of %d\n", isa, (int)end);
     }
     if (end == EPA8_FLAT) return;
-    check_closed(&truth);
+    check_closed(&truth, 1);
     check_faces(&truth, &q);
     check_result(&truth, &q, &of, end);
     if (seed % 10 == 0) check_steps(&q, again);
     if (truth.points > points_most) points_most = truth.points;
+    if (end == EPA8_NARROW) check_kept(&q, &truth, &of, &s);
 }
 
 int main(void) {
+    check_slivers();
     for (uint64_t seed = 1; seed <= 20000; seed++) check_query(seed);
     printf("narrow %ld, apart %ld, left %ld, flat %ld, at most %ld points\n", ends[EPA8_NARROW], ends[EPA8_APART],
            ends[EPA8_LEFT], ends[EPA8_FLAT], points_most);
+    printf("kept: narrow %ld, apart %ld, left %ld, flat %ld\n", kept_ends[EPA8_NARROW], kept_ends[EPA8_APART],
+           kept_ends[EPA8_LEFT], kept_ends[EPA8_FLAT]);
     for (int i = 0; i < 4; i++) CHECK(ends[i] > 50);
+    CHECK(kept_ends[EPA8_NARROW] > 1000 && kept_ends[EPA8_LEFT] > 50 && kept_ends[EPA8_FLAT] > 50);
     CHECK_LE(24, points_most);
     return check_end();
 }

@@ -1,6 +1,6 @@
 // Depths of a world's pairs whose search fills its own memory and goes on in the world's: balls with nearly one centre,
-// alone and as parts, beside pairs that need no more. Truth: the pair asked alone with memory; the verifier; the same
-// bits on any number of threads; where an allocation fails, the call after it.
+// alone and as parts, beside pairs that need no more; and of hulls in motion. Truth: the pair asked alone with memory;
+// the verifier; the same bits on any number of threads; where an allocation fails, the call after it.
 #include "countdown.h"
 #include "proofs/covers.h"
 #include "worlds.h"
@@ -107,6 +107,66 @@ static void check_frames(uint64_t seed) {
     end(&x);
 }
 
+// ---- hulls in motion, whose depths start from the last surface
+
+enum { HULLS = 24, FRAMES = 30 };
+
+static ovoid_shape *make_hull(uint64_t *s) {
+    double points[3 * 60];
+    size_t count = 6 + random_next(s) % 54;
+    for (size_t i = 0; i < 3 * count; i++) points[i] = random_uniform(s, -1, 1);
+    return ovoid_shape_create_from_points(points, count, NULL, NULL);
+}
+
+static void turn(uint64_t *s, ovoid_pose *pose) {
+    pose->rotation.x += random_uniform(s, -0.01, 0.01);
+    pose->rotation.z += random_uniform(s, -0.01, 0.01);
+    pose->position.y += random_uniform(s, -0.01, 0.01);
+}
+
+static void check_moving(void) {
+    uint64_t s = 11;
+    ovoid_shape *shapes[HULLS];
+    ovoid_pose poses[HULLS];
+    ovoid_id ids[2][HULLS];
+    ovoid_world *worlds[2] = {ovoid_world_create(&(ovoid_world_options){.threads = 1}, NULL),
+                              ovoid_world_create(&(ovoid_world_options){.threads = 3}, NULL)};
+    for (uint32_t i = 0; i < HULLS; i++) {
+        shapes[i] = make_hull(&s);
+        poses[i] = (ovoid_pose){{4.0 * (i / 2) + 0.5 * (i % 2), 0, 0}, random_quat(&s)};
+        const ovoid_world_body b = {.body = {.shape = shapes[i], .pose = poses[i]}, .user = i};
+        for (int k = 0; k < 2; k++) ids[k][i] = ovoid_world_add(worlds[k], &b, NULL);
+    }
+    long at_once = 0, overlaps = 0;
+    for (int frame = 0; frame < FRAMES; frame++) {
+        ovoid_contacts found[2];
+        // Every tenth frame asks for yes or no: depths start from the surface before it no more.
+        const ovoid_contact_query query = {.kind = frame % 10 == 9 ? OVOID_QUERY_COLLIDE : OVOID_QUERY_DEPTH};
+        for (int k = 0; k < 2; k++) CHECK(ovoid_world_compute_contacts(worlds[k], &query, &found[k], NULL) == OVOID_OK);
+        CHECK_EQ(found[0].count, found[1].count);
+        for (size_t i = 0; i < found[0].count; i++) {
+            const ovoid_contact *c = &found[0].items[i];
+            const ovoid_pair pair = {shapes[c->user_a], shapes[c->user_b], poses[c->user_a], poses[c->user_b]};
+            ovoid_answer truth = ovoid_depth(&pair, NULL, NULL, NULL);
+            CHECK(memcmp(&c->verdict, &found[1].items[i].verdict, sizeof(ovoid_verdict)) == 0);
+            CHECK_EQ((int)c->verdict.status, (int)truth.status);
+            CHECK(c->verdict.lower <= truth.upper && truth.lower <= c->verdict.upper);
+            if (query.kind == OVOID_QUERY_DEPTH) CHECK_LE(c->verdict.upper - c->verdict.lower, 1e-8);
+            overlaps += query.kind == OVOID_QUERY_DEPTH && truth.status == OVOID_OVERLAPPING;
+            at_once +=
+                query.kind == OVOID_QUERY_DEPTH && c->verdict.stage == OVOID_STAGE_PROOF && !c->verdict.iterations;
+        }
+        for (uint32_t i = 0; i < HULLS; i++) {
+            turn(&s, &poses[i]);
+            for (int k = 0; k < 2; k++) CHECK(ovoid_world_move(worlds[k], ids[k][i], &poses[i], NULL) == OVOID_OK);
+        }
+    }
+    printf("%ld of %ld depths at once\n", at_once, overlaps);
+    CHECK_LE(0.6 * (double)overlaps, at_once);
+    for (int k = 0; k < 2; k++) ovoid_world_destroy(worlds[k]);
+    for (int i = 0; i < HULLS; i++) ovoid_shape_destroy(shapes[i]);
+}
+
 // With the k-th allocation failing: an error, and the same call again is answered.
 static void check_memory(void) {
     stage x;
@@ -157,6 +217,7 @@ static void check_asked_again(void) {
 }
 
 int main(void) {
+    check_moving();
     for (uint64_t seed = 1; seed <= 3; seed++) check_frames(check_seed = seed);
     check_seed = 0;
     check_memory();

@@ -235,6 +235,12 @@ static void ask_warm(const hearing *h, const ovoid_proof *warm, const ovoid_proo
     LOCAL_COVER(cover);
     ovoid_answer x = ovoid_depth(h->pair, NULL, warm, &cover);
     hear_depth(h, &x, &cover, "depth, warm");
+    // From the cover of the pair a hundredth of its size away.
+    ovoid_pair moved = *h->pair;
+    moved.pose_b.position.x += 0.01 * pair_size(h->pair);
+    (void)ovoid_depth(&moved, NULL, NULL, &cover);
+    x = ovoid_depth_from(h->pair, NULL, warm, &cover);
+    hear_depth(h, &x, &cover, "depth, from a cover");
     x = ovoid_collide(h->pair, NULL, other);
     hear_collide(h, &x, "collide, warm");
     x = ovoid_distance(h->pair, NULL, warm);

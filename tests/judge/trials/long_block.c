@@ -217,7 +217,9 @@ static ovoid_answer ask(work *w, scene *s, question_kind kind, uint64_t *r) {
     }
     case ASK_DISTANCE: x = ovoid_distance(&s->pair, options, earlier); break;
     case ASK_DEPTH:
-        x = ovoid_depth(&s->pair, options, earlier, &w->cover);
+        // The cover is that of the last depth, of this pair or of another one.
+        x = earlier ? ovoid_depth_from(&s->pair, options, earlier, &w->cover)
+                    : ovoid_depth(&s->pair, options, NULL, &w->cover);
         cover = &w->cover;
         break;
     default: x = ovoid_pair_compute_bounds(&s->pair); break;
