@@ -67,7 +67,8 @@ template <class S> struct posed {
         return type == ::fcl::GEOM_SPHERE ? place_sphere<S>(shape, pose, to) : detail::place<S>(shape, pose, to);
     }
 };
-/// Two geometries that are swept spheres, at their poses; false if one is none. Both types are asked before one is read.
+/// Two geometries that are swept spheres, at their poses; false if one is none. Both types are asked before one is
+/// read.
 template <class S>
 OVOID_FCL_INLINE bool make_swept_pair(const posed<S> &a, const posed<S> &b, ovoid_swept_sphere (&to)[2]) {
     return has_extent(a.type) && has_extent(b.type) && make_swept<S>(a.self(), a.pose, to[0]) &&
@@ -181,8 +182,7 @@ OVOID_FCL_APART std::size_t collide_itself(const posed<S> &a, const posed<S> &b,
 }
 
 /// The contacts with a plane. Where the extent of the other geometry is known, a yes or no needs no more than that.
-template <class S>
-OVOID_FCL_APART std::size_t collide_plane(const posed<S> &a, const posed<S> &b, contact_list<S> to) {
+template <class S> OVOID_FCL_APART std::size_t collide_plane(const posed<S> &a, const posed<S> &b, contact_list<S> to) {
     const auto asked = make_plane_pair(a, b);
     const plane_pair<S> &pair = asked.first;
     if (!asked.second) return collide_itself<S>(a, b, to);
@@ -317,7 +317,7 @@ template <class S> bool measure_others(const posed<S> &a, const posed<S> &b, boo
 /// result.update, which is a call of libfcl. Points are written whether or not they were asked for, as FCL does.
 template <class S>
 OVOID_FCL_INLINE void write_distance(const distance_answer &found, const geometry<S> *a, const geometry<S> *b,
-                    ::fcl::DistanceResult<S> &to) {
+                                     ::fcl::DistanceResult<S> &to) {
     const S distance = static_cast<S>(found.distance);
     if (!(to.min_distance > distance)) return;
     to.min_distance = distance;

@@ -6,6 +6,7 @@
 #include <ovoid/fcl.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -315,6 +316,66 @@ void test_touching() {
     CHECK(sorted<double>(a.pairs) == sorted<double>(b.pairs));
 }
 
+/// Objects of three types in a cube, each of which meets about two others.
+std::vector<std::unique_ptr<CollisionObjectd>> make_many(std::size_t count) {
+    random_poses poses(17);
+    const double side = 2 * std::cbrt(static_cast<double>(count));
+    std::vector<std::unique_ptr<CollisionObjectd>> all;
+    const std::shared_ptr<CollisionGeometryd> shapes[] = {
+        std::make_shared<Boxd>(1, 1.2, 0.8), std::make_shared<Sphered>(0.5), std::make_shared<Capsuled>(0.3, 1)};
+    for (std::size_t i = 0; i < count; i++) {
+        Transform3d t = poses.make<double>(1);
+        for (int k = 0; k < 3; k++) t.translation()[k] = side * (t.translation()[k] - std::floor(t.translation()[k]));
+        all.push_back(std::make_unique<CollisionObjectd>(shapes[i % 3], t));
+        all.back()->computeAABB();
+    }
+    return all;
+}
+
+/// More objects than those whose pairs are handed on at once: each pair is called back once, most pairs after one of
+/// the same types, and the last one is that whose callback returns true. Of one manager and of two, FCL's among them.
+void test_many(std::size_t count) {
+    const auto all = make_many(count);
+    std::vector<CollisionObjectd *> list;
+    for (const auto &o : all) list.push_back(o.get());
+    const std::vector<CollisionObjectd *> rest(list.begin(), list.begin() + 270);
+    ovoid::fcl::BroadPhaseManager<double> ours, ours_too;
+    NaiveCollisionManager<double> theirs, theirs_too;
+    for (auto *manager : std::vector<BroadPhaseCollisionManager<double> *>{&ours, &theirs}) {
+        manager->registerObjects(list);
+        manager->unregisterObject(list[3]);
+    }
+    ours_too.registerObjects(rest), theirs_too.registerObjects(rest);
+    for (BroadPhaseCollisionManager<double> *other :
+         std::vector<BroadPhaseCollisionManager<double> *>{nullptr, &ours_too, &theirs_too}) {
+        record<double> found, truth;
+        const auto ask = [&](record<double> &to) {
+            return other ? ours.collide(other, &to, note<double>) : ours.collide(&to, note<double>);
+        };
+        ask(found);
+        if (other)
+            theirs.collide(&theirs_too, &truth, note<double>);
+        else
+            theirs.collide(&truth, note<double>);
+        CHECK(sorted<double>(found.pairs) == sorted<double>(truth.pairs));
+        CHECK_LE(400, found.pairs.size());
+        std::size_t changes = 0;
+        for (std::size_t i = 1; i < found.pairs.size(); i++) {
+            const auto &p = found.pairs[i], &q = found.pairs[i - 1];
+            changes +=
+                p.first->getNodeType() != q.first->getNodeType() || p.second->getNodeType() != q.second->getNodeType();
+        }
+        CHECK_LE(5 * changes, found.pairs.size());
+        for (const std::size_t most : {std::size_t{1}, std::size_t{31}, std::size_t{32}, std::size_t{33},
+                                       std::size_t{97}, found.pairs.size() - 1, found.pairs.size()}) {
+            record<double> some;
+            some.most = most;
+            ask(some);
+            CHECK_EQ(some.pairs.size(), most);
+        }
+    }
+}
+
 /// Through the shim: the least distance of all pairs, and each pair that collides.
 void test_shim() {
     random_poses poses(15);
@@ -360,6 +421,7 @@ int main() {
     test_strange();
     test_far();
     test_touching();
+    for (const std::size_t count : {300, 2100}) test_many(count);
     test_shim();
     return check_end();
 }

@@ -192,7 +192,8 @@ class block_tree {
                 if (take_all(i, i + 1)) return true;
             return false;
         };
-        return count_ > 0 && visit_own(near_search(boxes_.data(), boxes_.data(), bound2, take_blocks), take_block, root());
+        return count_ > 0 &&
+               visit_own(near_search(boxes_.data(), boxes_.data(), bound2, take_blocks), take_block, root());
     }
 
   private:

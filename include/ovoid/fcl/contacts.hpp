@@ -101,8 +101,7 @@ inline double contact_distance(const ovoid_verdict &depth) {
 }
 
 /// The deepest point of two overlapping shapes as a contact.
-template <class S>
-OVOID_FCL_INLINE void add_deepest(contact_list<S> &to, int i, int j, const measured &depth) {
+template <class S> OVOID_FCL_INLINE void add_deepest(contact_list<S> &to, int i, int j, const measured &depth) {
     to.add(i, j, {depth.at.point_a, depth.at.point_b, contact_distance(depth.bracket), 0}, depth.at.normal);
 }
 

@@ -297,8 +297,8 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
     }
 
     detail::registered_objects<S> objects_; ///< of the tree's leaves, then those registered since
-    detail::block_tree tree_;       ///< of the boxes of the first objects
-    std::vector<ovoid_box> recent_; ///< of the objects that are not in the tree
+    detail::block_tree tree_;               ///< of the boxes of the first objects
+    std::vector<ovoid_box> recent_;         ///< of the objects that are not in the tree
     std::unordered_map<object *, std::size_t> places_;
     std::size_t leaves_ = 0; ///< of the tree
     double measure_ = 0;     ///< of the tree, when it was built

@@ -128,7 +128,7 @@ template <class S> OVOID_FCL_INLINE bool is_placed(const typed<S> &geometry, con
 
 /// Where a geometry meets a plane: points and normal in the world, from the geometry to the plane.
 struct plane_answer {
-    double distance; ///< signed
+    double distance;  ///< signed
     ovoid_vec3 point; ///< of the geometry
     ovoid_vec3 on_plane;
     ovoid_vec3 normal;
