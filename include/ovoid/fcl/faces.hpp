@@ -61,8 +61,9 @@ class least_overlap {
                 f_[i][j] = std::fabs(c_[i][j]);
             }
         sign all = take_faces();
-        for (int i = 0; i < 3 && all != apart; i++)
-            for (int j = 0; j < dimension_; j++) all = std::min(all, take_edges(i, j));
+        if (all != apart) all = std::min(all, take_edges_of<0>());
+        if (all != apart) all = std::min(all, take_edges_of<1>());
+        if (all != apart) all = std::min(all, take_edges_of<2>());
         return all;
     }
     /// Of cores that overlap: the gap along the axis, which is below 0.
@@ -127,7 +128,14 @@ class least_overlap {
         }
         return is_apart ? apart : is_open ? open : overlapping;
     }
-    sign take_edges(int i, int j) {
+    /// The edges along A's axis i, which is known to the compiler, as that of B is.
+    template <int i> sign take_edges_of() {
+        sign all = take_edges(i, 0);
+        if (dimension_ == 1) return all;
+        all = std::min(all, take_edges(i, 1));
+        return std::min(all, take_edges(i, 2));
+    }
+    OVOID_FCL_INLINE sign take_edges(int i, int j) {
         static const int next[5] = {0, 1, 2, 0, 1};
         const int k = next[i + 1], m = next[i + 2], p = next[j + 1], q = next[j + 2];
         const double square = get_square(i, j);
