@@ -43,7 +43,7 @@ template <class S> struct registered {
     }
     ovoid_box get_box() const { return {to_vec3<S>(box->min_), to_vec3<S>(box->max_)}; }
     /// For get_box().
-    void fetch_box() const {
+    OVOID_FCL_INLINE void fetch_box() const {
         fetch<0>(box);
         fetch<0>(&box->max_[2]);
     }
