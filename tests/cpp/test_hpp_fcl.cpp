@@ -324,6 +324,11 @@ static void test_planes() {
             }
             CHECK_NEAR(hit.getContact(0).penetration_depth, -d, 1e-12);
             CHECK((hit.getContact(0).normal + back.getContact(0).normal).norm() == 0);
+            // As in FCL: on a plane, and half way between a halfspace's plane and the deepest point.
+            const Vector3d &on_flat = result.nearest_points[1], &deepest = result.nearest_points[0];
+            const Vector3d position = is_half ? Vector3d((on_flat + deepest) / 2) : on_flat;
+            CHECK_LE((hit.getContact(0).pos - position).norm(), 1e-12);
+            CHECK_LE((back.getContact(0).pos - position).norm(), 1e-12);
             // The other body moved along the normal by the depth touches.
             Transform3d moved = t;
             moved.translation() += hit.getContact(0).normal * -d;
