@@ -338,6 +338,21 @@ static void test_planes() {
         }
         ovoid_shape_destroy(plain);
     }
+    // An ellipsoid's deepest point: of its surface, and as deep as FCL says.
+    const Ellipsoidd egg(0.5, 0.4, 0.3);
+    const Halfspaced floor(Vector3d(0, 0, 1), 0);
+    const Planed wall(Vector3d(0, 0, 1), 0);
+    for (int n = 0; n < 40; n++) {
+        const CollisionGeometryd *flat = n % 2 == 0 ? static_cast<const CollisionGeometryd *>(&floor) : &wall;
+        const Transform3d s = poses.make<double>(0.2), t = poses.make<double>(0.2);
+        CollisionResultd known;
+        if (fcl::collide(&egg, s, flat, t, CollisionRequestd(1, true), known) == 0) continue;
+        DistanceResultd found;
+        const double d = ovoid::fcl::distance<double>(&egg, s, flat, t, DistanceRequestd(true, true), found);
+        CHECK_NEAR(-d, known.getContact(0).penetration_depth, 1e-12);
+        CHECK_NEAR((s.inverse() * found.nearest_points[0]).cwiseQuotient(egg.radii).norm(), 1, 1e-12);
+        CHECK_NEAR(std::fabs((t.inverse() * found.nearest_points[0])[2]), -d, 1e-12);
+    }
     // A mesh: each triangle that reaches into the halfspace.
     const auto ball = make_ball<OBBd>(0.5);
     const Halfspaced half(Vector3d(0, 0, 2), -0.2);
