@@ -324,6 +324,11 @@ static void test_planes() {
             }
             CHECK_NEAR(hit.getContact(0).penetration_depth, -d, 1e-12);
             CHECK((hit.getContact(0).normal + back.getContact(0).normal).norm() == 0);
+            // As in FCL: on a plane, and half way between a halfspace's plane and the deepest point.
+            const Vector3d &on_flat = result.nearest_points[1], &deepest = result.nearest_points[0];
+            const Vector3d position = is_half ? Vector3d((on_flat + deepest) / 2) : on_flat;
+            CHECK_LE((hit.getContact(0).pos - position).norm(), 1e-12);
+            CHECK_LE((back.getContact(0).pos - position).norm(), 1e-12);
             // The other body moved along the normal by the depth touches.
             Transform3d moved = t;
             moved.translation() += hit.getContact(0).normal * -d;
@@ -332,6 +337,21 @@ static void test_planes() {
             ovoid_shape_destroy(stand_in);
         }
         ovoid_shape_destroy(plain);
+    }
+    // An ellipsoid's deepest point: of its surface, and as deep as FCL says.
+    const Ellipsoidd egg(0.5, 0.4, 0.3);
+    const Halfspaced floor(Vector3d(0, 0, 1), 0);
+    const Planed wall(Vector3d(0, 0, 1), 0);
+    for (int n = 0; n < 40; n++) {
+        const CollisionGeometryd *flat = n % 2 == 0 ? static_cast<const CollisionGeometryd *>(&floor) : &wall;
+        const Transform3d s = poses.make<double>(0.2), t = poses.make<double>(0.2);
+        CollisionResultd known;
+        if (fcl::collide(&egg, s, flat, t, CollisionRequestd(1, true), known) == 0) continue;
+        DistanceResultd found;
+        const double d = ovoid::fcl::distance<double>(&egg, s, flat, t, DistanceRequestd(true, true), found);
+        CHECK_NEAR(-d, known.getContact(0).penetration_depth, 1e-12);
+        CHECK_NEAR((s.inverse() * found.nearest_points[0]).cwiseQuotient(egg.radii).norm(), 1, 1e-12);
+        CHECK_NEAR(std::fabs((t.inverse() * found.nearest_points[0])[2]), -d, 1e-12);
     }
     // A mesh: each triangle that reaches into the halfspace.
     const auto ball = make_ball<OBBd>(0.5);
