@@ -110,7 +110,7 @@ static int refusal_is_false(const ovoid_impact *x) {
     return x->limit != OVOID_LIMIT_OPTIONS || x->hit_at != INFINITY || x->step_count;
 }
 
-static int impact_is_false(const truth *t, const ovoid_impact *x, const ovoid_step *list, size_t checked) {
+static int impact_is_false(const truth *t, const ovoid_impact *x, const ovoid_step *list) {
     int hit = x->status == OVOID_IMPACT_HIT, is_free = x->status == OVOID_IMPACT_FREE;
     if (x->limit >= OVOID_LIMIT_POSE_A && x->limit <= OVOID_LIMIT_SHAPE_B) return refusal_is_false(x);
     if ((unsigned)x->status > OVOID_IMPACT_HIT || (unsigned)x->limit > OVOID_LIMIT_ALLOWANCE) return 1;
@@ -125,11 +125,11 @@ static int impact_is_false(const truth *t, const ovoid_impact *x, const ovoid_st
     if (is_free && ask(t, x->end).upper + t->slack <= t->margin) return 1;
     if (hit && ask(t, x->hit_at).lower - t->slack > t->margin) return 1;
     if (answer_is_false(t, &x->free, x->free_until) || (hit && answer_is_false(t, &x->hit, x->hit_at))) return 1;
-    return x->step_count > checked || steps_are_false(t, list, x->step_count, x->begin, x->free_until, t->margin);
+    return steps_are_false(t, list, x->step_count, x->begin, x->free_until, t->margin);
 }
 
 static int approach_is_false(const truth *t, const ovoid_approach *x, const ovoid_approach *right,
-                             const ovoid_step *list, size_t checked) {
+                             const ovoid_step *list) {
     if (x->limit >= OVOID_LIMIT_POSE_A && x->limit <= OVOID_LIMIT_SHAPE_B)
         return x->limit != OVOID_LIMIT_OPTIONS || x->status != OVOID_UNDECIDED;
     if ((unsigned)x->status > OVOID_OVERLAPPING || (unsigned)x->limit > OVOID_LIMIT_ALLOWANCE) return 1;
@@ -145,22 +145,20 @@ static int approach_is_false(const truth *t, const ovoid_approach *x, const ovoi
     if (same_times && right->lower > -INFINITY && x->upper < right->lower - t->slack) return 1;
     if (x->upper < ask(t, x->time).lower - t->slack || answer_is_false(t, &x->answer, x->time)) return 1;
     if (x->lower == -INFINITY || x->begin == x->end) return 0;
-    return x->step_count > checked ||
-           steps_are_false(t, list, x->step_count, x->begin, x->end, nextafter(x->lower, -INFINITY));
+    return steps_are_false(t, list, x->step_count, x->begin, x->end, nextafter(x->lower, -INFINITY));
 }
 
 // ---- lies
 
-static void tell_impact(const truth *t, const ovoid_impact *x, size_t checked, alter_count *n) {
+static void tell_impact(const truth *t, const ovoid_impact *x, alter_count *n) {
     ovoid_code code = ovoid_impact_verify(&(ovoid_moving_pair){t->c.a, t->c.b, t->margin}, x,
                                           &(ovoid_motion_basis){.options = t->told, .steps = steps}, NULL);
-    alter_take(n, impact_is_false(t, x, steps, checked), code != OVOID_OK);
+    alter_take(n, impact_is_false(t, x, steps), code != OVOID_OK);
 }
-static void tell_approach(const truth *t, const ovoid_approach *x, const ovoid_approach *right, size_t checked,
-                          alter_count *n) {
+static void tell_approach(const truth *t, const ovoid_approach *x, const ovoid_approach *right, alter_count *n) {
     ovoid_code code = ovoid_approach_verify(&(ovoid_moving_pair){t->c.a, t->c.b, 0}, x,
                                             &(ovoid_motion_basis){.options = t->told, .steps = steps}, NULL);
-    alter_take(n, approach_is_false(t, x, right, steps, checked), code != OVOID_OK);
+    alter_take(n, approach_is_false(t, x, right, steps), code != OVOID_OK);
 }
 
 enum { IMPACT_FIELDS = 13, APPROACH_FIELDS = 11, STEP_FIELDS = 5, FORGED = 11 };
@@ -208,7 +206,7 @@ static void lie_about_impact(const truth *t, const ovoid_impact *right) {
     ovoid_impact other = ovoid_impact_find(&(ovoid_moving_pair){t->c.a, t->c.b, t->margin}, &half), x = *right;
     alter_walk w = alter_walk_make(&impact_table, &x, sizeof x, &other);
     for (alter_count *n; (n = alter_next(&w));)
-        if (x.step_count <= CAPACITY) tell_impact(t, &x, right->step_count, n);
+        if (x.step_count <= CAPACITY) tell_impact(t, &x, n);
 }
 
 static void lie_about_approach(const truth *t, const ovoid_approach *right) {
@@ -216,7 +214,7 @@ static void lie_about_approach(const truth *t, const ovoid_approach *right) {
     ovoid_approach other = ovoid_approach_find(&(ovoid_moving_pair){t->c.a, t->c.b, 0}, &half), x = *right;
     alter_walk w = alter_walk_make(&approach_table, &x, sizeof x, &other);
     for (alter_count *n; (n = alter_next(&w));)
-        if (x.step_count <= CAPACITY) tell_approach(t, &x, right, right->step_count, n);
+        if (x.step_count <= CAPACITY) tell_approach(t, &x, right, n);
 }
 
 // The first, the last and one step in between.
@@ -225,7 +223,7 @@ static void lie_about_steps(const truth *t, const ovoid_impact *right) {
     for (int k = 0; k < 3 && count; k++) {
         const ovoid_step other = steps[(which[k] + 1) % count];
         alter_walk w = alter_walk_make(&step_table, &steps[which[k]], sizeof *steps, &other);
-        for (alter_count *n; (n = alter_next(&w));) tell_impact(t, right, count, n);
+        for (alter_count *n; (n = alter_next(&w));) tell_impact(t, right, n);
     }
 }
 
@@ -243,7 +241,7 @@ static ovoid_impact make_free(const truth *t, double begin, double end) {
 static void forge(const truth *t, const char *name, int which, const ovoid_impact *x) {
     alter_name = name;
     alter_way = "forged";
-    tell_impact(t, x, CAPACITY, &forged_counts[which]);
+    tell_impact(t, x, &forged_counts[which]);
 }
 
 // Free at one time, where the bodies may be within the margin.
@@ -361,7 +359,7 @@ static void forge_refusals(const truth *t) {
                 .status = (ovoid_status)status, .limit = (ovoid_limit)limit, .lower = -INFINITY, .upper = INFINITY};
             alter_name = "approach refused";
             alter_way = "forged";
-            tell_approach(t, &y, &y, 0, &forged_counts[6]);
+            tell_approach(t, &y, &y, &forged_counts[6]);
         }
     }
 }
@@ -372,18 +370,18 @@ static void forge_touching(const truth *t, const ovoid_approach *right) {
     alter_way = "forged";
     alter_name = "undecided of a decided bracket";
     x.status = OVOID_UNDECIDED;
-    tell_approach(t, &x, right, right->step_count, &forged_counts[10]);
+    tell_approach(t, &x, right, &forged_counts[10]);
     alter_name = "a bracket farther away";
     x = *right;
     x.lower = x.upper = right->upper + t->c.size;
     x.status = x.lower > 0 ? OVOID_SEPARATED : OVOID_OVERLAPPING;
-    tell_approach(t, &x, right, right->step_count, &forged_counts[10]);
+    tell_approach(t, &x, right, &forged_counts[10]);
     x = *right;
     alter_name = "touching within a wide bracket";
     x.status = OVOID_TOUCHING;
     x.lower = fmin(x.lower, -t->c.size);
     x.upper = fmax(x.upper, t->c.size);
-    tell_approach(t, &x, right, right->step_count, &forged_counts[10]);
+    tell_approach(t, &x, right, &forged_counts[10]);
 }
 
 // The distance at a time outside of those queried, as the smallest.
@@ -396,7 +394,7 @@ static void forge_nearest(const truth *t, const ovoid_approach *right, double ti
     x.status = x.upper < 0 ? OVOID_OVERLAPPING : x.lower > 0 ? OVOID_SEPARATED : OVOID_UNDECIDED;
     alter_name = "nearest outside of the times";
     alter_way = "forged";
-    tell_approach(t, &x, right, right->step_count, &forged_counts[7]);
+    tell_approach(t, &x, right, &forged_counts[7]);
 }
 
 // ---- cases
@@ -421,7 +419,7 @@ static void try_impact(truth *t, uint64_t *s) {
     CHECK_EQ(ovoid_impact_verify(&(ovoid_moving_pair){t->c.a, t->c.b, t->margin}, &right,
                                  &(ovoid_motion_basis){.options = t->told, .steps = steps}, NULL),
              OVOID_OK);
-    CHECK(!impact_is_false(t, &right, steps, CAPACITY));
+    CHECK(!impact_is_false(t, &right, steps));
     lie_about_impact(t, &right);
     lie_about_steps(t, &right);
     forge_times(t, &right);
@@ -439,7 +437,7 @@ static void try_approach(truth *t) {
     CHECK_EQ(ovoid_approach_verify(&(ovoid_moving_pair){t->c.a, t->c.b, 0}, &right,
                                    &(ovoid_motion_basis){.options = t->told, .steps = steps}, NULL),
              OVOID_OK);
-    CHECK(!approach_is_false(t, &right, &right, steps, CAPACITY));
+    CHECK(!approach_is_false(t, &right, &right, steps));
     lie_about_approach(t, &right);
     forge_touching(t, &right);
     for (int i = 0; i <= 8; i++) forge_nearest(t, &right, t->first + (t->last - t->first) * i / 8);
