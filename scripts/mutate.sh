@@ -70,7 +70,7 @@ tests_of() {
     robot_compare) echo "test_robot_compare" ;;
     robot_watch) echo "test_robot_watch" ;;
     ompl) echo "test_hpp_ompl" ;;
-    fcl) echo "test_hpp_fcl test_hpp_fcl_cache test_hpp_fcl_contacts test_hpp_fcl_manager test_fcl_preload.sh" ;;
+    fcl) echo "test_hpp_fcl test_hpp_fcl_cache test_hpp_fcl_contacts test_hpp_fcl_meshes test_hpp_fcl_manager test_fcl_preload.sh" ;;
     adapters) echo "test_adapter_bullet test_adapter_mujoco test_adapter_dart" ;;
     robot_cli) echo "test_cli.sh:robot:robot_check:robot_path:robot_states:robot_attach test_cli_altered_paths.sh" ;;
     robot_spheres_cli) echo "test_cli.sh:robot_spheres:robot_matrix" ;;

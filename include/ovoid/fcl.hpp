@@ -19,6 +19,7 @@
 #include "ovoid/fcl/cache.hpp"
 #include "ovoid/fcl/contacts.hpp"
 #include "ovoid/fcl/manager.hpp"
+#include "ovoid/fcl/meshes.hpp"
 #include "ovoid/fcl/motions.hpp"
 #include "ovoid/fcl/planes.hpp"
 #include "ovoid/fcl/swept.hpp"
@@ -214,10 +215,12 @@ template <class S> bool collide_bodies(contact_list<S> &to, const posed<S> &a, c
     }
     if (make_points_pair(a, b, swept) && collide_swept<S>(to, {&swept[0], &swept[1]})) return true;
     if (!place_couple(a, b, couple)) return false;
-    if (couple.has_mesh())
-        collide_meshes(to, couple);
-    else
+    if (couple.has_mesh()) {
+        swept_parts<S> parts_a(*couple.a, a.self(), a.pose), parts_b(*couple.b, b.self(), b.pose);
+        collide_meshes(to, couple, parts_a, parts_b);
+    } else {
         collide_shapes(to, couple);
+    }
     return true;
 }
 
