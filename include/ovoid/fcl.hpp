@@ -73,13 +73,16 @@ template <class S>
 OVOID_FCL_INLINE bool make_swept_pair(const posed<S> &a, const posed<S> &b, ovoid_swept_sphere (&to)[2]) {
     return make_swept<S>(a.self(), a.pose, to[0]) && make_swept<S>(b.self(), b.pose, to[1]);
 }
-/// A convex polytope beside a cylinder, a cone or an ellipsoid; of other pairs with a polytope the shapes answer
-/// faster.
+/// A convex polytope or a triangle beside a cylinder, a cone or an ellipsoid; of other pairs with one of them the
+/// shapes answer faster.
 template <class S> bool make_points_pair(const posed<S> &a, const posed<S> &b, ovoid_swept_sphere (&to)[2]) {
     const auto is_round = [](const posed<S> &x) {
         return x.type == ::fcl::GEOM_CYLINDER || x.type == ::fcl::GEOM_CONE || x.type == ::fcl::GEOM_ELLIPSOID;
     };
-    const bool is_one = (a.type == ::fcl::GEOM_CONVEX && is_round(b)) || (b.type == ::fcl::GEOM_CONVEX && is_round(a));
+    const auto has_points = [](const posed<S> &x) {
+        return x.type == ::fcl::GEOM_CONVEX || x.type == ::fcl::GEOM_TRIANGLE;
+    };
+    const bool is_one = (has_points(a) && is_round(b)) || (has_points(b) && is_round(a));
     return is_one && make_swept_or_points<S>(a.self(), a.pose, to[0]) &&
            make_swept_or_points<S>(b.self(), b.pose, to[1]);
 }
