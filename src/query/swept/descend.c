@@ -74,9 +74,21 @@ static int take_facet(const cores *p, int is_b, vec3 n, least_overlap *to) {
 
 // ---- pieces
 
-static int measure_piece(const cores *p, const patch_plane *of, piece *to) {
-    const patch_plane back = {vec3_neg(of->n), {vec3_neg(of->e[0]), vec3_neg(of->e[1])}};
-    if (!patch_find(p->a, to->a, of, &to->on_a) || !patch_find(p->b, to->b, &back, &to->on_b)) return 0;
+// Of two pieces with the same one of a core that is measured once. 0 if one is not smooth.
+static int measure_piece(const cores *p, least_overlap *at, int i) {
+    const patch_plane *of = &at->of, back = {vec3_neg(of->n), {vec3_neg(of->e[0]), vec3_neg(of->e[1])}};
+    piece *to = &at->pieces[i];
+    int same_a = 0, same_b = 0;
+    while (same_a < i && at->pieces[same_a].a != to->a) same_a++;
+    while (same_b < i && at->pieces[same_b].b != to->b) same_b++;
+    if (same_a < i)
+        to->on_a = at->pieces[same_a].on_a;
+    else if (!patch_find(p->a, to->a, of, &to->on_a))
+        return 0;
+    if (same_b < i)
+        to->on_b = at->pieces[same_b].on_b;
+    else if (!patch_find(p->b, to->b, &back, &to->on_b))
+        return 0;
     vec3 v = vec3_sub(vec3_sub(to->on_a.at, to->on_b.at), p->d);
     to->value = vec3_dot(v, of->n);
     to->g[0] = vec3_dot(v, of->e[0]);
@@ -105,10 +117,35 @@ static measured measure_pieces(const cores *p, least_overlap *at) {
     if (!is_known) at->pieces[place] = (piece){.a = a, .b = b};
     at->value = -INFINITY;
     for (int i = 0; i < at->count; i++) {
-        if (!measure_piece(p, &at->of, &at->pieces[i])) return NOT_SMOOTH;
+        if (!measure_piece(p, at, i)) return NOT_SMOOTH;
         at->value = max2(at->value, at->pieces[i].value);
     }
     return is_known ? AS_KNOWN : NEW_PIECE;
+}
+
+// The piece next to the greatest of a core along n, or that itself.
+static unsigned find_next(const ovoid_swept_sphere *s, unsigned of, vec3 n) {
+    switch (s->core) {
+    case OVOID_SWEPT_SEGMENT:
+    case OVOID_SWEPT_CYLINDER:
+    case OVOID_SWEPT_CONE: return 1 - of;
+    case OVOID_SWEPT_BOX: {
+        const vec3 m = patch_turn(s, n);
+        const double x = s->half[0] * fabs(m.x), y = s->half[1] * fabs(m.y), z = s->half[2] * fabs(m.z);
+        return of ^ (x < y ? (x < z ? 1 : 4) : y < z ? 2 : 4);
+    }
+    default: return of;
+    }
+}
+
+static void begin_pieces(const cores *p, vec3 n, least_overlap *at) {
+    const unsigned a = patch_choose(p->a, n), b = patch_choose(p->b, vec3_neg(n));
+    const unsigned a2 = find_next(p->a, a, n), b2 = find_next(p->b, b, vec3_neg(n));
+    at->count = 0;
+    at->pieces[at->count++] = (piece){.a = a, .b = b};
+    if (a2 != a) at->pieces[at->count++] = (piece){.a = a2, .b = b};
+    if (b2 != b) at->pieces[at->count++] = (piece){.a = a, .b = b2};
+    if (a2 != a && b2 != b) at->pieces[at->count++] = (piece){.a = a2, .b = b2};
 }
 
 static void exchange_pieces(least_overlap *at, int i, int k) {
@@ -165,8 +202,8 @@ static plane_step step_of_one(const least_overlap *at) {
     return (plane_step){-(q.yy * g[0] - q.xy * g[1]) / det, -(q.xx * g[1] - q.xy * g[0]) / det};
 }
 
-// Two pieces stay equal: along the line on which they are, to the least. 0 if a piece was dropped.
-static int step_of_two(least_overlap *at, plane_step *to) {
+// Two pieces stay equal: along the line on which they are, to the least within reach. 0 if a piece was dropped.
+static int step_of_two(least_overlap *at, double reach, plane_step *to) {
     piece *p = &at->pieces[0], *q = &at->pieces[1];
     double gx = p->g[0] - q->g[0], gy = p->g[1] - q->g[1], length = sqrt(gx * gx + gy * gy);
     if (!(length > 1e-200)) return drop(at, p->value < q->value ? 0 : 1), 0;
@@ -175,6 +212,7 @@ static int step_of_two(least_overlap *at, plane_step *to) {
     plane_step t = {off * fx, off * fy}, along = multiply(&form, t), e = multiply(&form, (plane_step){ex, ey});
     double bend = ex * e.x + ey * e.y, slope = ex * (p->g[0] + along.x) + ey * (p->g[1] + along.y);
     double s = bend > 0.05 * at->value ? -slope / bend : slope > 0 ? -LONGEST : LONGEST;
+    s = max2(-reach, min2(reach, s));
     t.x += s * ex, t.y += s * ey;
     along = multiply(&form, t);
     double weight = -(fx * (q->g[0] + along.x) + fy * (q->g[1] + along.y)) / length;
@@ -206,10 +244,10 @@ static int step_of_three(least_overlap *at, plane_step *to) {
     return 1;
 }
 
-static plane_step step_of_active(least_overlap *at) {
+static plane_step step_of_active(least_overlap *at, double reach) {
     plane_step t;
     if (at->active == 3 && step_of_three(at, &t)) return t;
-    if (at->active == 2 && step_of_two(at, &t)) return t;
+    if (at->active == 2 && step_of_two(at, reach, &t)) return t;
     at->pieces[0].weight = 1;
     return step_of_one(at);
 }
@@ -252,7 +290,7 @@ static plane_step find_step(least_overlap *at, double reach) {
     plane_step t = {0, 0};
     if (at->active == 0) at->active = 1;
     for (int k = 0; k < 2 * LEAST_PIECES; k++) {
-        t = limit_step(step_of_active(at), reach);
+        t = limit_step(step_of_active(at, reach), reach);
         int most = 0;
         double now = -INFINITY, other = -INFINITY;
         for (int i = 0; i < at->count; i++) {
@@ -305,6 +343,7 @@ int cores_descend(const cores *p, vec3 from, least_overlap *to) {
             if (take_facet(p, is_b, n, to)) return 1;
         }
         to->of = patch_make_plane(n);
+        if (to->count == 0) begin_pieces(p, n, to);
         measured is = measure_pieces(p, to);
         if (is == NOT_SMOOTH) {
             n = vec3_unit(vec3_add_scaled(n, to->of.e[0], ASIDE));
