@@ -53,8 +53,9 @@ static double measure_inside(const ovoid_swept_sphere *s, int facet, vec3 y) {
     return least;
 }
 
-// The minimum along the normal of a facet near n, if the other core's deepest point is over it.
-static int take_facet(const cores *p, int is_b, vec3 n, least_overlap *to) {
+// The minimum along the normal of a facet near n, if the other core's deepest point is over it, and it is not above
+// `most`, the overlap along n: else there is another minimum nearby.
+static int take_facet(const cores *p, int is_b, vec3 n, double most, least_overlap *to) {
     const ovoid_swept_sphere *x = is_b ? p->b : p->a, *y = is_b ? p->a : p->b;
     vec3 normal;
     int facet = find_facet(x, is_b ? vec3_neg(n) : n, &normal);
@@ -64,6 +65,7 @@ static int take_facet(const cores *p, int is_b, vec3 n, least_overlap *to) {
     double inside = measure_inside(x, facet, at);
     if (!(inside > 0)) return 0;
     double value = x->half[facet] - vec3_dot(normal, at);
+    if (value > most) return 0;
     vec3 foot = vec3_add_scaled(at, normal, value);
     *to = (least_overlap){.value = value, .lowest = value, .inside = inside};
     to->of = patch_make_plane(is_b ? vec3_neg(normal) : normal);
@@ -330,7 +332,7 @@ static int is_flat(least_overlap *at, double size) {
     return at->slope <= FLAT * size && at->value - at->lowest <= EVEN * size;
 }
 
-int cores_descend(const cores *p, vec3 from, least_overlap *to) {
+int cores_descend(const cores *p, vec3 from, double height, least_overlap *to) {
     vec3 n = from, best = from;
     double least = INFINITY, reach = FIRST, last = FIRST;
     int is_seen[2] = {0, 0};
@@ -340,7 +342,7 @@ int cores_descend(const cores *p, vec3 from, least_overlap *to) {
             vec3 normal;
             if (is_seen[is_b] || find_facet(is_b ? p->b : p->a, is_b ? vec3_neg(n) : n, &normal) < 0) continue;
             is_seen[is_b] = 1;
-            if (take_facet(p, is_b, n, to)) return 1;
+            if (take_facet(p, is_b, n, min2(height, least) + EVEN * p->size, to)) return 1;
         }
         to->of = patch_make_plane(n);
         if (to->count == 0) begin_pieces(p, n, to);

@@ -14,6 +14,7 @@
 
 #include "exact/epa_lanes.h"
 #include "pair/cover.h"
+#include "query/swept/divide.h"
 
 enum { DESCENTS = 5 };
 // Directions nearer than that to a minimum's lead to it.
@@ -104,14 +105,14 @@ static simd_difference leave(enclosure *g, enclose_turn turn) {
     return (simd_difference){INFINITY, 0, 0, 0, 0, 0};
 }
 
-// Descends from a direction along which the overlap is less than elsewhere, or near to it. 1 if *to is what the growth
-// goes on with.
-static int descend(enclosure *g, vec3 n, double low, simd_difference *to) {
+// Descends from a direction whose support is no higher than elsewhere, or near to it. 1 if *to is what the growth goes
+// on with.
+static int descend(enclosure *g, vec3 n, double height, double low, simd_difference *to) {
     least_overlap found;
     enclose_point points[3] = {{{0, 0, 0}, {0, 0, 0}}};
     found.count = 0;
     g->descents++;
-    if (!cores_descend(g->of, n, &found)) return 0;
+    if (!cores_descend(g->of, n, height, &found)) return 0;
     if (!(found.value > 0)) {
         *to = leave(g, TURN_LEFT);
         return 1;
@@ -141,7 +142,7 @@ static simd_difference find(const void *bodies, vec3 reverse) {
     int is_less = height < g->least->value - 0.1 * g->tolerance;
     int is_near = height - low < 0.1 * height && (is_less || height < 1.003 * g->wanted) &&
                   vec3_dot(n, g->least->of.n) < SAME_COSINE;
-    if (is_near && g->descents < DESCENTS && descend(g, n, low, &other)) return other;
+    if (is_near && g->descents < DESCENTS && descend(g, n, height, low, &other)) return other;
     return offer_point(g, end, reverse);
 }
 
@@ -219,6 +220,8 @@ int cores_enclose(const cores *p, double claim, double tolerance, least_overlap 
         set_wanted(&g);
         end = grow(&g);
     } while (g.turn == TURN_ANEW);
+    *lower = g.wanted - 7 * claim;
+    if (end == EPA8_LEFT && g.turn == TURN_ON && at->value < INFINITY) return cores_divide(p, at, g.wanted);
     if (end != EPA8_NARROW || g.turn == TURN_LEFT) return 0;
     if (g.lanes.low[g.lanes.nearest] < g.wanted && !take_face(&g)) return 0;
     *lower = g.wanted - 7 * claim;

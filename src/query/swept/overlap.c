@@ -113,7 +113,7 @@ ovoid_verdict swept_measure_overlap(const swept_placed *p, ovoid_witness *witnes
         return answer(p, &least, lower, witness);
     }
     least.count = 0;
-    if (!cores_descend(&s.of, s.n, &least)) {
+    if (!cores_descend(&s.of, s.n, s.value, &least)) {
         least.value = INFINITY;
         least.of = patch_make_plane(s.n);
     } else if (!(least.value > 4 * p->claim)) {
