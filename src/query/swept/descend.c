@@ -7,7 +7,7 @@
 // Around a facet's normal no piece of the rim is smooth: facets are looked at by themselves, in closed form.
 #include "query/swept/descend.h"
 
-enum { DESCENT_STEPS = 12 };
+enum { DESCENT_STEPS = 16 };
 // The cosine of the angle within which a facet is looked at.
 #define FACET_COSINE 0.94
 // The first step at most, and the longest one.
@@ -125,6 +125,18 @@ static measured measure_pieces(const cores *p, least_overlap *at) {
     return is_known ? AS_KNOWN : NEW_PIECE;
 }
 
+// The point of a hull that is the farthest along m beside one of them, or that itself.
+static unsigned find_second(const ovoid_swept_sphere *s, unsigned of, vec3 m) {
+    unsigned best = of;
+    double most = -INFINITY;
+    for (unsigned i = 0; i < s->count; i++) {
+        double height = i == of ? -INFINITY : vec3_dot(vec3_at(s->points, i), m);
+        best = height > most ? i : best;
+        most = max2(height, most);
+    }
+    return best;
+}
+
 // The piece next to the greatest of a core along n, or that itself.
 static unsigned find_next(const ovoid_swept_sphere *s, unsigned of, vec3 n) {
     switch (s->core) {
@@ -136,6 +148,7 @@ static unsigned find_next(const ovoid_swept_sphere *s, unsigned of, vec3 n) {
         const double x = s->half[0] * fabs(m.x), y = s->half[1] * fabs(m.y), z = s->half[2] * fabs(m.z);
         return of ^ (x < y ? (x < z ? 1 : 4) : y < z ? 2 : 4);
     }
+    case OVOID_SWEPT_POINTS: return find_second(s, of, patch_turn(s, n));
     default: return of;
     }
 }
@@ -154,6 +167,15 @@ static void exchange_pieces(least_overlap *at, int i, int k) {
     piece kept = at->pieces[i];
     at->pieces[i] = at->pieces[k];
     at->pieces[k] = kept;
+}
+
+// Makes the greatest piece the only active one: those of a longer step may not be the ones of a shorter one.
+static void start_anew(least_overlap *at) {
+    int most = 0;
+    for (int i = 1; i < at->count; i++)
+        if (at->pieces[i].value > at->pieces[most].value) most = i;
+    exchange_pieces(at, 0, most);
+    at->active = 1;
 }
 
 // Takes a piece's weight; the others share it.
@@ -334,8 +356,8 @@ static int is_flat(least_overlap *at, double size) {
 
 int cores_descend(const cores *p, vec3 from, double height, least_overlap *to) {
     vec3 n = from, best = from;
-    double least = INFINITY, reach = FIRST, last = FIRST;
-    int is_seen[2] = {0, 0};
+    double least = INFINITY, reach = FIRST, last = FIRST, growth = 2;
+    int is_seen[2] = {0, 0}, is_back = 0;
     to->active = 0;
     for (int k = 0; k < DESCENT_STEPS; k++) {
         for (int is_b = 0; is_b < 2; is_b++) {
@@ -353,11 +375,15 @@ int cores_descend(const cores *p, vec3 from, double height, least_overlap *to) {
         }
         if (!(to->value > 0)) return 1;
         if (to->value > least + EVEN * p->size && is == AS_KNOWN) {
-            reach = 0.25 * last;
+            reach = 0.3 * last;
+            growth = 1.25;
             n = best;
+            is_back = 1;
             continue;
         }
         if (to->value < least) least = to->value, best = n;
+        if (is_back) start_anew(to);
+        is_back = 0;
         plane_step t = find_step(to, reach);
         if (is_flat(to, p->size)) {
             to->inside = 0;
@@ -365,7 +391,7 @@ int cores_descend(const cores *p, vec3 from, double height, least_overlap *to) {
             return 1;
         }
         last = sqrt(t.x * t.x + t.y * t.y);
-        reach = min2(LONGEST, max2(reach, 2 * last));
+        reach = min2(LONGEST, max2(reach, growth * last));
         n = vec3_unit(vec3_add_scaled(vec3_add_scaled(n, to->of.e[0], t.x), to->of.e[1], t.y));
     }
     return 0;
