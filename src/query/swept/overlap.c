@@ -8,7 +8,7 @@
 
 #include "query/swept/enclose.h"
 
-enum { EXCHANGES = 3 };
+enum { EXCHANGES = 2 };
 
 // The radius of a ball in the core that touches its surface from within at its farthest point along n, where that is
 // `reach` along n from the centre. Of an ellipsoid: with E its form, q another point of it and p that one,
