@@ -140,8 +140,8 @@ static simd_difference find(const void *bodies, vec3 reverse) {
     simd_difference other;
     // Where the surface is not much farther than the face, there is a minimum near, to which points come slowly.
     int is_less = height < g->least->value - 0.1 * g->tolerance;
-    int is_near = height - low < 0.1 * height && (is_less || height < 1.003 * g->wanted) &&
-                  vec3_dot(n, g->least->of.n) < SAME_COSINE;
+    int is_other = !(g->least->value < INFINITY) || vec3_dot(n, g->least->of.n) < SAME_COSINE;
+    int is_near = height - low < 0.1 * height && (is_less || height < 1.003 * g->wanted) && is_other;
     if (is_near && g->descents < DESCENTS && descend(g, n, height, low, &other)) return other;
     return offer_point(g, end, reverse);
 }
