@@ -21,8 +21,7 @@ typedef struct division {
 } division;
 
 static int is_far(const vec3 *point, const vec3 corner[3], double wanted) {
-    return (vec3_dot(*point, corner[0]) >= wanted) & (vec3_dot(*point, corner[1]) >= wanted) &
-           (vec3_dot(*point, corner[2]) >= wanted);
+    return min2(vec3_dot(*point, corner[0]), min2(vec3_dot(*point, corner[1]), vec3_dot(*point, corner[2]))) >= wanted;
 }
 
 // Puts the longest side, whose corners have the least cosine, first.
