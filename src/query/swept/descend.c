@@ -446,13 +446,26 @@ static int is_ring_held(const least_overlap *at, angle_ring ring) {
 }
 
 // Of a facet: h >= value cos a + inside sin a at the angle a, which is at least the value up to 2 atan(inside / value).
-static double find_angle_of_facet(const least_overlap *at) {
-    double tangent = at->inside / at->value;
+static double find_angle_of_facet(const least_overlap *at, double inside) {
+    double tangent = inside / at->value;
     return tangent > 0.5 ? 4.0 / 3 : 2 * tangent / (1 - tangent * tangent);
 }
 
+// Three pieces' points make a facet, in which their slopes are their places around the foot: how far this is within; 0
+// if it is not.
+static double find_inside(const least_overlap *at) {
+    double least = INFINITY, most = -INFINITY;
+    for (int i = 0; i < 3; i++) {
+        const double *a = at->pieces[i].g, *b = at->pieces[(i + 1) % 3].g, x = b[0] - a[0], y = b[1] - a[1];
+        double side = (a[0] * y - a[1] * x) / sqrt(x * x + y * y);
+        least = min2(least, side), most = max2(most, side);
+    }
+    return least > 0 ? least : most < 0 ? -most : 0;
+}
+
 double least_overlap_find_angle(const least_overlap *at, double wanted) {
-    if (at->inside > 0) return at->value >= wanted ? 0.999 * find_angle_of_facet(at) : 0;
+    double inside = at->active > 2 ? find_inside(at) : at->inside;
+    if (inside > 0) return at->lowest >= wanted ? 0.999 * find_angle_of_facet(at, inside) : 0;
     if (at->active > 2) return 0;
     double reach = WIDEST;
     while (!is_ring_held(at, make_ring(0, reach, wanted)))

@@ -9,8 +9,8 @@
 // product off, by less than 10 u s together, along which h changes by as much; the point is one of the body to 120 u s.
 #include "query/swept/divide.h"
 
-// The most supports that are asked.
-enum { MOST_CELLS = 300 };
+// The most supports that are asked, and the most times that a triangle is halved.
+enum { MOST_CELLS = 300, MOST_HALVES = 32 };
 
 typedef struct division {
     const cores *of;
@@ -20,34 +20,37 @@ typedef struct division {
     int left; ///< supports that may be asked
 } division;
 
-static int is_far(const vec3 *point, const vec3 corner[3], double wanted) {
-    return min2(vec3_dot(*point, corner[0]), min2(vec3_dot(*point, corner[1]), vec3_dot(*point, corner[2]))) >= wanted;
+// A spherical triangle, and how many times it may be halved.
+typedef struct cell {
+    vec3 corner[3];
+    int left;
+} cell;
+
+static double find_least(const cell *c, vec3 v) {
+    return min2(vec3_dot(v, c->corner[0]), min2(vec3_dot(v, c->corner[1]), vec3_dot(v, c->corner[2])));
 }
 
-// Puts the longest side, whose corners have the least cosine, first.
-static void turn_corners(vec3 corner[3]) {
-    const double last = vec3_dot(corner[0], corner[1]), first = vec3_dot(corner[1], corner[2]),
-                 next = vec3_dot(corner[2], corner[0]);
-    const vec3 kept = corner[0];
-    if (first < last && first <= next)
-        corner[0] = corner[1], corner[1] = corner[2], corner[2] = kept;
-    else if (next < last)
-        corner[0] = corner[2], corner[2] = corner[1], corner[1] = kept;
+// The corner at which the longest side begins: the one whose ends have the least cosine.
+static int find_longest(const cell *c) {
+    const double side0 = vec3_dot(c->corner[0], c->corner[1]), side1 = vec3_dot(c->corner[1], c->corner[2]),
+                 side2 = vec3_dot(c->corner[2], c->corner[0]);
+    return side1 < side0 && side1 <= side2 ? 1 : side2 < side0 ? 2 : 0;
 }
 
-// NOLINTNEXTLINE(misc-no-recursion): each call asks a support, of which there are at most MOST_CELLS
-static int divide(division *d, vec3 a, vec3 b, vec3 c, const vec3 *known) {
-    vec3 corner[3] = {a, b, c};
-    const vec3 n = d->n;
-    if (min2(vec3_dot(n, a), min2(vec3_dot(n, b), vec3_dot(n, c))) >= d->cosine) return 1;
-    if (is_far(known, corner, d->wanted)) return 1;
-    if (d->left-- == 0) return 0;
-    const vec3 middle = vec3_unit(vec3_add(vec3_add(a, b), c)), point = cores_find_ends(d->of, middle).v;
+// known: a point of the difference body.
+// NOLINTNEXTLINE(misc-no-recursion): no cell is halved more than MOST_HALVES times
+static int divide(division *d, const cell *c, const vec3 *known) {
+    if (find_least(c, d->n) >= d->cosine || find_least(c, *known) >= d->wanted) return 1;
+    if (d->left-- <= 0 || c->left == 0) return 0;
+    const vec3 middle = vec3_unit(vec3_add(vec3_add(c->corner[0], c->corner[1]), c->corner[2])),
+               point = cores_find_ends(d->of, middle).v;
     if (vec3_dot(point, middle) < d->wanted) return 0;
-    if (is_far(&point, corner, d->wanted)) return 1;
-    turn_corners(corner);
-    const vec3 half = vec3_unit(vec3_add(corner[0], corner[1]));
-    return divide(d, corner[0], half, corner[2], &point) && divide(d, half, corner[1], corner[2], &point);
+    if (find_least(c, point) >= d->wanted) return 1;
+    const int i = find_longest(c), k = (i + 1) % 3;
+    cell first = *c, last = *c;
+    first.left = last.left = c->left - 1;
+    first.corner[k] = last.corner[i] = vec3_unit(vec3_add(c->corner[i], c->corner[k]));
+    return divide(d, &first, &point) && divide(d, &last, &point);
 }
 
 int cores_divide(const cores *p, const least_overlap *at, double wanted) {
@@ -57,9 +60,10 @@ int cores_divide(const cores *p, const least_overlap *at, double wanted) {
     const vec3 none = {0, 0, 0};
     int is_proven = 1;
     for (int i = 0; i < 8 && is_proven; i++) {
-        const vec3 pole = i & 1 ? vec3_neg(of->n) : of->n, e = i & 2 ? vec3_neg(of->e[0]) : of->e[0],
-                   f = i & 4 ? vec3_neg(of->e[1]) : of->e[1];
-        is_proven = divide(&d, pole, e, f, &none);
+        const cell octant = {{i & 1 ? vec3_neg(of->n) : of->n, i & 2 ? vec3_neg(of->e[0]) : of->e[0],
+                              i & 4 ? vec3_neg(of->e[1]) : of->e[1]},
+                             MOST_HALVES};
+        is_proven = divide(&d, &octant, &none);
     }
     return is_proven;
 }

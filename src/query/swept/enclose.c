@@ -45,9 +45,9 @@ static enclose_point find_end(const enclosure *g, vec3 n) {
     return (enclose_point){ends.v, ends.on_a};
 }
 
-// The points that stand for a minimum; their number.
+// The points that stand for a minimum; their number. Of three pieces their own points show more.
 static int find_points(const enclosure *g, const least_overlap *at, enclose_point points[3]) {
-    double tangent = least_overlap_find_angle(at, g->wanted);
+    double tangent = at->active > 2 ? 0 : least_overlap_find_angle(at, g->wanted);
     if (tangent > 0) {
         points[0].v = vec3_scale(at->of.n, g->wanted * sqrt(1 + tangent * tangent));
         points[0].on_a = (vec3){NAN, NAN, NAN};

@@ -3,7 +3,8 @@
 // - a point of one core, or a ball in it that touches its surface there, is no nearer to leaving the other core, in
 //   closed form. That it has to leave is all that the overlap needs;
 // - two such balls are larger together than the overlap;
-// - a polytope in the difference body holds a ball of that radius (query/swept/enclose.c).
+// - a polytope in the difference body holds a ball of that radius (query/swept/enclose.c); where its faces become
+//   slivers, directions are divided until none is open (query/swept/divide.c).
 #include "query/swept/overlap.h"
 
 #include "query/swept/enclose.h"
