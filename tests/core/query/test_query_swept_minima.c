@@ -1,5 +1,5 @@
-// Local minima of the overlap of two cores (query/swept/descend.c), and the proof by dividing the directions that one is
-// the least of all (query/swept/divide.c), beside the overlaps along random directions and the minima that descents
+// Local minima of the overlap of two cores (query/swept/descend.c), and the proof by dividing the directions that one
+// is the least of all (query/swept/divide.c), beside the overlaps along random directions and the minima that descents
 // from these find: supports are those of the library, which test_query_swept.c holds against shapes.
 #include "query/swept/divide.h"
 
