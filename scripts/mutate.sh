@@ -31,7 +31,7 @@ tests_of() {
     growth) echo "test_simd_epa8 test_judge_capacity $query" ;;
     boxes) echo "test_simd_box_axes test_simd_box_separation test_query_boxes $query" ;;
     closed) echo "test_query_closed test_judge_closed test_query_batch test_prepared test_allowance test_query_boxes $query" ;;
-    swept) echo "test_query_swept" ;;
+    swept) echo "test_query_swept_minima test_query_swept" ;;
     exact) echo "test_linear test_hull $query" ;;
     hull) echo "test_linear test_hull_sort test_hull test_measures test_shape $query" ;;
     shape) echo "test_centered_box test_regular_solid test_measures test_shape test_shape_triangles test_shape_file test_shape_lean test_shape_rim test_shape_ellipsoid $query" ;;
@@ -70,7 +70,7 @@ tests_of() {
     robot_compare) echo "test_robot_compare" ;;
     robot_watch) echo "test_robot_watch" ;;
     ompl) echo "test_hpp_ompl" ;;
-    fcl) echo "test_hpp_fcl test_hpp_fcl_cache test_hpp_fcl_contacts test_hpp_fcl_manager test_fcl_preload.sh" ;;
+    fcl) echo "test_hpp_fcl test_hpp_fcl_cache test_hpp_fcl_contacts test_hpp_fcl_meshes test_hpp_fcl_manager test_fcl_preload.sh" ;;
     adapters) echo "test_adapter_bullet test_adapter_mujoco test_adapter_dart" ;;
     robot_cli) echo "test_cli.sh:robot:robot_check:robot_path:robot_states:robot_attach test_cli_altered_paths.sh" ;;
     robot_spheres_cli) echo "test_cli.sh:robot_spheres:robot_matrix" ;;

@@ -19,6 +19,7 @@
 #include "ovoid/fcl/cache.hpp"
 #include "ovoid/fcl/contacts.hpp"
 #include "ovoid/fcl/manager.hpp"
+#include "ovoid/fcl/meshes.hpp"
 #include "ovoid/fcl/motions.hpp"
 #include "ovoid/fcl/planes.hpp"
 #include "ovoid/fcl/swept.hpp"
@@ -74,13 +75,16 @@ OVOID_FCL_INLINE bool make_swept_pair(const posed<S> &a, const posed<S> &b, ovoi
     return has_extent(a.type) && has_extent(b.type) && make_swept<S>(a.self(), a.pose, to[0]) &&
            make_swept<S>(b.self(), b.pose, to[1]);
 }
-/// A convex polytope beside a cylinder, a cone or an ellipsoid; of other pairs with a polytope the shapes answer
-/// faster.
+/// A convex polytope or a triangle beside a cylinder, a cone or an ellipsoid; of other pairs with one of them the
+/// shapes answer faster.
 template <class S> bool make_points_pair(const posed<S> &a, const posed<S> &b, ovoid_swept_sphere (&to)[2]) {
     const auto is_round = [](const posed<S> &x) {
         return x.type == ::fcl::GEOM_CYLINDER || x.type == ::fcl::GEOM_CONE || x.type == ::fcl::GEOM_ELLIPSOID;
     };
-    const bool is_one = (a.type == ::fcl::GEOM_CONVEX && is_round(b)) || (b.type == ::fcl::GEOM_CONVEX && is_round(a));
+    const auto has_points = [](const posed<S> &x) {
+        return x.type == ::fcl::GEOM_CONVEX || x.type == ::fcl::GEOM_TRIANGLE;
+    };
+    const bool is_one = (has_points(a) && is_round(b)) || (has_points(b) && is_round(a));
     return is_one && make_swept_or_points<S>(a.self(), a.pose, to[0]) &&
            make_swept_or_points<S>(b.self(), b.pose, to[1]);
 }
@@ -214,10 +218,12 @@ template <class S> bool collide_bodies(contact_list<S> &to, const posed<S> &a, c
     }
     if (make_points_pair(a, b, swept) && collide_swept<S>(to, {&swept[0], &swept[1]})) return true;
     if (!place_couple(a, b, couple)) return false;
-    if (couple.has_mesh())
-        collide_meshes(to, couple);
-    else
+    if (couple.has_mesh()) {
+        swept_parts<S> parts_a(*couple.a, a.self(), a.pose), parts_b(*couple.b, b.self(), b.pose);
+        collide_meshes(to, couple, parts_a, parts_b);
+    } else {
         collide_shapes(to, couple);
+    }
     return true;
 }
 

@@ -59,7 +59,7 @@ OVOID_API ovoid_verdict ovoid_swept_collide(ovoid_swept_pair pair);
  * searched and the bodies are apart, to a part in 1e9. Undecided: of cores that overlap, a point on one's surface, in
  * an ellipsoid, or near the axis of a cylinder or a cone, to a part in 1e6 of the size, two that cross in a plane, and
  * up to a tenth of others, most where many translations are as short; numbers as above. witness: written unless
- * undecided; may be NULL. Cost: 10 to 60 ns, of a search 150 to 800 ns, of cores that overlap 0.3 to 10 us.
+ * undecided; may be NULL. Cost: 10 to 60 ns, of a search 150 to 800 ns, of cores that overlap 0.3 to 10 us, few 40 us.
  */
 OVOID_API ovoid_verdict ovoid_swept_depth(ovoid_swept_pair pair, ovoid_witness *witness);
 

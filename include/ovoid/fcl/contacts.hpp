@@ -1,7 +1,6 @@
 /**
  * @file contacts.hpp
- * The contacts of two bodies in FCL's terms, for <ovoid/fcl.hpp>: of two shapes the points of their contact manifold,
- * of a mesh a contact for each of its triangles that meets the other body.
+ * The contacts of two shapes in FCL's terms, for <ovoid/fcl.hpp>: the points of their contact manifold.
  */
 #ifndef OVOID_FCL_CONTACTS_HPP
 #define OVOID_FCL_CONTACTS_HPP
@@ -158,37 +157,6 @@ template <class S> void collide_shapes(contact_list<S> &to, const body_couple &o
         add_deepest(to, -1, -1, ask_depth(pair));
     else
         add_contacts(to, -1, -1, of.shapes());
-}
-
-/// Adds the contact of two parts if they touch.
-template <class S>
-void collide_parts(contact_list<S> &to, const body_couple &of, std::uint32_t part_a, std::uint32_t part_b) {
-    const ovoid_pair pair = of.pieces(part_a, part_b);
-    const int i = of.a->solid() ? static_cast<int>(part_a) : -1, j = of.b->solid() ? static_cast<int>(part_b) : -1;
-    if (!is_hit(ovoid_collide(&pair, nullptr, nullptr))) return;
-    if (!to.is_detailed()) return to.add(i, j);
-    const measured depth = ask_depth(pair);
-    if (is_hit(depth.bracket)) add_deepest(to, i, j, depth);
-}
-
-/// The contacts of a mesh with a shape or a mesh. One wanted: that of the two parts that decide. More: those of all
-/// pairs of parts that touch.
-template <class S> void collide_meshes(contact_list<S> &to, const body_couple &of) {
-    const ovoid_body_pair pair = of.bodies();
-    const ovoid_body_answer answer = ovoid_body_collide(&pair, nullptr, nullptr);
-    if (!is_hit(answer.deciding)) return;
-    const std::size_t before = to.room();
-    if (before > 1)
-        search_pairs(of, answer, [&](std::uint32_t i, std::uint32_t j) {
-            collide_parts(to, of, i, j);
-            return to.room() == 0;
-        });
-    if (to.room() < before) return;
-    // One is wanted, or rounding lets only the whole query see the contact.
-    const int i = of.a->solid() ? static_cast<int>(answer.part_a) : -1,
-              j = of.b->solid() ? static_cast<int>(answer.part_b) : -1;
-    if (!to.is_detailed()) return to.add(i, j);
-    add_deepest(to, i, j, ask_depth(of.pieces(answer.part_a, answer.part_b)));
 }
 
 } // namespace detail

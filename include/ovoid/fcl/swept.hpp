@@ -55,20 +55,20 @@ OVOID_FCL_INLINE bool make_box(const ::fcl::Vector3<S> &lengths, double part, ov
 /// The most vertices of a convex polytope that are read in each step of a search; of more its shape's tables answer.
 constexpr std::size_t most_swept_points = 32;
 
-/// A convex polytope, but for its centre, with the mean of its vertices as the point in the middle.
+/// A convex polytope or a triangle, but for its centre, with the mean of its corners as the point in the middle.
 template <class S>
-bool make_points(const std::vector<::fcl::Vector3<S>> &vertices, const ::fcl::Transform3<S> &t,
+bool make_points(const ::fcl::Vector3<S> *corners, std::size_t count, const ::fcl::Transform3<S> &t,
                  ovoid_swept_sphere &to) {
     // Numbers in single precision would have to be copied.
-    if (!std::is_same<S, double>::value || vertices.empty() || vertices.size() > most_swept_points) return false;
+    if (!std::is_same<S, double>::value || count == 0 || count > most_swept_points) return false;
     double sum[3] = {0, 0, 0};
-    for (const auto &v : vertices)
-        for (int k = 0; k < 3; k++) sum[k] += static_cast<double>(v[k]);
+    for (std::size_t i = 0; i < count; i++)
+        for (int k = 0; k < 3; k++) sum[k] += static_cast<double>(corners[i][k]);
     to.radius = 0;
     to.core = OVOID_SWEPT_POINTS;
-    to.points = reinterpret_cast<const double *>(vertices.data());
-    to.count = static_cast<std::uint32_t>(vertices.size());
-    for (int k = 0; k < 3; k++) to.half[k] = sum[k] / static_cast<double>(vertices.size());
+    to.points = reinterpret_cast<const double *>(corners);
+    to.count = static_cast<std::uint32_t>(count);
+    for (int k = 0; k < 3; k++) to.half[k] = sum[k] / static_cast<double>(count);
     return set_axes<S>(t, to);
 }
 
@@ -107,11 +107,17 @@ OVOID_FCL_INLINE bool make_swept(const typed<S> &g, const ::fcl::Transform3<S> &
     to.center = to_vec3<S>(t.translation());
     return true;
 }
-/// The same of these types and of a convex polytope.
+/// The same of these types, of a convex polytope and of a triangle.
 template <class S> bool make_swept_or_points(const typed<S> &g, const ::fcl::Transform3<S> &t, ovoid_swept_sphere &to) {
-    if (g.type != ::fcl::GEOM_CONVEX) return make_swept<S>(g, t, to);
     to.center = to_vec3<S>(t.translation());
-    return make_points<S>(static_cast<const ::fcl::Convex<S> *>(g.of)->getVertices(), t, to);
+    if (g.type == ::fcl::GEOM_CONVEX) {
+        const auto &corners = static_cast<const ::fcl::Convex<S> *>(g.of)->getVertices();
+        return make_points<S>(corners.data(), corners.size(), t, to);
+    }
+    if (g.type != ::fcl::GEOM_TRIANGLE) return make_swept<S>(g, t, to);
+    // Its corners are three members, which are read as an array where they lie as one.
+    const auto *s = static_cast<const ::fcl::TriangleP<S> *>(g.of);
+    return &s->b == &s->a + 1 && &s->c == &s->a + 2 && make_points<S>(&s->a, 3, t, to);
 }
 
 /// Are the contacts of two swept spheres those of faces? Else they have one.

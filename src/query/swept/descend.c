@@ -7,7 +7,7 @@
 // Around a facet's normal no piece of the rim is smooth: facets are looked at by themselves, in closed form.
 #include "query/swept/descend.h"
 
-enum { DESCENT_STEPS = 12 };
+enum { DESCENT_STEPS = 16 };
 // The cosine of the angle within which a facet is looked at.
 #define FACET_COSINE 0.94
 // The first step at most, and the longest one.
@@ -53,8 +53,9 @@ static double measure_inside(const ovoid_swept_sphere *s, int facet, vec3 y) {
     return least;
 }
 
-// The minimum along the normal of a facet near n, if the other core's deepest point is over it.
-static int take_facet(const cores *p, int is_b, vec3 n, least_overlap *to) {
+// The minimum along the normal of a facet near n, if the other core's deepest point is over it, and it is not above
+// `most`, the overlap along n: else there is another minimum nearby.
+static int take_facet(const cores *p, int is_b, vec3 n, double most, least_overlap *to) {
     const ovoid_swept_sphere *x = is_b ? p->b : p->a, *y = is_b ? p->a : p->b;
     vec3 normal;
     int facet = find_facet(x, is_b ? vec3_neg(n) : n, &normal);
@@ -64,6 +65,7 @@ static int take_facet(const cores *p, int is_b, vec3 n, least_overlap *to) {
     double inside = measure_inside(x, facet, at);
     if (!(inside > 0)) return 0;
     double value = x->half[facet] - vec3_dot(normal, at);
+    if (value > most) return 0;
     vec3 foot = vec3_add_scaled(at, normal, value);
     *to = (least_overlap){.value = value, .lowest = value, .inside = inside};
     to->of = patch_make_plane(is_b ? vec3_neg(normal) : normal);
@@ -74,9 +76,21 @@ static int take_facet(const cores *p, int is_b, vec3 n, least_overlap *to) {
 
 // ---- pieces
 
-static int measure_piece(const cores *p, const patch_plane *of, piece *to) {
-    const patch_plane back = {vec3_neg(of->n), {vec3_neg(of->e[0]), vec3_neg(of->e[1])}};
-    if (!patch_find(p->a, to->a, of, &to->on_a) || !patch_find(p->b, to->b, &back, &to->on_b)) return 0;
+// Of two pieces with the same one of a core that is measured once. 0 if one is not smooth.
+static int measure_piece(const cores *p, least_overlap *at, int i) {
+    const patch_plane *of = &at->of, back = {vec3_neg(of->n), {vec3_neg(of->e[0]), vec3_neg(of->e[1])}};
+    piece *to = &at->pieces[i];
+    int same_a = 0, same_b = 0;
+    while (same_a < i && at->pieces[same_a].a != to->a) same_a++;
+    while (same_b < i && at->pieces[same_b].b != to->b) same_b++;
+    if (same_a < i)
+        to->on_a = at->pieces[same_a].on_a;
+    else if (!patch_find(p->a, to->a, of, &to->on_a))
+        return 0;
+    if (same_b < i)
+        to->on_b = at->pieces[same_b].on_b;
+    else if (!patch_find(p->b, to->b, &back, &to->on_b))
+        return 0;
     vec3 v = vec3_sub(vec3_sub(to->on_a.at, to->on_b.at), p->d);
     to->value = vec3_dot(v, of->n);
     to->g[0] = vec3_dot(v, of->e[0]);
@@ -105,16 +119,63 @@ static measured measure_pieces(const cores *p, least_overlap *at) {
     if (!is_known) at->pieces[place] = (piece){.a = a, .b = b};
     at->value = -INFINITY;
     for (int i = 0; i < at->count; i++) {
-        if (!measure_piece(p, &at->of, &at->pieces[i])) return NOT_SMOOTH;
+        if (!measure_piece(p, at, i)) return NOT_SMOOTH;
         at->value = max2(at->value, at->pieces[i].value);
     }
     return is_known ? AS_KNOWN : NEW_PIECE;
+}
+
+// The point of a hull that is the farthest along m beside one of them, or that itself.
+static unsigned find_second(const ovoid_swept_sphere *s, unsigned of, vec3 m) {
+    unsigned best = of;
+    double most = -INFINITY;
+    for (unsigned i = 0; i < s->count; i++) {
+        double height = i == of ? -INFINITY : vec3_dot(vec3_at(s->points, i), m);
+        best = height > most ? i : best;
+        most = max2(height, most);
+    }
+    return best;
+}
+
+// The piece next to the greatest of a core along n, or that itself.
+static unsigned find_next(const ovoid_swept_sphere *s, unsigned of, vec3 n) {
+    switch (s->core) {
+    case OVOID_SWEPT_SEGMENT:
+    case OVOID_SWEPT_CYLINDER:
+    case OVOID_SWEPT_CONE: return 1 - of;
+    case OVOID_SWEPT_BOX: {
+        const vec3 m = patch_turn(s, n);
+        const double x = s->half[0] * fabs(m.x), y = s->half[1] * fabs(m.y), z = s->half[2] * fabs(m.z);
+        return of ^ (x < y ? (x < z ? 1 : 4) : y < z ? 2 : 4);
+    }
+    case OVOID_SWEPT_POINTS: return find_second(s, of, patch_turn(s, n));
+    default: return of;
+    }
+}
+
+static void begin_pieces(const cores *p, vec3 n, least_overlap *at) {
+    const unsigned a = patch_choose(p->a, n), b = patch_choose(p->b, vec3_neg(n));
+    const unsigned a2 = find_next(p->a, a, n), b2 = find_next(p->b, b, vec3_neg(n));
+    at->count = 0;
+    at->pieces[at->count++] = (piece){.a = a, .b = b};
+    if (a2 != a) at->pieces[at->count++] = (piece){.a = a2, .b = b};
+    if (b2 != b) at->pieces[at->count++] = (piece){.a = a, .b = b2};
+    if (a2 != a && b2 != b) at->pieces[at->count++] = (piece){.a = a2, .b = b2};
 }
 
 static void exchange_pieces(least_overlap *at, int i, int k) {
     piece kept = at->pieces[i];
     at->pieces[i] = at->pieces[k];
     at->pieces[k] = kept;
+}
+
+// Makes the greatest piece the only active one: those of a longer step may not be the ones of a shorter one.
+static void start_anew(least_overlap *at) {
+    int most = 0;
+    for (int i = 1; i < at->count; i++)
+        if (at->pieces[i].value > at->pieces[most].value) most = i;
+    exchange_pieces(at, 0, most);
+    at->active = 1;
 }
 
 // Takes a piece's weight; the others share it.
@@ -165,8 +226,8 @@ static plane_step step_of_one(const least_overlap *at) {
     return (plane_step){-(q.yy * g[0] - q.xy * g[1]) / det, -(q.xx * g[1] - q.xy * g[0]) / det};
 }
 
-// Two pieces stay equal: along the line on which they are, to the least. 0 if a piece was dropped.
-static int step_of_two(least_overlap *at, plane_step *to) {
+// Two pieces stay equal: along the line on which they are, to the least within reach. 0 if a piece was dropped.
+static int step_of_two(least_overlap *at, double reach, plane_step *to) {
     piece *p = &at->pieces[0], *q = &at->pieces[1];
     double gx = p->g[0] - q->g[0], gy = p->g[1] - q->g[1], length = sqrt(gx * gx + gy * gy);
     if (!(length > 1e-200)) return drop(at, p->value < q->value ? 0 : 1), 0;
@@ -175,6 +236,7 @@ static int step_of_two(least_overlap *at, plane_step *to) {
     plane_step t = {off * fx, off * fy}, along = multiply(&form, t), e = multiply(&form, (plane_step){ex, ey});
     double bend = ex * e.x + ey * e.y, slope = ex * (p->g[0] + along.x) + ey * (p->g[1] + along.y);
     double s = bend > 0.05 * at->value ? -slope / bend : slope > 0 ? -LONGEST : LONGEST;
+    s = max2(-reach, min2(reach, s));
     t.x += s * ex, t.y += s * ey;
     along = multiply(&form, t);
     double weight = -(fx * (q->g[0] + along.x) + fy * (q->g[1] + along.y)) / length;
@@ -206,10 +268,10 @@ static int step_of_three(least_overlap *at, plane_step *to) {
     return 1;
 }
 
-static plane_step step_of_active(least_overlap *at) {
+static plane_step step_of_active(least_overlap *at, double reach) {
     plane_step t;
     if (at->active == 3 && step_of_three(at, &t)) return t;
-    if (at->active == 2 && step_of_two(at, &t)) return t;
+    if (at->active == 2 && step_of_two(at, reach, &t)) return t;
     at->pieces[0].weight = 1;
     return step_of_one(at);
 }
@@ -252,7 +314,7 @@ static plane_step find_step(least_overlap *at, double reach) {
     plane_step t = {0, 0};
     if (at->active == 0) at->active = 1;
     for (int k = 0; k < 2 * LEAST_PIECES; k++) {
-        t = limit_step(step_of_active(at), reach);
+        t = limit_step(step_of_active(at, reach), reach);
         int most = 0;
         double now = -INFINITY, other = -INFINITY;
         for (int i = 0; i < at->count; i++) {
@@ -292,19 +354,20 @@ static int is_flat(least_overlap *at, double size) {
     return at->slope <= FLAT * size && at->value - at->lowest <= EVEN * size;
 }
 
-int cores_descend(const cores *p, vec3 from, least_overlap *to) {
+int cores_descend(const cores *p, vec3 from, double height, least_overlap *to) {
     vec3 n = from, best = from;
-    double least = INFINITY, reach = FIRST, last = FIRST;
-    int is_seen[2] = {0, 0};
+    double least = INFINITY, reach = FIRST, last = FIRST, growth = 2;
+    int is_seen[2] = {0, 0}, is_back = 0;
     to->active = 0;
     for (int k = 0; k < DESCENT_STEPS; k++) {
         for (int is_b = 0; is_b < 2; is_b++) {
             vec3 normal;
             if (is_seen[is_b] || find_facet(is_b ? p->b : p->a, is_b ? vec3_neg(n) : n, &normal) < 0) continue;
             is_seen[is_b] = 1;
-            if (take_facet(p, is_b, n, to)) return 1;
+            if (take_facet(p, is_b, n, min2(height, least) + EVEN * p->size, to)) return 1;
         }
         to->of = patch_make_plane(n);
+        if (to->count == 0) begin_pieces(p, n, to);
         measured is = measure_pieces(p, to);
         if (is == NOT_SMOOTH) {
             n = vec3_unit(vec3_add_scaled(n, to->of.e[0], ASIDE));
@@ -312,11 +375,15 @@ int cores_descend(const cores *p, vec3 from, least_overlap *to) {
         }
         if (!(to->value > 0)) return 1;
         if (to->value > least + EVEN * p->size && is == AS_KNOWN) {
-            reach = 0.25 * last;
+            reach = 0.3 * last;
+            growth = 1.25;
             n = best;
+            is_back = 1;
             continue;
         }
         if (to->value < least) least = to->value, best = n;
+        if (is_back) start_anew(to);
+        is_back = 0;
         plane_step t = find_step(to, reach);
         if (is_flat(to, p->size)) {
             to->inside = 0;
@@ -324,7 +391,7 @@ int cores_descend(const cores *p, vec3 from, least_overlap *to) {
             return 1;
         }
         last = sqrt(t.x * t.x + t.y * t.y);
-        reach = min2(LONGEST, max2(reach, 2 * last));
+        reach = min2(LONGEST, max2(reach, growth * last));
         n = vec3_unit(vec3_add_scaled(vec3_add_scaled(n, to->of.e[0], t.x), to->of.e[1], t.y));
     }
     return 0;
@@ -379,13 +446,26 @@ static int is_ring_held(const least_overlap *at, angle_ring ring) {
 }
 
 // Of a facet: h >= value cos a + inside sin a at the angle a, which is at least the value up to 2 atan(inside / value).
-static double find_angle_of_facet(const least_overlap *at) {
-    double tangent = at->inside / at->value;
+static double find_angle_of_facet(const least_overlap *at, double inside) {
+    double tangent = inside / at->value;
     return tangent > 0.5 ? 4.0 / 3 : 2 * tangent / (1 - tangent * tangent);
 }
 
+// Three pieces' points make a facet, in which their slopes are their places around the foot: how far this is within; 0
+// if it is not.
+static double find_inside(const least_overlap *at) {
+    double least = INFINITY, most = -INFINITY;
+    for (int i = 0; i < 3; i++) {
+        const double *a = at->pieces[i].g, *b = at->pieces[(i + 1) % 3].g, x = b[0] - a[0], y = b[1] - a[1];
+        double side = (a[0] * y - a[1] * x) / sqrt(x * x + y * y);
+        least = min2(least, side), most = max2(most, side);
+    }
+    return least > 0 ? least : most < 0 ? -most : 0;
+}
+
 double least_overlap_find_angle(const least_overlap *at, double wanted) {
-    if (at->inside > 0) return at->value >= wanted ? 0.999 * find_angle_of_facet(at) : 0;
+    double inside = at->active > 2 ? find_inside(at) : at->inside;
+    if (inside > 0) return at->lowest >= wanted ? 0.999 * find_angle_of_facet(at, inside) : 0;
     if (at->active > 2) return 0;
     double reach = WIDEST;
     while (!is_ring_held(at, make_ring(0, reach, wanted)))

@@ -43,9 +43,10 @@ typedef struct overlap_ends {
 } overlap_ends;
 overlap_ends cores_find_ends(const cores *p, vec3 n);
 
-/// Descends from a unit direction to a local minimum, with the pieces that are in *to already; 0 if none is found in a
-/// few steps. Where h is not above 0 on the way the cores are apart: the value is that, and nothing else is set.
-int cores_descend(const cores *p, vec3 from, least_overlap *to);
+/// Descends from a unit direction, along which the overlap is `height`, to a local minimum that is not above that, with
+/// the pieces that are in *to already; 0 if none is found in a few steps. Where h is not above 0 on the way the cores
+/// are apart: the value is that, and nothing else is set.
+int cores_descend(const cores *p, vec3 from, double height, least_overlap *to);
 
 /// The tangent of an angle around the minimum's direction in which no overlap is less than `wanted`; 0 if none is
 /// proven.

@@ -14,6 +14,7 @@
 
 #include "exact/epa_lanes.h"
 #include "pair/cover.h"
+#include "query/swept/divide.h"
 
 enum { DESCENTS = 5 };
 // Directions nearer than that to a minimum's lead to it.
@@ -44,9 +45,9 @@ static enclose_point find_end(const enclosure *g, vec3 n) {
     return (enclose_point){ends.v, ends.on_a};
 }
 
-// The points that stand for a minimum; their number.
+// The points that stand for a minimum; their number. Of three pieces their own points show more.
 static int find_points(const enclosure *g, const least_overlap *at, enclose_point points[3]) {
-    double tangent = least_overlap_find_angle(at, g->wanted);
+    double tangent = at->active > 2 ? 0 : least_overlap_find_angle(at, g->wanted);
     if (tangent > 0) {
         points[0].v = vec3_scale(at->of.n, g->wanted * sqrt(1 + tangent * tangent));
         points[0].on_a = (vec3){NAN, NAN, NAN};
@@ -104,14 +105,14 @@ static simd_difference leave(enclosure *g, enclose_turn turn) {
     return (simd_difference){INFINITY, 0, 0, 0, 0, 0};
 }
 
-// Descends from a direction along which the overlap is less than elsewhere, or near to it. 1 if *to is what the growth
-// goes on with.
-static int descend(enclosure *g, vec3 n, double low, simd_difference *to) {
+// Descends from a direction whose support is no higher than elsewhere, or near to it. 1 if *to is what the growth goes
+// on with.
+static int descend(enclosure *g, vec3 n, double height, double low, simd_difference *to) {
     least_overlap found;
     enclose_point points[3] = {{{0, 0, 0}, {0, 0, 0}}};
     found.count = 0;
     g->descents++;
-    if (!cores_descend(g->of, n, &found)) return 0;
+    if (!cores_descend(g->of, n, height, &found)) return 0;
     if (!(found.value > 0)) {
         *to = leave(g, TURN_LEFT);
         return 1;
@@ -139,9 +140,9 @@ static simd_difference find(const void *bodies, vec3 reverse) {
     simd_difference other;
     // Where the surface is not much farther than the face, there is a minimum near, to which points come slowly.
     int is_less = height < g->least->value - 0.1 * g->tolerance;
-    int is_near = height - low < 0.1 * height && (is_less || height < 1.003 * g->wanted) &&
-                  vec3_dot(n, g->least->of.n) < SAME_COSINE;
-    if (is_near && g->descents < DESCENTS && descend(g, n, low, &other)) return other;
+    int is_other = !(g->least->value < INFINITY) || vec3_dot(n, g->least->of.n) < SAME_COSINE;
+    int is_near = height - low < 0.1 * height && (is_less || height < 1.003 * g->wanted) && is_other;
+    if (is_near && g->descents < DESCENTS && descend(g, n, height, low, &other)) return other;
     return offer_point(g, end, reverse);
 }
 
@@ -219,6 +220,8 @@ int cores_enclose(const cores *p, double claim, double tolerance, least_overlap 
         set_wanted(&g);
         end = grow(&g);
     } while (g.turn == TURN_ANEW);
+    *lower = g.wanted - 7 * claim;
+    if (end == EPA8_LEFT && g.turn == TURN_ON && at->value < INFINITY) return cores_divide(p, at, g.wanted);
     if (end != EPA8_NARROW || g.turn == TURN_LEFT) return 0;
     if (g.lanes.low[g.lanes.nearest] < g.wanted && !take_face(&g)) return 0;
     *lower = g.wanted - 7 * claim;

@@ -3,12 +3,13 @@
 // - a point of one core, or a ball in it that touches its surface there, is no nearer to leaving the other core, in
 //   closed form. That it has to leave is all that the overlap needs;
 // - two such balls are larger together than the overlap;
-// - a polytope in the difference body holds a ball of that radius (query/swept/enclose.c).
+// - a polytope in the difference body holds a ball of that radius (query/swept/enclose.c); where its faces become
+//   slivers, directions are divided until none is open (query/swept/divide.c).
 #include "query/swept/overlap.h"
 
 #include "query/swept/enclose.h"
 
-enum { EXCHANGES = 3 };
+enum { EXCHANGES = 2 };
 
 // The radius of a ball in the core that touches its surface from within at its farthest point along n, where that is
 // `reach` along n from the centre. Of an ellipsoid: with E its form, q another point of it and p that one,
@@ -113,7 +114,7 @@ ovoid_verdict swept_measure_overlap(const swept_placed *p, ovoid_witness *witnes
         return answer(p, &least, lower, witness);
     }
     least.count = 0;
-    if (!cores_descend(&s.of, s.n, &least)) {
+    if (!cores_descend(&s.of, s.n, s.value, &least)) {
         least.value = INFINITY;
         least.of = patch_make_plane(s.n);
     } else if (!(least.value > 4 * p->claim)) {

@@ -77,7 +77,9 @@ static double measure_step(const truth *t, const ovoid_step *step, double from, 
 static int step_is_false(const truth *t, const ovoid_step *step, double from, double level) {
     ovoid_vec3 n = step->normal;
     double norm = n.x * n.x + n.y * n.y + n.z * n.z;
-    if (!(step->until >= from) || !(step->until <= t->last) || (int)step->frame > 2) return 1;
+    // Bodies that are still are where they are at all times.
+    int is_still = t->c.a.motion.kind == OVOID_MOTION_STILL && t->c.b.motion.kind == OVOID_MOTION_STILL;
+    if (!(step->until >= from) || !(is_still || step->until <= t->last) || (int)step->frame > 2) return 1;
     if (!(fabs(norm - 1) <= 1e-12)) return 1;
     for (int i = 0; i <= STEP_SAMPLES; i++) {
         double time = from + (step->until - from) * i / STEP_SAMPLES;

@@ -1,0 +1,69 @@
+// The overlap h(n) of two cores is nowhere less than r, by branch and bound over the directions: these are divided into
+// spherical triangles, at first eight around the minimum, then each that is open in half along its longest side. A
+// point of the difference body that is r along all three corners is r along all directions between them, since such a
+// unit direction is a sum of the corners whose weights are together 1 at least. Tried are the support point in the
+// middle of the triangle, and those of the triangles that it is a part of. Around the minimum, where no point does, the
+// second derivatives do up to an angle (query/swept/descend.c).
+//
+// Errors, in parts u s as in swept.c: a corner is of unit length, a middle off the great circle of its side, and a
+// product off, by less than 10 u s together, along which h changes by as much; the point is one of the body to 120 u s.
+#include "query/swept/divide.h"
+
+// The most supports that are asked, and the most times that a triangle is halved.
+enum { MOST_CELLS = 300, MOST_HALVES = 32 };
+
+typedef struct division {
+    const cores *of;
+    vec3 n;        ///< of the minimum,
+    double cosine; ///< and the least one of the angle to it that is proven; 2: none
+    double wanted;
+    int left; ///< supports that may be asked
+} division;
+
+// A spherical triangle, and how many times it may be halved.
+typedef struct cell {
+    vec3 corner[3];
+    int left;
+} cell;
+
+static double find_least(const cell *c, vec3 v) {
+    return min2(vec3_dot(v, c->corner[0]), min2(vec3_dot(v, c->corner[1]), vec3_dot(v, c->corner[2])));
+}
+
+// The corner at which the longest side begins: the one whose ends have the least cosine.
+static int find_longest(const cell *c) {
+    const double side0 = vec3_dot(c->corner[0], c->corner[1]), side1 = vec3_dot(c->corner[1], c->corner[2]),
+                 side2 = vec3_dot(c->corner[2], c->corner[0]);
+    return side1 < side0 && side1 <= side2 ? 1 : side2 < side0 ? 2 : 0;
+}
+
+// known: a point of the difference body.
+// NOLINTNEXTLINE(misc-no-recursion): no cell is halved more than MOST_HALVES times
+static int divide(division *d, const cell *c, const vec3 *known) {
+    if (find_least(c, d->n) >= d->cosine || find_least(c, *known) >= d->wanted) return 1;
+    if (d->left-- <= 0 || c->left == 0) return 0;
+    const vec3 middle = vec3_unit(vec3_add(vec3_add(c->corner[0], c->corner[1]), c->corner[2])),
+               point = cores_find_ends(d->of, middle).v;
+    if (vec3_dot(point, middle) < d->wanted) return 0;
+    if (find_least(c, point) >= d->wanted) return 1;
+    const int i = find_longest(c), k = (i + 1) % 3;
+    cell first = *c, last = *c;
+    first.left = last.left = c->left - 1;
+    first.corner[k] = last.corner[i] = vec3_unit(vec3_add(c->corner[i], c->corner[k]));
+    return divide(d, &first, &point) && divide(d, &last, &point);
+}
+
+int cores_divide(const cores *p, const least_overlap *at, double wanted) {
+    const patch_plane *of = &at->of;
+    const double tangent = least_overlap_find_angle(at, wanted);
+    division d = {p, of->n, tangent > 0 ? 1 / sqrt(1 + tangent * tangent) + 0x1p-50 : 2, wanted, MOST_CELLS};
+    const vec3 none = {0, 0, 0};
+    int is_proven = 1;
+    for (int i = 0; i < 8 && is_proven; i++) {
+        const cell octant = {{i & 1 ? vec3_neg(of->n) : of->n, i & 2 ? vec3_neg(of->e[0]) : of->e[0],
+                              i & 4 ? vec3_neg(of->e[1]) : of->e[1]},
+                             MOST_HALVES};
+        is_proven = divide(&d, &octant, &none);
+    }
+    return is_proven;
+}

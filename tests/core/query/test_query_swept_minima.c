@@ -1,0 +1,96 @@
+// Local minima of the overlap of two cores (query/swept/descend.c), and the proof by dividing the directions that one
+// is the least of all (query/swept/divide.c), beside the overlaps along random directions and the minima that descents
+// from these find: supports are those of the library, which test_query_swept.c holds against shapes.
+#include "query/swept/divide.h"
+
+#include "check.h"
+#include "places.h"
+
+enum { PAIRS = 1500, DIRECTIONS = 400, STARTS = 8, POINTS = 12 };
+
+/// A random core around the origin, of about size 1.
+static ovoid_swept_sphere make_core(ovoid_swept_core core, double *xyz, uint64_t *r) {
+    ovoid_swept_sphere s = {.core = core, .count = POINTS, .points = xyz};
+    double rows[9];
+    const ovoid_pose pose = {{0, 0, 0}, random_quat(r)};
+    ovoid_pose_compute_matrix(&pose, rows);
+    for (int k = 0; k < 3; k++) {
+        s.axis[k] = (ovoid_vec3){rows[k], rows[3 + k], rows[6 + k]};
+        s.half[k] = core == OVOID_SWEPT_POINTS ? 0 : random_uniform(r, 0.2, 1);
+    }
+    for (int i = 0; i < 3 * POINTS; i++) xyz[i] = random_uniform(r, -1, 1);
+    for (int i = 0; i < 3 * POINTS && core == OVOID_SWEPT_POINTS; i++) s.half[i % 3] += xyz[i] / POINTS;
+    return s;
+}
+
+static double measure(const cores *p, vec3 n) { return vec3_dot(cores_find_ends(p, n).v, n); }
+
+/// What descents found, and how many of their minima were shown to be the least, or not.
+typedef struct tally {
+    int found, failed, proven, refused;
+} tally;
+
+/// The least overlap along random directions, and the direction.
+static double sample(const cores *p, uint64_t *r, vec3 *best) {
+    double least = INFINITY;
+    for (int i = 0; i < DIRECTIONS; i++) {
+        const vec3 n = vec3_unit((vec3){random_normal(r), random_normal(r), random_normal(r)});
+        const double h = measure(p, n);
+        if (h < least) least = h, *best = n;
+    }
+    return least;
+}
+
+/// A minimum is not above the overlap where its descent begins, which is that along its own direction, and its points
+/// are apart by that.
+static void check_minimum(const cores *p, const least_overlap *at, double height) {
+    const double rounding = 1e-11 * p->size;
+    const vec3 off = vec3_sub(vec3_sub(vec3_sub(at->on_a, at->on_b), p->d), vec3_scale(at->of.n, at->value));
+    CHECK_LE(at->value, height + rounding);
+    CHECK_NEAR(measure(p, at->of.n), at->value, rounding);
+    CHECK_LE(vec3_norm(off), 1e-8 * p->size);
+}
+
+static void check_pair(const cores *p, uint64_t *r, tally *to) {
+    vec3 n = {0, 0, 1};
+    double least = sample(p, r, &n), proven = -INFINITY;
+    if (!(least > 0.01)) return;
+    for (int i = 0; i < STARTS; i++) {
+        least_overlap at;
+        at.count = 0;
+        const double height = measure(p, n);
+        if (cores_descend(p, n, height, &at) && at.value > 0) {
+            to->found++;
+            check_minimum(p, &at, height);
+            least = min2(least, at.value);
+            const double wanted = at.value - 1e-12 * p->size;
+            const int is_proven = cores_divide(p, &at, wanted);
+            to->proven += is_proven, to->refused += !is_proven;
+            if (is_proven) proven = max2(proven, wanted);
+        } else {
+            to->failed++;
+        }
+        n = vec3_unit((vec3){random_normal(r), random_normal(r), random_normal(r)});
+    }
+    // No overlap is less than what was shown to be the least.
+    CHECK_LE(proven, least + 1e-12 * p->size);
+}
+
+int main(void) {
+    static const ovoid_swept_core types[] = {OVOID_SWEPT_SEGMENT, OVOID_SWEPT_CYLINDER,  OVOID_SWEPT_BOX,
+                                             OVOID_SWEPT_CONE,    OVOID_SWEPT_ELLIPSOID, OVOID_SWEPT_POINTS};
+    uint64_t r = check_seed = 5;
+    tally all = {0, 0, 0, 0};
+    for (int i = 0; i < PAIRS; i++) {
+        double xyz[2][3 * POINTS];
+        const ovoid_swept_sphere a = make_core(types[random_next(&r) % 6], xyz[0], &r),
+                                 b = make_core(types[random_next(&r) % 6], xyz[1], &r);
+        const vec3 d = random_vec3(&r, 0.5);
+        check_pair(&(cores){&a, &b, d, 4 + vec3_norm(d)}, &r, &all);
+    }
+    // Most descents end, and of the minima some are the least and shown to be, others are not the least.
+    CHECK_LE(20 * all.failed, all.found);
+    CHECK_LE(all.found, 5 * all.proven);
+    CHECK_LE(all.found, 10 * all.refused);
+    return check_end();
+}
