@@ -1,7 +1,7 @@
 // The built-in pool: a task is an array of items, of which each free worker takes the next part. Threads sleep on a
 // condition while there is no task. Results must not depend on which worker computes them, or in what order. In a child
 // made by fork these threads do not exist: the caller's thread works alone, and the locks and conditions of the threads
-// are not touched.
+// are not touched. A task ends when its parts are done, not when all threads have woken.
 #define _POSIX_C_SOURCE 200809L // signal sets
 #include "world/thread_pool.h"
 
@@ -16,8 +16,9 @@ struct thread_pool {
     thread_lock lock;
     thread_condition begun, ended;
     uint64_t round;        // number of the present task
-    uint32_t busy, joined; // threads that have not finished this round; workers that have their number
+    uint32_t busy, joined; // workers at the present task; workers that have their number
     task task;             // the present task
+    int is_open;           // the present task may have parts that none has taken
     int is_closing;
     atomic_uint next;      // the first item that no worker has taken
     long process;          // the process that started the threads
@@ -50,9 +51,10 @@ THREAD_MAIN(work_on, context) {
     lock_take(&p->lock);
     uint32_t worker = ++p->joined;
     for (;;) {
-        while (p->round == done && !p->is_closing) condition_wait(&p->begun, &p->lock);
+        while ((p->round == done || !p->is_open) && !p->is_closing) condition_wait(&p->begun, &p->lock);
         if (p->is_closing) break;
         done = p->round;
+        p->busy++;
         lock_give(&p->lock);
         take_parts(p, worker);
         lock_take(&p->lock);
@@ -115,12 +117,14 @@ static void run_in_pool(thread_pool *p, const task *t) {
     lock_take(&p->lock);
     p->task = *t;
     atomic_store(&p->next, 0);
-    p->busy = p->thread_count;
+    p->is_open = 1;
     p->round++;
     condition_wake_all(&p->begun);
     lock_give(&p->lock);
     take_parts(p, 0);
     lock_take(&p->lock);
+    // A worker that has not woken by now is not waited for.
+    p->is_open = 0;
     while (p->busy) condition_wait(&p->ended, &p->lock);
     lock_give(&p->lock);
 }
