@@ -167,6 +167,14 @@ static ovoid_code run_steps(const ovoid_polytope *p, double gap, fitted *out) {
     return code;
 }
 
+/// The ellipsoids of a lean shape are its own; no step is run.
+static void take_ellipsoids(const ovoid_shape *shape, fitted *out) {
+    for (int i = 0; i < FIT_STEPS; i++) out->steps[i] = (ovoid_fit){.volume = NAN, .gap = NAN};
+    out->steps[FIT_OUTER] = ovoid_shape_get_outer(shape);
+    out->steps[FIT_INNER] = ovoid_shape_get_inner(shape);
+    if (isinf(out->steps[FIT_INNER].gap)) out->steps[FIT_INNER].gap = NAN; // of the moments' ellipsoid none is known
+}
+
 static void write_findings(fit *f, const fitted *found) {
     const settings *s = f->settings;
     if (f->title_due && s->csv) fit_write_csv_title(stdout);
@@ -193,7 +201,9 @@ static int fit_shape(fit *f, const ovoid_shape *shape, fitted *found) {
     found->triangles = polytope.triangle_count;
     found->facets = polytope.facet_count;
     found->measure = get_measure(&polytope, &found->measures);
-    if (run_steps(&polytope, f->settings->gap, found) != OVOID_OK) {
+    if (found->is_lean)
+        take_ellipsoids(shape, found);
+    else if (run_steps(&polytope, f->settings->gap, found) != OVOID_OK) {
         message_error("%s: out of memory", found->file);
         return EXIT_INPUT;
     }
@@ -216,6 +226,11 @@ static int fit_file(fit *f, const char *path) {
     ovoid_error error;
     ovoid_read_options read = inputs_make_options(&f->settings->read);
     ovoid_shape_options make = make_options(f->settings);
+    if (make.inner != OVOID_INNER_MAXIMUM) {
+        message_error("%s: --%s: a .ovoid file has its ellipsoids already; fit the mesh anew", path,
+                      f->settings->lean ? "lean" : "phases");
+        return f->failed = 1, 0;
+    }
     fitted found = {.file = path,
                     .name = "",
                     .unit = inputs_get_unit(&f->settings->read),
@@ -224,6 +239,11 @@ static int fit_file(fit *f, const char *path) {
     ovoid_shape *shape = ovoid_shape_read_file(path, &read, &make, &error);
     if (!shape) return message_error("%s", error.message), f->failed = 1, 0;
     found.read_seconds = progress_get_seconds() - start;
+    if (make.gap > 0 && ovoid_shape_is_lean(shape)) {
+        message_error("%s: --gap: a lean body has its ellipsoids already; fit the mesh anew", path);
+        ovoid_shape_destroy(shape);
+        return f->failed = 1, 0;
+    }
     int code = fit_shape(f, shape, &found);
     ovoid_shape_destroy(shape);
     return code;

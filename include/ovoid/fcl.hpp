@@ -15,6 +15,10 @@
 #ifndef OVOID_FCL_HPP
 #define OVOID_FCL_HPP
 
+#if __cplusplus < 201703L && !(defined(_MSVC_LANG) && _MSVC_LANG >= 201703L)
+#error "<ovoid/fcl.hpp> needs C++17: put -std=c++17 after the flags of FCL's pkg-config file, which has -std=c++11"
+#endif
+
 #include "ovoid/body_impact.h"
 #include "ovoid/fcl/cache.hpp"
 #include "ovoid/fcl/contacts.hpp"
@@ -268,7 +272,8 @@ struct distance_answer {
 /// Of shapes that overlap FCL's distance is -1, unless the signed one is wanted.
 OVOID_FCL_INLINE distance_answer make_distance(const ovoid_verdict &x, const ovoid_witness &at, bool is_signed) {
     const bool is_apart = x.status == OVOID_SEPARATED || (x.status == OVOID_UNDECIDED && !is_hit(x));
-    const double apart = is_apart || is_signed ? middle(x) : x.status == OVOID_TOUCHING ? 0 : -1;
+    double apart = x.status == OVOID_TOUCHING ? 0 : -1;
+    if (is_apart || is_signed) apart = x.status == OVOID_OVERLAPPING ? contact_distance(x) : middle(x);
     return {apart, at.point_a, at.point_b, -1, -1};
 }
 inline distance_answer measure_shapes(const body_couple &of, bool is_signed) {

@@ -23,7 +23,7 @@ static ovoid_code refuse_pose(ovoid_error *error, int64_t place, ovoid_code code
     static const char *const what[] = {"a position or quaternion is NaN or infinite",
                                        "a position is farther than OVOID_LENGTH_MAX", "the quaternion is zero"};
     int k = code == OVOID_ERROR_NOT_FINITE ? 0 : code == OVOID_ERROR_RANGE ? 1 : 2;
-    return error_set(error, code, place, "the pose is refused: %s; the body stays where it was", what[k]);
+    return error_set(error, code, place, "the pose is refused: %s; nothing is moved", what[k]);
 }
 
 double world_get_extent(const ovoid_body *body) {

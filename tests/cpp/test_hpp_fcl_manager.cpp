@@ -376,6 +376,56 @@ void test_many(std::size_t count) {
     }
 }
 
+/// A callback that changes its manager: what it registers takes part from the next query on, what it removes stays
+/// away from then on.
+void test_changes_by_callback(std::size_t count) {
+    const auto ball = std::make_shared<Sphered>(0.7);
+    struct growth {
+        ovoid::fcl::BroadPhaseManager<double> manager;
+        std::vector<std::unique_ptr<CollisionObjectd>> all;
+        std::size_t calls = 0, room = 0;
+        std::shared_ptr<Sphered> ball;
+        void add(double x) {
+            all.push_back(std::make_unique<CollisionObjectd>(ball));
+            all.back()->setTranslation(Vector3d(x, 0, 0));
+            all.back()->computeAABB();
+            manager.registerObject(all.back().get());
+        }
+        static bool take(CollisionObjectd *, CollisionObjectd *, void *data) {
+            auto &to = *static_cast<growth *>(data);
+            to.calls++;
+            if (to.all.size() < to.room) to.add(static_cast<double>(to.all.size()));
+            return false;
+        }
+        static bool clear(CollisionObjectd *a, CollisionObjectd *, void *data) {
+            auto &to = *static_cast<growth *>(data);
+            if (to.calls++ == 0)
+                to.manager.clear();
+            else
+                to.manager.unregisterObject(a);
+            to.manager.update();
+            return false;
+        }
+    } to;
+    to.ball = ball;
+    for (std::size_t i = 0; i < count; i++) to.add(static_cast<double>(i));
+    to.manager.setup();
+    to.room = 2 * count;
+    to.manager.collide(&to, growth::take);
+    CHECK_EQ(to.calls, count - 1);
+    CHECK_EQ(to.manager.size(), 2 * count - 1);
+    to.room = to.calls = 0;
+    to.manager.collide(&to, growth::take);
+    CHECK_EQ(to.calls, 2 * count - 2);
+    to.calls = 0;
+    to.manager.collide(&to, growth::clear);
+    CHECK_LE(to.calls, 513);
+    CHECK(to.manager.empty());
+    to.calls = 0;
+    to.manager.collide(&to, growth::take);
+    CHECK_EQ(to.calls, 0);
+}
+
 /// Through the shim: the least distance of all pairs, and each pair that collides.
 void test_shim() {
     random_poses poses(15);
@@ -422,6 +472,7 @@ int main() {
     test_far();
     test_touching();
     for (const std::size_t count : {300, 2100}) test_many(count);
+    for (const std::size_t count : {30, 300, 3000}) test_changes_by_callback(count);
     test_shim();
     return check_end();
 }

@@ -15,6 +15,7 @@
 #include <fcl/fcl.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -31,7 +32,9 @@ namespace fcl {
  *
  * An object is registered once, however often it is handed in; one that is not registered is not updated or
  * unregistered. Queries do not change the manager: several threads may ask one at the same time, but not change it.
- * Octrees are objects like others.
+ * A callback may change it: an object that it registers takes part from the next query on, and one that it unregisters
+ * must live until the query ends, since pairs with it may be on their way to the callback. Octrees are objects like
+ * others.
  */
 template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionManager<S> {
   public:
@@ -41,12 +44,12 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
     /** Adds objects with their present boxes and builds the tree. */
     void registerObjects(const std::vector<object *> &objects) override {
         for (object *o : objects) add(o);
-        build();
+        if (queries_ == 0) build();
     }
     /** Adds an object with its present box. */
     void registerObject(object *o) override {
         add(o);
-        if (count_recent() > 16 + leaves_ / 16) build();
+        if (count_recent() > 16 + leaves_ / 16) setup();
     }
     /** Removes an object. */
     void unregisterObject(object *o) override {
@@ -56,18 +59,21 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
         places_.erase(found);
         objects_[place].of = nullptr;
         set_box(place, detail::empty_box());
-        if (places_.size() < objects_.size() / 2) build();
+        if (places_.size() < objects_.size() / 2 && queries_ == 0) build();
     }
     /** Builds the tree, if objects were registered since it was built. */
     void setup() override {
-        if (count_recent() > 0) build();
+        if (count_recent() > 0 && queries_ == 0) build();
     }
     /** Reads the boxes of all objects. */
     void update() override {
-        if (count_recent() > 0) return build();
+        const bool is_free = queries_ == 0;
+        if (count_recent() > 0 && is_free) return build();
+        for (std::size_t k = leaves_; k < objects_.size(); k++)
+            if (objects_[k].of) recent_[k - leaves_] = box_of(objects_[k].of);
         if (leaves_ == 0) return;
         refit();
-        if (!(tree_.measure() <= 1.2 * measure_)) build();
+        if (is_free && !(tree_.measure() <= 1.2 * measure_)) build();
     }
     /** Reads the box of one object. */
     void update(object *o) override {
@@ -83,7 +89,8 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
     /** Removes all objects. */
     void clear() override {
         places_.clear();
-        build();
+        for (auto &o : objects_) o.of = nullptr;
+        if (queries_ == 0) build();
     }
     /** Writes the objects in the place of what the vector holds. */
     void getObjects(std::vector<object *> &objects) const override {
@@ -96,29 +103,35 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
 
     /** Calls back with each object whose box meets that of `o`, and `o`. */
     void collide(object *o, void *data, ::fcl::CollisionCallBack<S> callback) const override {
+        const asked query(queries_);
         const ovoid_box box = box_of(o);
         const auto take = [&](std::size_t i) { return objects_[i].of && callback(objects_[i].of, o, data); };
         find_overlaps(box, objects_.size(), take);
     }
     /** Calls back with the objects whose boxes are nearer to that of `o` than the least distance so far, and `o`. */
     void distance(object *o, void *data, ::fcl::DistanceCallBack<S> callback) const override {
+        const asked query(queries_);
         nearest found(callback, data);
         find_near(o, found);
     }
     /** Calls back with each two objects whose boxes meet, in an order that helps the callback. */
     void collide(void *data, ::fcl::CollisionCallBack<S> callback) const override {
+        const asked query(queries_);
+        const std::size_t end = objects_.size();
         pair_queue queue(callback, data, objects_, objects_);
         const auto take = [&](std::size_t i, std::size_t j) { return queue.push(i, j); };
         if (tree_.find_own(take)) return;
-        for (std::size_t k = leaves_; k < objects_.size(); k++)
+        for (std::size_t k = leaves_; k < end; k++)
             if (objects_[k].of && find_overlaps(box_at(k), k, [&](std::size_t i) { return take(i, k); })) return;
         queue.flush();
     }
     /** Calls back with two objects while their boxes are nearer than the least distance so far. */
     void distance(void *data, ::fcl::DistanceCallBack<S> callback) const override {
+        const asked query(queries_);
+        const std::size_t end = objects_.size();
         nearest found(callback, data);
         if (find_own(found)) return;
-        for (std::size_t k = leaves_; k < objects_.size(); k++)
+        for (std::size_t k = leaves_; k < end; k++)
             if (objects_[k].of && find_near(box_at(k), k, found, objects_[k].of)) return;
     }
     /**
@@ -130,18 +143,21 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
         if (other == this) return collide(data, callback);
         const auto *ours = dynamic_cast<const BroadPhaseManager *>(other);
         if (!ours) return collide_objects(objects_of(*other), data, callback);
+        const asked query(queries_), other_query(ours->queries_);
+        const std::size_t end = objects_.size(), other_end = ours->objects_.size();
         pair_queue queue(callback, data, objects_, ours->objects_);
         const auto take = [&](std::size_t i, std::size_t j) { return queue.push(i, j); };
         if (tree_.find_both(ours->tree_, take)) return;
-        for (std::size_t k = ours->leaves_; k < ours->objects_.size(); k++)
-            if (find_overlaps(ours->box_at(k), objects_.size(), [&](std::size_t i) { return take(i, k); })) return;
-        for (std::size_t k = leaves_; k < objects_.size(); k++)
+        for (std::size_t k = ours->leaves_; k < other_end; k++)
+            if (find_overlaps(ours->box_at(k), end, [&](std::size_t i) { return take(i, k); })) return;
+        for (std::size_t k = leaves_; k < end; k++)
             if (ours->find_overlaps(box_at(k), ours->leaves_, [&](std::size_t j) { return take(k, j); })) return;
         queue.flush();
     }
     /** Calls back with an object of each manager while their boxes are nearer than the least distance so far. */
     void distance(base *other, void *data, ::fcl::DistanceCallBack<S> callback) const override {
         if (other == this) return distance(data, callback);
+        const asked query(queries_);
         nearest found(callback, data);
         for (object *o : objects_of(*other))
             if (find_near(o, found)) return;
@@ -171,8 +187,21 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
 
     using pair_queue = detail::pair_queue<S>;
 
+    /// A query that is being answered: while there is one the tree is not built anew under it.
+    class asked {
+      public:
+        explicit asked(std::atomic<int> &queries) : queries_(queries) { ++queries_; }
+        ~asked() { --queries_; }
+        asked(const asked &) = delete;
+        asked &operator=(const asked &) = delete;
+
+      private:
+        std::atomic<int> &queries_;
+    };
+
     /// Calls back with each object of this manager and each of others, by their present boxes.
     void collide_objects(const std::vector<object *> &others, void *data, ::fcl::CollisionCallBack<S> callback) const {
+        const asked query(queries_);
         detail::registered_objects<S> there;
         for (object *o : others) there.emplace_back(o);
         pair_queue queue(callback, data, objects_, there);
@@ -193,7 +222,7 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
     }
 
     std::size_t count_recent() const { return objects_.size() - leaves_; }
-    const ovoid_box &box_at(std::size_t recent) const { return recent_[recent - leaves_]; }
+    ovoid_box box_at(std::size_t recent) const { return recent_[recent - leaves_]; }
 
     void add(object *o) {
         const auto found = places_.emplace(o, objects_.size());
@@ -302,6 +331,7 @@ template <class S> class BroadPhaseManager : public ::fcl::BroadPhaseCollisionMa
     std::unordered_map<object *, std::size_t> places_;
     std::size_t leaves_ = 0; ///< of the tree
     double measure_ = 0;     ///< of the tree, when it was built
+    mutable std::atomic<int> queries_{0};
 };
 
 } // namespace fcl

@@ -57,8 +57,7 @@ template <class S> class pair_queue {
 
     pair_queue(::fcl::CollisionCallBack<S> callback, void *data, const registered_objects<S> &x,
                const registered_objects<S> &y)
-        : callback_(callback), data_(data), x_(x.data()), y_(y.data()), is_small_(x.size() <= 256),
-          is_large_(x.size() > 2000) {
+        : callback_(callback), data_(data), x_(x), y_(y), is_small_(x.size() <= 256), is_large_(x.size() > 2000) {
         std::fill(heads_, heads_ + type_count * type_count, none);
     }
 
@@ -114,7 +113,7 @@ template <class S> class pair_queue {
 
     ::fcl::CollisionCallBack<S> callback_;
     void *data_;
-    const registered<S> *x_, *y_;
+    const registered_objects<S> &x_, &y_; // a callback may add to them
     bool is_small_, is_large_;
     const object *last_ = nullptr;
     std::size_t count_ = 0, limit_ = first, group_count_ = 0;

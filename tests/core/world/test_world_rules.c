@@ -88,7 +88,7 @@ static void test_bodies_refused(const ovoid_shape *box) {
     // All or none: the third of four is bad.
     ovoid_pose poses[4] = {{{5, 0, 0}, {1, 0, 0, 0}}, {{5, 0, 0}, {1, 0, 0, 0}}, bad, {{5, 0, 0}, {1, 0, 0, 0}}};
     expect(ovoid_world_move_many(w, &(ovoid_world_moves){ids, poses, 4}, &e), OVOID_ERROR_NOT_FINITE, &e,
-           "stays where it was");
+           "nothing is moved");
     CHECK_EQ(e.place, 2);
     CHECK(ovoid_world_get(w, ids[2], &after, NULL) == OVOID_OK && memcmp(&before, &after, sizeof before) == 0);
     CHECK(ovoid_world_get(w, ids[0], &after, NULL) == OVOID_OK && after.body.pose.position.x < 1);
