@@ -39,8 +39,7 @@ static const cli_option options[] = {
      "the files hold the inner ellipsoid of the three phases (default: that of maximum volume)"},
     {"lean", 0, OPTION_FLAG, offsetof(settings, lean), NULL, NULL,
      "lean bodies, made in some 60 % of the time, whose answers are as true but take longer: the inner ellipsoid is "
-     "that "
-     "of the moments, --gap is 0.1 unless it is given, and there is no table of supports"},
+     "that of the moments, --gap is 0.1 unless it is given, and there is no table of supports"},
     {"hull", 0, OPTION_FLAG, offsetof(settings, read.hull), NULL, NULL,
      "the hull stands for itself (default: where its mesh is so only nearly, \"inside\" has what keeps answers true of "
      "the mesh)"},

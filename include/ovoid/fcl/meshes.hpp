@@ -82,17 +82,7 @@ template <class S> class part_contacts {
     /// False if the parts' shapes have to be asked.
     bool add_swept(std::uint32_t part_a, std::uint32_t part_b) {
         const ovoid_swept_pair pair = {a_.get(part_a), b_.get(part_b)};
-        if (!pair.a || !pair.b) return false;
-        measured depth;
-        depth.bracket = to_.is_detailed() ? ovoid_swept_contact(pair, &depth.at) : ovoid_swept_collide(pair);
-        if (depth.bracket.status == OVOID_UNDECIDED) return false;
-        if (!is_hit(depth.bracket)) return true;
-        const int i = name(*of_.a, part_a), j = name(*of_.b, part_b);
-        if (to_.is_detailed())
-            add_deepest(to_, i, j, depth);
-        else
-            to_.add(i, j);
-        return true;
+        return pair.a && pair.b && collide_swept<S>(to_, pair, name(*of_.a, part_a), name(*of_.b, part_b));
     }
 
     contact_list<S> &to_;

@@ -131,19 +131,20 @@ template <class S> bool list_faces(contact_list<S> &to, const ovoid_swept_pair &
     // The middle of faces is what shapes know.
     return to.room() > 1 ? collide_faces<S>(to, pair) : ovoid_swept_collide(pair).status == OVOID_SEPARATED;
 }
-/// The one contact of two swept spheres, with or without details; false if their shapes have to be asked. The verdict
-/// is read where it was written: to copy it would wait for its parts.
-template <class S> OVOID_FCL_INLINE bool collide_swept(contact_list<S> &to, const ovoid_swept_pair &pair) {
+/// The one contact of two swept spheres, with or without details, which are the parts i and j; false if their shapes
+/// have to be asked. The verdict is read where it was written: to copy it would wait for its parts.
+template <class S>
+OVOID_FCL_INLINE bool collide_swept(contact_list<S> &to, const ovoid_swept_pair &pair, int i = -1, int j = -1) {
     if (!to.is_detailed()) {
         const ovoid_verdict found = ovoid_swept_collide(pair);
         if (found.status == OVOID_UNDECIDED) return false;
-        if (is_hit(found)) to.add(-1, -1);
+        if (is_hit(found)) to.add(i, j);
         return true;
     }
     ovoid_witness at;
     const ovoid_verdict found = ovoid_swept_contact(pair, &at);
     if (found.status == OVOID_UNDECIDED) return false;
-    if (is_hit(found)) to.add(-1, -1, {at.point_a, at.point_b, contact_distance(found), 0}, at.normal);
+    if (is_hit(found)) to.add(i, j, {at.point_a, at.point_b, contact_distance(found), 0}, at.normal);
     return true;
 }
 
