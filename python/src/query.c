@@ -98,6 +98,12 @@ static int read_earlier(module_state *state, PyObject *from, query_input *in) {
         in->cover = answer->cover;
         return 0;
     }
+    if (!PyObject_CheckBuffer(from)) {
+        PyErr_Format(PyExc_TypeError,
+                     "earlier: an Answer, or an array of one proof as of ovoid.zeros, is wanted, not %R",
+                     (PyObject *)Py_TYPE(from));
+        return -1;
+    }
     Py_buffer view;
     if (records_view(state, from, "earlier", RECORD_PROOF, 1, 0, &view)) return -1;
     in->earlier = (ovoid_body_proof){.part_a = 0};

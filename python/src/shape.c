@@ -272,7 +272,17 @@ static PyGetSetDef fields[] = {
     {"report", get_report, NULL, "dict[str, int]: What the constructor did with the points given, a dict.", NULL},
     {NULL, NULL, NULL, NULL, NULL}};
 
+/// Points alone do not say whether they may be other than corners, so no constructor guesses.
+static PyObject *refuse_new(PyTypeObject *type, PyObject *arguments, PyObject *names) {
+    (void)type, (void)arguments, (void)names;
+    PyErr_SetString(PyExc_TypeError,
+                    "ovoid.Shape is made by Shape.from_points, hull_of, from_faces, box, sphere, capsule, "
+                    "cylinder, cone, ellipsoid, prism, pyramid, read or from_bytes");
+    return NULL;
+}
+
 static PyType_Slot slots[] = {
+    {Py_tp_new, refuse_new},
     {Py_tp_doc,
      "An immutable convex body, shared by any number of poses and threads.\n\nMade by Shape.from_points, hull_of, "
      "from_faces, box, sphere, capsule, cylinder, cone, ellipsoid, prism, pyramid,\nread and from_bytes. The unit of "
@@ -282,8 +292,7 @@ static PyType_Slot slots[] = {
     {Py_tp_methods, NULL},
     {Py_tp_getset, fields},
     {0, NULL}};
-static PyType_Spec spec = {"ovoid.Shape", sizeof(shape_object), 0,
-                           Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION, slots};
+static PyType_Spec spec = {"ovoid.Shape", sizeof(shape_object), 0, Py_TPFLAGS_DEFAULT, slots};
 
 int shape_add(PyObject *module) {
     static PyMethodDef all[40];

@@ -275,7 +275,14 @@ static PyGetSetDef fields[] = {
      NULL},
     {NULL, NULL, NULL, NULL, NULL}};
 
+static PyObject *refuse_new(PyTypeObject *type, PyObject *arguments, PyObject *names) {
+    (void)type, (void)arguments, (void)names;
+    PyErr_SetString(PyExc_TypeError, "ovoid.Solid is made by Solid.from_triangles, from_mesh or read");
+    return NULL;
+}
+
 static PyType_Slot slots[] = {
+    {Py_tp_new, refuse_new},
     {Py_tp_doc,
      "Triangles and what they enclose, convex or not: immutable, shared by any number of poses and threads.\n\nMade by "
      "Solid.from_triangles, from_mesh and read. Where the triangles are not closed the body is their surface alone."},
@@ -284,8 +291,7 @@ static PyType_Slot slots[] = {
     {Py_tp_methods, NULL},
     {Py_tp_getset, fields},
     {0, NULL}};
-static PyType_Spec spec = {"ovoid.Solid", sizeof(solid_object), 0,
-                           Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION, slots};
+static PyType_Spec spec = {"ovoid.Solid", sizeof(solid_object), 0, Py_TPFLAGS_DEFAULT, slots};
 
 int solid_add(PyObject *module) {
     static PyMethodDef all[16];
