@@ -138,7 +138,8 @@ def _make_pair(a: int, b: int, answer: Any) -> dict[str, Any]:
 
 def _name_variable(variable: Any) -> str:
     """As the tool: "floor x" of the joint floor."""
-    return variable.name if variable.name == variable.joint else f"{variable.joint} {variable.name[len(variable.joint) + 1:]}"
+    name: str = variable.name
+    return name if name == variable.joint else f"{variable.joint} {variable.name[len(variable.joint) + 1:]}"
 
 
 def _make_joint(joint: Any) -> dict[str, Any]:
@@ -229,7 +230,8 @@ def _make_edge(model: _Model, path: Any) -> dict[str, Any]:
 
 def _find_refused(robot: Any, path: Any) -> int:
     """Of a refused segment the end that is the reason."""
-    variable, states, i = robot.variables[path.hit.variable], path.states.tolist(), path.refused
+    variable, states = robot.variables[path.hit.variable], path.states.tolist()
+    i: int = path.refused
 
     def is_out(state: int) -> bool:
         return not variable.lower <= states[state][path.hit.variable] <= variable.upper
@@ -275,7 +277,7 @@ def _make_path(model: _Model, path: Any) -> dict[str, Any]:
 def _make_robot(scene: Scene, shapes: _Shapes, margin: float, limit_slack: float) -> dict[str, Any]:
     cell, is_path = get_cell(scene.model), hasattr(scene.model, "hit_at")
     model = _Model(cell, shapes)
-    data = {**model.make_tree(limit_slack), "states": scene.states, "answers": []}
+    data: dict[str, Any] = {**model.make_tree(limit_slack), "states": scene.states, "answers": []}
     if is_path:
         return {**data, "path": _make_path(model, scene.model)}
     for i, (name, q) in enumerate(zip(scene.names, scene.states)):
@@ -293,9 +295,9 @@ def make_data(items: tuple[Any, ...], title: str, unit: str | None, margin: floa
     data: dict[str, Any] = {"format": 1, "version": _ovoid.__version__, "title": title, "command": "", "unit": unit, "margin": margin, "shapes": shapes.data}
     if scene.model is not None:
         is_path = hasattr(scene.model, "hit_at")
-        margin, limit_slack = (scene.model.margin, scene.model.limit_slack) if is_path else (margin or 0, limit_slack)
-        robot = _make_robot(scene, shapes, margin, limit_slack)
-        return {**data, "margin": margin if margin > 0 else None, "bodies": [], "pairs": [], "robot": robot}
+        reach: float = scene.model.margin if is_path else margin or 0
+        robot = _make_robot(scene, shapes, reach, scene.model.limit_slack if is_path else limit_slack)
+        return {**data, "margin": reach if reach > 0 else None, "bodies": [], "pairs": [], "robot": robot}
     bodies = [_make_body(shapes, one.name or "body", one.body, one.pose) for one in scene.bodies]
     return {**data, "bodies": bodies, "pairs": [_make_pair(a, b, answer) for a, b, answer in scene.links]}
 

@@ -95,4 +95,4 @@ _REDUCERS = {
 }
 for _name, _reducer in _REDUCERS.items():
     if hasattr(_ovoid, _name):
-        copyreg.pickle(getattr(_ovoid, _name), _reducer)  # type: ignore[arg-type]
+        copyreg.pickle(getattr(_ovoid, _name), _reducer)

@@ -39,7 +39,7 @@ class Plan(NamedTuple):
 
 def _get_search() -> Any:
     try:
-        from . import _ompl
+        from . import _ompl  # type: ignore[attr-defined]  # not in every build
     except ImportError as trouble:
         raise Error("this build of ovoid has no planners: OMPL was not there when it was built (Debian: libompl-dev and libeigen3-dev; then "
                     f"build again) ({trouble})", Code.FILE) from trouble
@@ -114,7 +114,8 @@ def _list_goals(robot: Any, goal: Any, begin: list[float]) -> list[list[float]]:
 def _compute_value(robot: Any, joints: dict[str, Any], joint: Any, q: list[float]) -> float:
     """The number of a joint, which may follow another."""
     if joint.mimic is None:
-        return q[robot.joint_variable(joint.name)]
+        own: float = q[robot.joint_variable(joint.name)]
+        return own
     value: float = joint.multiplier * _compute_value(robot, joints, joints[joint.mimic], q) + joint.offset
     return value
 

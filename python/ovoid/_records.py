@@ -1,17 +1,23 @@
 """The bytes of arrays without NumPy: records of results as lists and dicts, solids as pickles."""
 
+from __future__ import annotations
+
 import re
 import struct
 import sys
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from ._ovoid import Solid
 
 _FIELD = re.compile(r"(?:\((\d+)\))?([A-Za-z]):(\w+):|(\d+)x")
 
 
-def unpack(view, format):
+def unpack(view: memoryview, format: str) -> list[Any]:
     """The items of a memoryview of an Array with that format (PEP 3118): nested lists, of records dicts."""
     if not format.startswith("T{"):
         return view.tolist()
-    fields = []
+    fields: list[tuple[str, int] | None] = []
     layout = "="
     for count, code, name, padding in _FIELD.findall(format[2:-1]):
         fields.append((name, int(count or 0)) if name else None)
@@ -19,21 +25,21 @@ def unpack(view, format):
     return [_make_record(fields, row) for row in struct.iter_unpack(layout, view.cast("B"))]
 
 
-def _make_record(fields, row):
+def _make_record(fields: list[tuple[str, int] | None], row: tuple[Any, ...]) -> dict[str, Any]:
     numbers = iter(row)
-    made = {}
+    made: dict[str, Any] = {}
     for field in filter(None, fields):
         name, count = field
         made[name] = [next(numbers) for _ in range(count)] if count else next(numbers)
     return made
 
 
-def reduce_solid(solid):
+def reduce_solid(solid: Solid) -> tuple[Any, tuple[str, bytes, bytes]]:
     """How pickle makes a Solid again: of the bytes of its points and triangles."""
     return make_solid, (sys.byteorder, bytes(memoryview(solid.vertices).cast("B")), bytes(memoryview(solid.faces).cast("B")))
 
 
-def make_solid(order, vertices, faces):
+def make_solid(order: str, vertices: bytes, faces: bytes) -> Solid:
     """The Solid of these bytes: doubles and 32-bit indices in that order of bytes."""
     from ._ovoid import Solid
 

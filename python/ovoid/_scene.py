@@ -57,8 +57,9 @@ class Scene:
         if self.links or not 2 <= count <= FEW:
             return
         answers = {(a, b): ask(self.bodies[a], self.bodies[b]) for a in range(count) for b in range(a + 1, count)}
-        nearest = {min((pair for pair in answers if i in pair), key=lambda pair: answers[pair].lower) for i in range(count)}
-        self.links = [(a, b, answers[a, b]) for a, b in sorted(nearest, key=lambda pair: answers[pair].lower)]
+        lowers: dict[tuple[int, int], float] = {pair: answer.lower for pair, answer in answers.items()}
+        nearest = {min((pair for pair in answers if i in pair), key=lowers.__getitem__) for i in range(count)}
+        self.links = [(a, b, answers[a, b]) for a, b in sorted(nearest, key=lowers.__getitem__)]
 
 
 def ask(a: Placed, b: Placed) -> Any:
@@ -76,7 +77,7 @@ def get_cell(model: Any) -> Any:
 
 def compute_path_state(path: Any, s: float) -> list[float]:
     """The state of a path at s, linear between its states."""
-    states = path.states.tolist()
+    states: list[list[float]] = path.states.tolist()
     i = min(max(int(s), 0), len(states) - 1)
     after = states[min(i + 1, len(states) - 1)]
     return [q0 + (s - i) * (q1 - q0) for q0, q1 in zip(states[i], after)]
@@ -92,7 +93,7 @@ def list_states(states: Any) -> list[Any]:
     """One state or several, by numbers, names or dicts, as a list."""
     if isinstance(states, (str, Mapping)):
         return [states]
-    rows = states.tolist() if hasattr(states, "tolist") else list(states)
+    rows: list[Any] = states.tolist() if hasattr(states, "tolist") else list(states)
     return [rows] if rows and not hasattr(rows[0], "__len__") else rows
 
 
@@ -122,9 +123,9 @@ def add_model(scene: Scene, model: Any) -> None:
 def _add_world(scene: Scene, world: Any) -> None:
     ids = world.ids().tolist()
     numbers = {key: scene.add(world.body(key), world.pose(key), f"body {key}") for key in ids}
-    hits = [world.nearest(key) for key in ids] if len(ids) <= FEW else []
+    hits: list[Any] = [world.nearest(key) for key in ids] if len(ids) <= FEW else []
     pairs: dict[tuple[int, int], Any] = {}
-    for hit in filter(None, hits):
+    for hit in (one for one in hits if one is not None):
         pairs.setdefault((min(hit.a, hit.b), max(hit.a, hit.b)), hit)
     scene.links += [(numbers[hit.a], numbers[hit.b], hit.answer) for hit in pairs.values()]
 

@@ -117,17 +117,18 @@ class Stubs(unittest.TestCase):
 
     @unittest.skipUnless(shutil.which("mypy"), "needs mypy")
     def test_mypy(self):
-        """A user's file, and one with a mistake, by mypy --strict."""
+        """The package, a user's file, and one with a mistake, by mypy --strict."""
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "user.py")
             environment = dict(os.environ, MYPYPATH=os.path.dirname(os.path.dirname(ovoid.__file__)))
             environment.pop("LD_PRELOAD", None)  # a sanitizer's runtime, which is not for mypy
-            for text, is_good in ((USER, True), (USER + "\nclearance(1, 2).status\novoid.distance(1, 2)\n", False)):
+            wrong = USER + "\nclearance(1, 2).status\novoid.distance(1, 2)\n"
+            for what, text, errors in (["-p", "ovoid"], "", 0), ([path], USER, 0), ([path], wrong, 3):
                 with open(path, "w", encoding="utf-8") as file:
                     file.write(text)
-                run = subprocess.run(["mypy", "--strict", "--cache-dir", folder, path], capture_output=True, text=True,
+                run = subprocess.run(["mypy", "--strict", "--cache-dir", folder, *what], capture_output=True, text=True,
                                      check=False, env=environment)
-                self.assertEqual(run.stdout.count(" error: "), 0 if is_good else 3, run.stdout + run.stderr)
+                self.assertEqual(run.stdout.count(" error: "), errors, run.stdout + run.stderr)
 
 
 class Words(unittest.TestCase):
