@@ -42,14 +42,36 @@ bool is_flat(const named &x) {
     return x.of->getNodeType() == fcl::GEOM_HALFSPACE || x.of->getNodeType() == fcl::GEOM_PLANE;
 }
 
-/// A box of eight vertices as FCL's Convex.
-geometry make_convex(double half) {
-    auto vertices = std::make_shared<std::vector<fcl::Vector3d>>();
+using points_owner = std::shared_ptr<std::vector<fcl::Vector3d>>;
+
+/// The corners of a box as FCL's Convex.
+geometry make_corners(double half) {
+    const auto vertices = std::make_shared<std::vector<fcl::Vector3d>>();
     for (int i = 0; i < 8; i++)
         vertices->push_back(fcl::Vector3d(i & 4 ? half : -half, i & 2 ? half : -half, i & 1 ? half : -half));
     const auto faces = std::make_shared<std::vector<int>>(
         std::vector<int>{4, 0, 1, 3, 2, 4, 4, 6, 7, 5, 4, 0, 4, 5, 1, 4, 2, 3, 7, 6, 4, 0, 2, 6, 4, 4, 1, 5, 7, 3});
     return std::make_shared<fcl::Convexd>(vertices, 6, faces);
+}
+
+/// A hull of so many points on an ellipsoid, along a spiral, as FCL's Convex.
+geometry make_convex(int count) {
+    std::vector<double> points;
+    for (int i = 0; i < count; i++) {
+        const double z = 1 - (2 * i + 1.0) / count, r = std::sqrt(1 - z * z), angle = 2.4 * i;
+        points.insert(points.end(), {0.5 * r * std::cos(angle), 0.45 * r * std::sin(angle), 0.4 * z});
+    }
+    const std::unique_ptr<ovoid_shape, void (*)(ovoid_shape *)> shape(
+        ovoid_shape_create_from_points(points.data(), static_cast<std::size_t>(count), nullptr, nullptr),
+        ovoid_shape_destroy);
+    const ovoid_polytope hull = ovoid_shape_get_polytope(shape.get());
+    const auto vertices = std::make_shared<std::vector<fcl::Vector3d>>();
+    for (const double *v = hull.vertices; v < hull.vertices + 3 * std::size_t{hull.vertex_count}; v += 3)
+        vertices->push_back(fcl::Vector3d(v[0] + hull.origin.x, v[1] + hull.origin.y, v[2] + hull.origin.z));
+    const auto faces = std::make_shared<std::vector<int>>();
+    for (const std::uint32_t *t = hull.triangles; t < hull.triangles + 3 * std::size_t{hull.triangle_count}; t += 3)
+        faces->insert(faces->end(), {3, static_cast<int>(t[0]), static_cast<int>(t[1]), static_cast<int>(t[2])});
+    return std::make_shared<fcl::Convexd>(vertices, static_cast<int>(hull.triangle_count), faces);
 }
 
 std::vector<named> make_geometries() {
@@ -62,7 +84,8 @@ std::vector<named> make_geometries() {
             {"capsule", std::make_shared<Capsuled>(0.3, 0.8)},
             {"cone", std::make_shared<Coned>(0.45, 0.9)},
             {"cylinder", std::make_shared<Cylinderd>(0.4, 0.9)},
-            {"convex", make_convex(0.42)},
+            {"corners", make_corners(0.42)},
+            {"convex", make_convex(20)},
             {"triangle",
              std::make_shared<TrianglePd>(Vector3d(-0.4, -0.3, 0), Vector3d(0.5, -0.2, 0.1), Vector3d(0, 0.6, 0))},
             {"mesh", mesh},
