@@ -16,8 +16,9 @@ enum { SMALL_POINTS = 32, SMALL_POINTS_SIGN = 48, SMALL_POINTS_DISTANCE = 64 };
 
 /// What the search found: bounds that answer the query, and what proves them.
 typedef struct small_end {
-    double lower, upper;
+    double lower;
     vec3 normal; ///< of the lower bound: unit, world
+    double upper;
     /// Differences in the world's axes with weights: of the nearest point, or of the origin inside. Indices and weights
     /// of those that do not count are zero, so that sums run over all.
     simplex points;

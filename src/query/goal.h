@@ -33,10 +33,10 @@ static inline ovoid_status bracket_find_status(double lower, double upper, doubl
 /// options_make for functions that return a code: ARGUMENT with a sentence where options are invalid.
 ovoid_code options_validate(const ovoid_options *given, ovoid_options *options, ovoid_error *error);
 
-/// The goals of the four queries.
-static inline query_goal query_goal_make_collide(void) {
-    return (query_goal){.far = 0, .near = -INFINITY, .beyond = OVOID_LIMIT_ANSWERED};
-}
+/// The goals of the four queries. Those that no number of the caller is in are constants: a query copies its goal, and
+/// would wait for members that have just been written one by one.
+extern const query_goal query_goal_collide, query_goal_distance;
+static inline query_goal query_goal_make_collide(void) { return query_goal_collide; }
 static inline query_goal query_goal_make_within(double margin) {
     return (query_goal){.far = margin, .near = margin, .wants_bracket = 1, .beyond = OVOID_LIMIT_ANSWERED};
 }

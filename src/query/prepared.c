@@ -241,8 +241,7 @@ static ovoid_verdict run(ovoid_prepared_pair pair, const ovoid_options *given, c
 
 ovoid_verdict ovoid_prepared_collide(ovoid_prepared_pair pair, const ovoid_options *options,
                                      const ovoid_evidence *out) {
-    const query_goal goal = query_goal_make_collide();
-    return run(pair, options, &goal, out);
+    return run(pair, options, &query_goal_collide, out);
 }
 
 ovoid_verdict ovoid_prepared_within(ovoid_prepared_pair pair, double margin, const ovoid_options *options,
@@ -253,6 +252,7 @@ ovoid_verdict ovoid_prepared_within(ovoid_prepared_pair pair, double margin, con
 
 ovoid_verdict ovoid_prepared_distance(ovoid_prepared_pair pair, const ovoid_options *options,
                                       const ovoid_evidence *out) {
+    if (!options) return run(pair, NULL, &query_goal_distance, out);
     const query_goal goal = query_goal_make_distance(options);
     return run(pair, options, &goal, out);
 }
