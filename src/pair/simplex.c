@@ -1,6 +1,8 @@
 // The nearest point of points, segments, triangles and tetrahedra, case by case.
 #include "pair/simplex.h"
 
+#include "linear/both.h"
+
 // A nearest point, the corners of the smallest face that contains it, by their places in the simplex, and their
 // weights.
 typedef struct nearest {
@@ -120,27 +122,21 @@ vec3 simplex_reduce(simplex *s) {
     return direction(s, n.point);
 }
 
+// How many points hold the nearest one follows no pattern: the weights of a segment and of a triangle are both
+// computed, and one of them is taken. They are written in pairs, as whoever copies them reads them.
 void simplex_compute_weights(simplex *s) {
-    vec3 a = s->p[0].w;
-    if (s->count == 1) {
-        s->weight[0] = 1;
-        return;
-    }
-    vec3 b = s->p[1].w, e = vec3_sub(b, a);
-    if (s->count == 2) {
-        double t = -vec3_dot(a, e) / vec3_norm_squared(e);
-        s->weight[0] = 1 - t;
-        s->weight[1] = t;
-        if (!(t > 0 && t < 1)) (void)simplex_reduce(s);
-        return;
-    }
-    vec3 c = s->p[2].w, n = vec3_cross(e, vec3_sub(c, a));
+    int k = s->count - 1;
+    vec3 a = s->p[0].w, b = s->p[k > 0].w, c = s->p[k > 1 ? 2 : 0].w, e = vec3_sub(b, a);
+    vec3 n = vec3_cross(e, vec3_sub(c, a));
     double u = vec3_dot(n, vec3_cross(b, c)), v = vec3_dot(n, vec3_cross(c, a)), w = vec3_dot(n, vec3_cross(a, b));
-    double scale = 1 / ((u + v) + w);
-    s->weight[0] = u * scale;
-    s->weight[1] = v * scale;
-    s->weight[2] = w * scale;
-    if (!(u > 0 && v > 0 && w > 0 && isfinite(scale))) (void)simplex_reduce(s);
+    const double part[3] = {1, -vec3_dot(a, e), 1}, whole[3] = {1, vec3_norm_squared(e), (u + v) + w};
+    double t = part[k] / whole[k];
+    const both first[3] = {both_make(1, 0), both_make(1 - t, t), both_make(u * t, v * t)};
+    const both last[3] = {both_make(0, 0), both_make(0, 0), both_make(w * t, 0)};
+    both_store(s->weight, first[k]);
+    both_store(s->weight + 2, last[k]);
+    const int is_inside[3] = {1, (t > 0) & (t < 1), (u > 0) & (v > 0) & (w > 0) & (t < INFINITY)};
+    if (!is_inside[k]) (void)simplex_reduce(s);
 }
 
 void simplex_compute_inside_weights(simplex *s) {

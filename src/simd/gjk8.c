@@ -1,6 +1,8 @@
 // What a lane of gjk8.h ended with.
 #include "simd/gjk8.h"
 
+#include <math.h>
+
 static void take_corner(const gjk8_corner *c, unsigned k, int i, small_gjk_result *r) {
     uint32_t id = (uint32_t)c->id.lane[k];
     r->at.x[i] = c->x.lane[k];
@@ -18,6 +20,7 @@ void gjk8_get_result(const gjk8 *g, unsigned k, small_gjk_end end, small_gjk_res
     r->valid = 0;
     for (int i = 0; i < 3; i++) r->n[i] = n[i].lane[k];
     r->square = (is_inside ? &g->start_square : &g->square)->lane[k];
+    r->scale = 1 / sqrt(r->square);
     r->gap = (is_inside ? &g->start_gap : &g->gap)->lane[k];
     r->iterations = (uint32_t)g->steps.lane[k];
     if (end == SMALL_GJK_APART) {

@@ -60,11 +60,12 @@ typedef struct small_gjk_result {
     uint32_t a[4], b[4]; ///< of these points,
     unsigned valid;      ///< in the lanes of this mask
     small_gjk_end end;
-    double n[3];         ///< a direction of any length, world, and
-    double square, gap;  ///< |n|^2, the gap along it times |n|
-    uint32_t iterations; ///< steps of the simplex
-    double weight[3];    ///< KEPT: sum 1 to rounding
-    double distance;     ///< KEPT: of the weighted point from the origin
+    double n[3];          ///< a direction of any length, world, and
+    double square, scale; ///< |n|^2, 1 / |n|
+    double gap;           ///< along n, times |n|
+    uint32_t iterations;  ///< steps of the simplex
+    double weight[3];     ///< KEPT: sum 1 to rounding
+    double distance;      ///< KEPT: of the weighted point from the origin
 } small_gjk_result;
 
 /// Runs the search. The same bits from every instruction set. Every number that comes back but OPEN's is finite; none
