@@ -135,7 +135,7 @@ typedef struct farthest {
 } farthest;
 
 #if LANES == 4
-enum { MASKED_BLOCKS = 2 };
+enum { MASKED_BLOCKS = 1 };
 
 // The coordinate of the one point whose lane is set, in all lanes.
 SMALL_GJK_INLINE __m256d spread_point(const double *x, const lane_mask *is_best, uint32_t count) {
@@ -194,7 +194,7 @@ SMALL_GJK_INLINE support_result find_extreme_point(const simd_points *p, vec3 n,
 
 SMALL_GJK_INLINE void measure(met *m, const small_gjk_bodies *bodies, uint32_t blocks, vec3 n) {
     const small_gjk_body *a = &bodies->a, *b = &bodies->b;
-    __asm__ volatile("" : : "r"(bodies) : "memory");
+    if (blocks <= MASKED_BLOCKS) __asm__ volatile("" : : "r"(bodies) : "memory");
     const lane along[3] = {lane_set(n.x), lane_set(n.y), lane_set(n.z)}, back[3] = {-along[0], -along[1], -along[2]};
     farthest high = find_farthest(a, along, blocks), low = find_farthest(b, back, blocks);
     m->a = high.index;
