@@ -27,15 +27,17 @@ static inline void small_points_add_radii(small_points *p, const pair_frame *f, 
 }
 
 /// The initialisers of a proof and of an answer. Within one expression gcc 12 builds it in the place of what it is for;
-/// it would copy a variable, or what a function returns.
+/// it would copy a variable, or what a function returns. All members are named: else it would clear the whole first.
 #define SMALL_PROOF(x)                                                                                                 \
     {                                                                                                                  \
-        .normal = (x)->normal, .kind = (x)->kind, .count = (uint32_t)(x)->points.count,                                \
-        .a = {(x)->points.p[0].a, (x)->points.p[1].a, (x)->points.p[2].a, (x)->points.p[3].a},                         \
-        .b = {(x)->points.p[0].b, (x)->points.p[1].b, (x)->points.p[2].b, (x)->points.p[3].b},                         \
-        .weight_a = {(x)->points.weight[0], (x)->points.weight[1], (x)->points.weight[2], (x)->points.weight[3]},      \
-        .weight_b = {(x)->points.weight[0], (x)->points.weight[1], (x)->points.weight[2], (x)->points.weight[3]},      \
-        .inner_a = (x)->inner,                                                                                         \
+        .normal = (x)->normal, .normal_low = {0, 0, 0}, .kind = (x)->kind, .count = (uint32_t)(x)->points.count,       \
+        .a = {(x)->points.p[0].a, (x)->points.p[1].a, (x)->points.p[2].a, (x)->points.p[3].a, 0, 0},                   \
+        .b = {(x)->points.p[0].b, (x)->points.p[1].b, (x)->points.p[2].b, (x)->points.p[3].b, 0, 0},                   \
+        .weight_a =                                                                                                    \
+            {(x)->points.weight[0], (x)->points.weight[1], (x)->points.weight[2], (x)->points.weight[3], 0, 0},        \
+        .weight_b =                                                                                                    \
+            {(x)->points.weight[0], (x)->points.weight[1], (x)->points.weight[2], (x)->points.weight[3], 0, 0},        \
+        .inner_a = (x)->inner, .inner_b = {0, 0, 0},                                                                   \
     }
 
 #define SMALL_ANSWER(x, verdict, points)                                                                               \

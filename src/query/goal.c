@@ -4,6 +4,7 @@
 #include "base/error.h"
 
 const query_goal query_goal_collide = {.far = 0, .near = -INFINITY, .beyond = OVOID_LIMIT_ANSWERED};
+const query_goal query_goal_within = {.wants_bracket = 1, .beyond = OVOID_LIMIT_ANSWERED};
 const query_goal query_goal_distance = {
     .far = INFINITY, .near = -INFINITY, .wants_bracket = 1, .beyond = OVOID_LIMIT_CAP};
 
