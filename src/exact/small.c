@@ -241,6 +241,6 @@ small_outcome small_run_earlier(const placed_query *q, rejection *found, small_e
     // More differences: it touched, and the stages of all pairs say more of that.
     if (earlier->count > 3) return SMALL_OPEN;
     uint32_t a = found->a, b = found->b;
-    small_gjk_kept met = {1, {a, a, a, a}, {b, b, b, b}};
+    small_gjk_kept met = {{a, a, a, a}, {b, b, b, b}, 1};
     return run_kept(q, &met, end);
 }

@@ -79,7 +79,7 @@ void simd_run_small_gjk_unposed(const small_gjk_query *query, small_gjk_result *
 /// The end of a search a moment ago: the points of one to three differences, whose indices the bodies have. Places from
 /// `count` on repeat the first.
 typedef struct small_gjk_kept {
-    uint32_t count, a[4], b[4];
+    uint32_t a[4], b[4], count;
 } small_gjk_kept;
 
 /// Runs the search from these differences; query->start is not read. Mostly the nearest point still lies between them,
