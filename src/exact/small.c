@@ -9,29 +9,13 @@
 #include "pair/proof.h"
 #include "pair/reject.h"
 
-static difference get_corner(const small_gjk_result *r, int i) {
-    return (difference){{r->at.x[i], r->at.y[i], r->at.z[i]}, r->a[i], r->b[i]};
-}
-
-static void clear_points(simplex *points) {
-    points->count = 0;
-    for (int i = 0; i < 4; i++) points->p[i].a = points->p[i].b = 0;
-    both_store(points->weight, both_set(0));
-    both_store(points->weight + 2, both_set(0));
-}
-
-void small_end_set_corner(small_end *end, const difference *corner) {
-    clear_points(&end->points);
-    end->points.p[0] = *corner;
-    both_store(end->points.weight, both_make(1, 0));
-    end->points.count = 1;
-    end->kind = OVOID_PROOF_POINTS;
-    end->inner = (vec3){0, 0, 0};
-    end->has_witness = 0;
-}
+static vec3 get_lane(const small_gjk_result *r, int i) { return (vec3){r->at.x[i], r->at.y[i], r->at.z[i]}; }
 
 static void get_tetrahedron(const small_gjk_result *r, simplex *points) {
-    for (int i = 0; i < 4; i++) points->p[i] = get_corner(r, i);
+    for (int i = 0; i < 4; i++) {
+        points->p[i].a = r->a[i];
+        points->p[i].b = r->b[i];
+    }
     points->count = 4;
 }
 
@@ -44,9 +28,7 @@ static void get_corners(const small_gjk_result *r, simplex *points) {
     points->count = lane[3];
     for (int i = 0; i < 3; i++) {
         uint32_t counts = -(uint32_t)(i < points->count);
-        points->p[i] = get_corner(r, lane[i]);
-        points->p[i].a &= counts;
-        points->p[i].b &= counts;
+        points->p[i] = (difference){get_lane(r, lane[i]), r->a[lane[i]] & counts, r->b[lane[i]] & counts};
     }
     points->p[3].a = points->p[3].b = 0;
 }
@@ -81,7 +63,7 @@ static double find_upper(const pair_frame *f, const small_gjk_result *r, double 
         return find_distance(points) - f->upper_radii + claim;
     }
     get_tetrahedron(r, points);
-    vec3 w[4] = {points->p[0].w, points->p[1].w, points->p[2].w, points->p[3].w};
+    vec3 w[4] = {get_lane(r, 0), get_lane(r, 1), get_lane(r, 2), get_lane(r, 3)};
     double depth = hull_find_weights(w, claim, points->weight);
     if (!(depth > 0)) return INFINITY;
     end->kind = OVOID_PROOF_HULL;
@@ -103,7 +85,7 @@ static int has_line(const pair_frame *f) { return vec3_norm_squared(f->between) 
 
 void small_end_at_inner(const placed_query *q, vec3 common, double upper, small_end *end) {
     end->inner = common;
-    clear_points(&end->points);
+    simplex_clear(&end->points, 0);
     end->kind = OVOID_PROOF_INNER;
     end_at_overlap(q, upper, OVOID_STAGE_INNER, end);
 }
@@ -146,9 +128,9 @@ int small_finish(const pair_frame *f, const query_goal *goal, const small_gjk_re
     end->iterations = r->iterations;
     end->stage = r->iterations > 0 ? OVOID_STAGE_GJK : OVOID_STAGE_SUPPORT;
     if (r->end == SMALL_GJK_APART) {
-        const difference corner = get_corner(r, 0);
-        small_end_set_corner(end, &corner);
-        end->upper = vec3_norm(corner.w) - f->upper_radii + claim;
+        vec3 w = get_lane(r, 0);
+        small_end_set_corner(end, w, r->a[0], r->b[0]);
+        end->upper = vec3_norm(w) - f->upper_radii + claim;
         return query_goal_is_met(goal, end->lower, end->upper);
     }
     end->inner = (vec3){0, 0, 0};
@@ -206,7 +188,7 @@ static int run_kept_inner(const placed_query *q, small_end *end) {
     double upper = inner_compute_upper_at(q->frame, inner);
     if (!(upper < 0)) return small_run_inner(q, end);
     end->inner = inner;
-    clear_points(&end->points);
+    simplex_clear(&end->points, 0);
     end->kind = OVOID_PROOF_INNER;
     end_at_overlap(q, upper, OVOID_STAGE_PROOF, end);
     return 1;

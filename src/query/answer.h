@@ -49,8 +49,8 @@ static inline void small_points_add_radii(small_points *p, const pair_frame *f, 
 
 /// The answer of a search of small bodies, with points and proof or without. Its frame needs only frame_place.
 ovoid_answer answer_make_small(const small_end *end, const pair_frame *frame, const query_goal *goal);
-ovoid_witness answer_make_small_witness(const small_end *end, const pair_frame *frame);
-ovoid_proof answer_make_small_proof(const small_end *end);
+void answer_write_small_witness(const small_end *end, const pair_frame *frame, ovoid_witness *to);
+void answer_write_small_proof(const small_end *end, ovoid_proof *to);
 static inline ovoid_verdict answer_make_small_verdict(const small_end *end, const query_goal *goal) {
     ovoid_status status = bracket_find_status(end->lower, end->upper, goal->tolerance - goal->allowance);
     final_bracket b = {end->lower, end->upper, goal->tolerance, 0, status, end->kind};

@@ -168,11 +168,11 @@ static ovoid_verdict end_at_rejection(const pair_frame *f, const rejection *foun
 static inline ovoid_verdict end_at_small(const pair_frame *f, const small_end *end, const query_goal *goal,
                                          const ovoid_evidence *out) {
     if (out) {
-        if (out->proof) *out->proof = answer_make_small_proof(end);
+        if (out->proof) answer_write_small_proof(end, out->proof);
         if (out->witness && end->has_witness)
             *out->witness = (ovoid_witness){end->point_a, end->point_b, end->normal};
         else if (out->witness)
-            *out->witness = answer_make_small_witness(end, f);
+            answer_write_small_witness(end, f, out->witness);
         if (out->answer) *out->answer = answer_make_small(end, f, goal);
     }
     return answer_make_small_verdict(end, goal);
