@@ -127,7 +127,8 @@ int small_finish(const pair_frame *f, const query_goal *goal, const small_gjk_re
     end->lower = r->gap * scale - f->lower_radii - claim;
     end->iterations = r->iterations;
     end->stage = r->iterations > 0 ? OVOID_STAGE_GJK : OVOID_STAGE_SUPPORT;
-    if (r->end == SMALL_GJK_APART) {
+    // Of bodies far apart mostly one corner.
+    if (r->end == SMALL_GJK_APART || (r->end == SMALL_GJK_NEAR && r->valid == 1)) {
         vec3 w = get_lane(r, 0);
         small_end_set_corner(end, w, r->a[0], r->b[0]);
         end->upper = vec3_norm(w) - f->upper_radii + claim;
