@@ -25,7 +25,11 @@ ovoid_answer rejection_make_answer(const rejection *g, const pair_frame *f, cons
     double distance = vec3_norm(d);
     double upper = distance - f->upper_radii + reject_get_claim(f);
     // The radii go along the difference of the points, which is longer than both, as the lower bound is above zero.
-    double share_a = f->a->radius / distance, share_b = f->b->radius / distance;
+    double share_a = f->a->radius, share_b = f->b->radius;
+    if (share_a + share_b > 0) {
+        share_a /= distance;
+        share_b /= distance;
+    }
     // No zero is negative: of two spheres its sign would depend on their rotations.
     const vec3 normal = vec3_clear_signs(g->normal);
     // One expression, which gcc 12 builds in the result's place; it would copy a variable. All members are named: else
