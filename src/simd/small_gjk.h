@@ -59,11 +59,11 @@ typedef struct small_gjk_result {
     corner_lanes at;     ///< differences B minus A in the world,
     uint32_t a[4], b[4]; ///< of these points,
     unsigned valid;      ///< in the lanes of this mask
+    uint32_t iterations; ///< steps of the simplex
     small_gjk_end end;
-    double n[3];          ///< a direction of any length, world, and
-    double square, scale; ///< |n|^2, 1 / |n|
-    double gap;           ///< along n, times |n|
-    uint32_t iterations;  ///< steps of the simplex
+    double n[3];          ///< a direction of any length, world,
+    double square, scale; ///< |n|^2, 1 / |n|, and
+    double gap;           ///< the gap along it times |n|
     double weight[3];     ///< KEPT: sum 1 to rounding
     double distance;      ///< KEPT: of the weighted point from the origin
 } small_gjk_result;
