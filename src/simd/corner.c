@@ -25,6 +25,11 @@ static inline void cross(double out[3], const double a[3], const double b[3]) {
     out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
+// The candidates: faces in 0 to 2, edges in 4 to 6, the corner in 7. Squares of the edges' lengths.
+typedef struct candidates {
+    double x[8], y[8], z[8], edge[4];
+} candidates;
+
 static inline void set_candidate(candidates *all, int i, const double n[3], double sign) {
     all->x[i] = n[0] * sign;
     all->y[i] = n[1] * sign;
@@ -39,7 +44,7 @@ static corner_step pick(const candidates *all, unsigned bits, int is_inside) {
     unsigned i = (unsigned)compiler_count_low_zeros(bits | 1u << 7);
     double x = all->x[i], y = all->y[i], z = all->z[i], square = (x * x + y * y) + z * z;
     int is_sliver = (i < 3) & !(square > 1e-4 * (all->edge[i & 3] * all->edge[next[i & 3]]));
-    return (corner_step){x, y, z, square, candidates_kept[i], is_inside, is_sliver};
+    return (corner_step){x, y, z, square, corner_kept[i], is_inside, is_sliver};
 }
 
 corner_step simd_step_from_corner_scalar(const corner_lanes *old, unsigned valid, vec3 a) {

@@ -24,49 +24,61 @@ CORNER_AVX2 __m256d spread4(__m256d v) {
     return _mm256_or_pd(v, _mm256_permute_pd(v, 5));
 }
 
-/// The candidate whose sign bit is set: of the faces, of the edges, else the corner. In registers: a load from where it
-/// has just been written would be waited for. Where rounding has set more than one, the first.
-CORNER_AVX2 vectors4 pick4(vectors4 n, __m256d face, vectors4 k, __m256d edge, vectors4 corner, unsigned bits,
-                           unsigned *place) {
-    unsigned i = *place = (unsigned)__builtin_ctz(bits | 1u << 7);
+#define SET (-INT64_MAX - 1)
+/// Of the corners that are valid, by their mask: the corners; the faces between them; the faces if there are three.
+static const _Alignas(32) int64_t corner_masks[8][3][4] = {
+    {{0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}},       {{SET, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}},
+    {{0, SET, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}},     {{SET, SET, 0, 0}, {SET, 0, 0, 0}, {0, 0, 0, 0}},
+    {{0, 0, SET, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}},     {{SET, 0, SET, 0}, {0, 0, SET, 0}, {0, 0, 0, 0}},
+    {{0, SET, SET, 0}, {0, SET, 0, 0}, {0, 0, 0, 0}}, {{SET, SET, SET, 0}, {SET, SET, SET, 0}, {SET, SET, SET, 0}}};
+#undef SET
+
+CORNER_AVX2 __m256d corner_mask(unsigned corners, int what) {
+    return _mm256_load_pd((const double *)corner_masks[corners & 7][what]);
+}
+
+/// The directions of faces, of edges and of the new corner, and in sign bits which face or edge is meant.
+typedef struct directions4 {
+    vectors4 n, k, a;
+    __m256d face, edge;
+} directions4;
+
+/// The direction that is meant, in all lanes, and its number: a face's, 4 more than an edge's, or 7. bits: the signs of
+/// the faces, and from 4 on of the edges. It is taken out of the lanes by masks, as a load from where it has just been
+/// stored would be waited for. Where rounding has set several bits, the first of them counts.
+CORNER_AVX2 vectors4 pick4(directions4 d, unsigned bits, unsigned *number) {
+    unsigned i = *number = (unsigned)__builtin_ctz(bits | 1u << 7);
     if (__builtin_expect((bits & (bits - 1)) != 0, 0)) {
-        static const _Alignas(32) int64_t only[8][4] = {{-1, 0, 0, 0}, {0, -1, 0, 0}, {0, 0, -1, 0}, {0, 0, 0, -1},
-                                                        {0, 0, 0, 0},  {0, 0, 0, 0},  {0, 0, 0, 0},  {0, 0, 0, 0}};
-        face = _mm256_load_pd((const double *)only[i]);
-        edge = _mm256_load_pd((const double *)only[i ^ 4]);
+        d.face = corner_mask(1u << i, 0);
+        d.edge = corner_mask(1u << i >> 4, 0);
     }
-    __m256d any = spread4(_mm256_or_pd(face, edge)), zero = _mm256_setzero_pd();
-#define PICK(v) _mm256_blendv_pd(corner.v, spread4(_mm256_blendv_pd(_mm256_blendv_pd(zero, k.v, edge), n.v, face)), any)
-    return (vectors4){PICK(x), PICK(y), PICK(z)};
+    __m256d any = spread4(_mm256_or_pd(d.face, d.edge)), zero = _mm256_setzero_pd();
+#define PICK(v) spread4(_mm256_blendv_pd(_mm256_blendv_pd(zero, d.k.v, d.edge), d.n.v, d.face))
+    vectors4 p = {PICK(x), PICK(y), PICK(z)};
 #undef PICK
+    return (vectors4){_mm256_blendv_pd(d.a.x, p.x, any), _mm256_blendv_pd(d.a.y, p.y, any),
+                      _mm256_blendv_pd(d.a.z, p.z, any)};
 }
 
 /// simd_step_from_corner to the new corner a, the same in all lanes. Signs are combined where they are, in the lanes'
-/// sign bits, so that two masks are all that leaves the vectors.
+/// sign bits. The order is one in which few numbers are held at a time: a number that is stored and read again takes
+/// longer than what is computed from it.
 CORNER_AVX2 corner_step corner_step_avx2(vectors4 old, unsigned valid, vectors4 a) {
-#define SET (-INT64_MAX - 1)
-    // Of the corners that are valid: the corners; the faces between them; the faces if there are three of them.
-    static const _Alignas(32) int64_t masks[8][3][4] = {
-        {{0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}},       {{SET, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}},
-        {{0, SET, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}},     {{SET, SET, 0, 0}, {SET, 0, 0, 0}, {0, 0, 0, 0}},
-        {{0, 0, SET, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}},     {{SET, 0, SET, 0}, {0, 0, SET, 0}, {0, 0, 0, 0}},
-        {{0, SET, SET, 0}, {0, SET, 0, 0}, {0, 0, 0, 0}}, {{SET, SET, SET, 0}, {SET, SET, SET, 0}, {SET, SET, SET, 0}}};
-#undef SET
     vectors4 e = {_mm256_sub_pd(old.x, a.x), _mm256_sub_pd(old.y, a.y), _mm256_sub_pd(old.z, a.z)};
     vectors4 f = next4(e), n = vectors4_cross(e, f);
     __m256d height = vectors4_dot(n, a), volume = vectors4_dot(n, next4(f));
-    __m256d behind = _mm256_and_pd(_mm256_xor_pd(height, volume), _mm256_load_pd((const double *)masks[valid & 7][2]));
+    __m256d behind = _mm256_and_pd(_mm256_xor_pd(height, volume), corner_mask(valid, 2));
     int is_inside = mask4(behind) == 7;
 
     vectors4 c = vectors4_cross(a, e);
-    __m256d faces = _mm256_load_pd((const double *)masks[valid & 7][1]);
-    __m256d first = _mm256_andnot_pd(vectors4_dot(n, c), faces), next = _mm256_and_pd(vectors4_dot(n, next4(c)), faces);
+    __m256d faces = corner_mask(valid, 1), first = _mm256_andnot_pd(vectors4_dot(n, c), faces);
+    __m256d next = _mm256_and_pd(vectors4_dot(n, next4(c)), faces);
     __m256d of_face = _mm256_or_pd(first, PREVIOUS(next));
     __m256d face = _mm256_andnot_pd(behind, _mm256_and_pd(first, next));
-    __m256d before = _mm256_and_pd(vectors4_dot(a, e), _mm256_load_pd((const double *)masks[valid & 7][0]));
+    __m256d before = _mm256_and_pd(vectors4_dot(a, e), corner_mask(valid, 0));
     __m256d edge = _mm256_andnot_pd(of_face, before);
 
-    // The least square of a face's direction, where it is no sliver.
+    // The square of a face's direction is above `least` where it is no sliver.
     __m256d square = vectors4_dot(e, e);
     _Alignas(32) double least[4];
     _mm256_store_pd(least, _mm256_mul_pd(_mm256_set1_pd(1e-4), _mm256_mul_pd(square, NEXT(square))));
@@ -75,15 +87,10 @@ CORNER_AVX2 corner_step corner_step_avx2(vectors4 old, unsigned valid, vectors4 
     __m256d flip = _mm256_and_pd(height, _mm256_set1_pd(-0.0));
     n = (vectors4){_mm256_xor_pd(n.x, flip), _mm256_xor_pd(n.y, flip), _mm256_xor_pd(n.z, flip)};
     unsigned i, bits = mask4(face) | mask4(edge) << 4;
-    vectors4 p = pick4(n, face, vectors4_cross(e, c), edge, a, bits, &i);
-    double length = _mm256_cvtsd_f64(vectors4_dot(p, p));
-    return (corner_step){_mm256_cvtsd_f64(p.x),
-                         _mm256_cvtsd_f64(p.y),
-                         _mm256_cvtsd_f64(p.z),
-                         length,
-                         candidates_kept[i],
-                         is_inside,
-                         (i < 3) & !(length > least[i & 3])};
+    vectors4 p = pick4((directions4){n, vectors4_cross(e, c), a, face, edge}, bits, &i);
+    double length = _mm256_cvtsd_f64(vectors4_dot(p, p)), x = _mm256_cvtsd_f64(p.x), y = _mm256_cvtsd_f64(p.y);
+    int is_sliver = (i < 3) & !(length > least[i & 3]);
+    return (corner_step){x, y, _mm256_cvtsd_f64(p.z), length, corner_kept[i], is_inside, is_sliver};
 }
 
 #undef PREVIOUS

@@ -138,41 +138,34 @@ typedef struct farthest {
 enum { MASKED_BLOCKS = 1 };
 
 // The coordinate of the one point whose lane is set, in all lanes.
-SMALL_GJK_INLINE __m256d spread_point(const double *x, const lane_mask *is_best, uint32_t count) {
-    lane v = lane_and(lane_load(x), is_best[0]);
-    for (uint32_t i = 1; i < count; i++) v = lane_or(v, lane_and(lane_load(x + LANES * i), is_best[i]));
-    return spread4(v);
+SMALL_GJK_INLINE __m256d spread_point(const double *x, const lane_mask is_best[2]) {
+    return spread4(lane_or(lane_and(lane_load(x), is_best[0]), lane_and(lane_load(x + 4), is_best[1])));
+}
+
+// Of eight points the coordinates come out of the lanes by masks, sooner than they are read by the index.
+SMALL_GJK_INLINE farthest find_farthest_of_eight(const small_gjk_body *p, const lane v[2]) {
+    lane best = find_largest_value(v, 1);
+    const lane_mask is_best[2] = {lane_at_least(v[0], best), lane_at_least(v[1], best)};
+    unsigned equal = lane_bits(is_best[0]) | lane_bits(is_best[1]) << 4, i = (unsigned)__builtin_ctz(equal | 1u << 8);
+    vectors4 at = {spread_point(p->x, is_best), spread_point(p->y, is_best), spread_point(p->z, is_best)};
+    if (__builtin_expect(__builtin_popcount(equal) != 1, 0)) {
+        i = equal ? i : 0;
+        at = vectors4_spread((vec3){p->x[i], p->y[i], p->z[i]});
+    }
+    return (farthest){at, lane_first(best), i};
 }
 #else
 enum { MASKED_BLOCKS = 0 };
 #endif
 
-// Of few points the coordinates come out of the lanes by masks, sooner than by the index.
 SMALL_GJK_INLINE farthest find_farthest(const small_gjk_body *p, const lane n[3], uint32_t blocks) {
-    uint32_t count = 8 * blocks / LANES;
     lane v[SMALL_GJK_POINTS / LANES];
-    for (uint32_t i = 0; i < count; i++) {
+    for (uint32_t i = 0; i < 8 * blocks / LANES; i++) {
         uint32_t at = LANES * i;
         v[i] = dot_points((const lane[]){lane_load(p->x + at), lane_load(p->y + at), lane_load(p->z + at)}, n);
     }
 #if LANES == 4
-    if (blocks <= MASKED_BLOCKS) {
-        lane best = find_largest_value(v, blocks);
-        lane_mask is_best[SMALL_GJK_POINTS / LANES];
-        unsigned equal = 0;
-        for (uint32_t i = 0; i < count; i++) {
-            is_best[i] = lane_at_least(v[i], best);
-            equal |= lane_bits(is_best[i]) << LANES * i;
-        }
-        uint32_t index = (uint32_t)__builtin_ctz(equal | 1u << LANES * count);
-        vectors4 at = {spread_point(p->x, is_best, count), spread_point(p->y, is_best, count),
-                       spread_point(p->z, is_best, count)};
-        if (__builtin_expect(__builtin_popcount(equal) != 1, 0)) {
-            index = equal ? index : 0;
-            at = vectors4_spread((vec3){p->x[index], p->y[index], p->z[index]});
-        }
-        return (farthest){at, lane_first(best), index};
-    }
+    if (blocks <= MASKED_BLOCKS) return find_farthest_of_eight(p, v);
 #endif
     support_result best = find_best(v, blocks);
     uint32_t i = best.index;
@@ -194,6 +187,7 @@ SMALL_GJK_INLINE support_result find_extreme_point(const simd_points *p, vec3 n,
 
 SMALL_GJK_INLINE void measure(met *m, const small_gjk_bodies *bodies, uint32_t blocks, vec3 n) {
     const small_gjk_body *a = &bodies->a, *b = &bodies->b;
+    // The bodies are read from memory: kept in registers they would push the step's own numbers out of them.
     if (blocks <= MASKED_BLOCKS) __asm__ volatile("" : : "r"(bodies) : "memory");
     const lane along[3] = {lane_set(n.x), lane_set(n.y), lane_set(n.z)}, back[3] = {-along[0], -along[1], -along[2]};
     farthest high = find_farthest(a, along, blocks), low = find_farthest(b, back, blocks);
