@@ -38,7 +38,7 @@ static void set_gap(const pair_frame *f, vec3 n, small_gjk_result *r) {
     r->n[0] = n.x;
     r->n[1] = n.y;
     r->n[2] = n.z;
-    r->square = r->scale = 1;
+    r->scale = 1;
     r->gap = (vec3_dot(n, f->offset) - ends.low.value) - ends.high.value;
 }
 

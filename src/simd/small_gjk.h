@@ -61,11 +61,11 @@ typedef struct small_gjk_result {
     unsigned valid;      ///< in the lanes of this mask
     uint32_t iterations; ///< steps of the simplex
     small_gjk_end end;
-    double n[3];          ///< a direction of any length, world,
-    double square, scale; ///< |n|^2, 1 / |n|, and
-    double gap;           ///< the gap along it times |n|
-    double weight[3];     ///< KEPT: sum 1 to rounding
-    double distance;      ///< KEPT: of the weighted point from the origin
+    double n[3];      ///< a direction of any length, world
+    double scale;     ///< 1 / |n|
+    double gap;       ///< along n, times |n|
+    double weight[3]; ///< KEPT: sum 1 to rounding
+    double distance;  ///< KEPT: of the weighted point from the origin
 } small_gjk_result;
 
 /// Runs the search. The same bits from every instruction set. Every number that comes back but OPEN's is finite; none

@@ -90,11 +90,10 @@ SMALL_GJK_INLINE step_end take_step(walk *k, const met *m) {
     return STEP_ON;
 }
 
-SMALL_GJK_INLINE void write_direction(small_gjk_result *r, vec3 n, double square, double scale, double gap) {
+SMALL_GJK_INLINE void write_direction(small_gjk_result *r, vec3 n, double scale, double gap) {
     r->n[0] = n.x;
     r->n[1] = n.y;
     r->n[2] = n.z;
-    r->square = square;
     r->scale = scale;
     r->gap = gap;
 }
@@ -144,7 +143,7 @@ SMALL_GJK_INLINE int look(small_search *s, double scale) {
     double lower = find_lower(q, m, scale), upper = find_upper(q, k, scale);
     int is_apart = lower > q->far;
     if (is_apart | is_answered(q, lower, upper)) {
-        write_direction(r, k->n, k->square, scale, m->gap);
+        write_direction(r, k->n, scale, m->gap);
         r->end = is_apart ? SMALL_GJK_APART : SMALL_GJK_NEAR;
         return 1;
     }
@@ -239,7 +238,7 @@ SMALL_GJK_INLINE int begin(small_search *s, const small_gjk_bodies *bodies, uint
     vec3 n = vec3_at(q->start, 0);
     double square = vec3_dot(n, n), scale = 1 / sqrt(square), w[3];
     find_support(s, bodies, blocks, n);
-    write_direction(r, n, square, scale, m->gap);
+    write_direction(r, n, scale, m->gap);
     r->iterations = 0;
     met_get(m, w);
     k->n = vec3_at(w, 0);

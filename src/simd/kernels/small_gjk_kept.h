@@ -134,7 +134,7 @@ SMALL_GJK_INLINE void run_kept(const small_gjk_query *q, const small_gjk_kept *k
     double scale = 1 / sqrt(s.k.square);
     if (!(s.k.height * scale > q->claim)) return;
     measure_unposed(&s.m, q, blocks, s.k.n);
-    write_direction(r, s.k.n, s.k.square, scale, s.m.gap);
+    write_direction(r, s.k.n, scale, s.m.gap);
     if (is_between && is_near(q, &s.k, &s.m, scale)) {
         end_at_kept(r, kept, &p);
         return;
@@ -161,7 +161,7 @@ SMALL_GJK_INLINE void find_kept(const small_gjk_query *q, const small_gjk_kept *
     if (!find_between(&r->at, kept->count, &p)) return;
     double scale = 1 / sqrt(p.square);
     if (!(p.height * scale > q->claim)) return;
-    write_direction(r, p.n, p.square, scale, 0);
+    write_direction(r, p.n, scale, 0);
     end_at_kept(r, kept, &p);
 }
 

@@ -3,6 +3,7 @@
 #ifndef OVOID_SIMD_KERNELS_SMALL_GJK_LANES_H
 #define OVOID_SIMD_KERNELS_SMALL_GJK_LANES_H
 
+#include "base/compiler.h"
 #include "simd/kernels/corner_avx2.h"
 #include "simd/kernels/lanes.h"
 #include "simd/small_gjk.h"
@@ -188,7 +189,7 @@ SMALL_GJK_INLINE support_result find_extreme_point(const simd_points *p, vec3 n,
 SMALL_GJK_INLINE void measure(met *m, const small_gjk_bodies *bodies, uint32_t blocks, vec3 n) {
     const small_gjk_body *a = &bodies->a, *b = &bodies->b;
     // The bodies are read from memory: kept in registers they would push the step's own numbers out of them.
-    if (blocks <= MASKED_BLOCKS) __asm__ volatile("" : : "r"(bodies) : "memory");
+    if (blocks <= MASKED_BLOCKS) compiler_forget(bodies);
     const lane along[3] = {lane_set(n.x), lane_set(n.y), lane_set(n.z)}, back[3] = {-along[0], -along[1], -along[2]};
     farthest high = find_farthest(a, along, blocks), low = find_farthest(b, back, blocks);
     m->a = high.index;
