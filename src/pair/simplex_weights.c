@@ -1,5 +1,5 @@
-// The weights of a nearest point that lies inside the simplex, in numbers one by one: a load of two coordinates that have
-// just been written one by one waits for both stores.
+// The weights of a nearest point that lies inside the simplex, in numbers one by one: a load of two coordinates that
+// have just been written one by one waits for both stores.
 #include "linear/both.h"
 #include "pair/simplex.h"
 
