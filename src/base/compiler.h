@@ -36,4 +36,7 @@ static inline void compiler_prefetch(const void *at) {
     __asm__ volatile("");
 }
 
+/// What lies at an address and is needed after this is read from there again, not kept in registers.
+static inline void compiler_forget(const void *at) { __asm__ volatile("" : : "r"(at) : "memory"); }
+
 #endif

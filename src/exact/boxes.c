@@ -134,7 +134,7 @@ int boxes_separate(const placed_query *query, small_end *end) {
     vec3 w = frame_world_difference(f, vec3_at(shape_vertices(f->a), a), vec3_at(shape_vertices(f->b), b));
     end->upper = vec3_norm(w) - f->upper_radii + claim;
     end->normal = vec3_clear_signs(found.n);
-    small_end_set_corner(end, &(difference){w, a, b});
+    small_end_set_corner(end, w, a, b);
     end->stage = OVOID_STAGE_SUPPORT;
     end->iterations = 0;
     return 1;

@@ -3,8 +3,6 @@
 
 // 1 if a single difference is more than what the supports met along a normal that parted the bodies: within the margin.
 static int is_near(const pair_frame *f, const query_goal *goal, const ovoid_proof *p) {
-    if (!(goal->far < INFINITY)) return 1;
-    if (!(goal->near > 0)) return 0;
     vec3 w = kept_get_difference(f, p, 0).w;
     double reach = goal->near + f->upper_radii;
     return vec3_norm_squared(w) <= reach * reach;
@@ -12,17 +10,17 @@ static int is_near(const pair_frame *f, const query_goal *goal, const ovoid_proo
 
 small_gjk_kept kept_get_simplex(const pair_frame *f, const query_goal *goal, const ovoid_proof *earlier) {
     const ovoid_proof *p = earlier;
-    small_gjk_kept kept = {.count = p->kind == OVOID_PROOF_POINTS && p->count <= 3 ? p->count : 0};
-    uint32_t most_a = 0, most_b = 0;
+    uint32_t count = p->count, is_sound = 1;
+    int is_single = count == 1 && goal->far < INFINITY;
+    small_gjk_kept kept = {.count = 0};
+    if (p->kind != OVOID_PROOF_POINTS || count - 1 > 2 || (is_single && !(goal->near > 0))) return kept;
     for (uint32_t i = 0; i < 4; i++) {
-        uint32_t at = i < kept.count ? i : 0;
-        kept.a[i] = p->a[at];
-        kept.b[i] = p->b[at];
-        most_a = kept.a[i] > most_a ? kept.a[i] : most_a;
-        most_b = kept.b[i] > most_b ? kept.b[i] : most_b;
+        uint32_t counts = -(uint32_t)(i < count);
+        kept.a[i] = (p->a[i] & counts) | (p->a[0] & ~counts);
+        kept.b[i] = (p->b[i] & counts) | (p->b[0] & ~counts);
+        is_sound &= (kept.a[i] < f->a->vertex_count) & (kept.b[i] < f->b->vertex_count);
     }
-    int is_sound = (most_a < f->a->vertex_count) & (most_b < f->b->vertex_count);
-    if (!is_sound || (kept.count == 1 && !is_near(f, goal, p))) kept.count = 0;
+    if (is_sound && (!is_single || is_near(f, goal, p))) kept.count = count;
     return kept;
 }
 
@@ -40,7 +38,7 @@ static void set_gap(const pair_frame *f, vec3 n, small_gjk_result *r) {
     r->n[0] = n.x;
     r->n[1] = n.y;
     r->n[2] = n.z;
-    r->square = 1;
+    r->scale = 1;
     r->gap = (vec3_dot(n, f->offset) - ends.low.value) - ends.high.value;
 }
 

@@ -3,36 +3,34 @@
 
 #include "exact/boxes.h"
 #include "exact/kept.h"
+#include "linear/both.h"
 #include "pair/hull.h"
 #include "pair/inner.h"
 #include "pair/proof.h"
 #include "pair/reject.h"
 
-static difference get_corner(const small_gjk_result *r, int i) {
-    return (difference){{r->at.x[i], r->at.y[i], r->at.z[i]}, r->a[i], r->b[i]};
-}
+static vec3 get_lane(const small_gjk_result *r, int i) { return (vec3){r->at.x[i], r->at.y[i], r->at.z[i]}; }
 
-static void clear_points(simplex *points) {
-    points->count = 0;
+static void get_tetrahedron(const small_gjk_result *r, simplex *points) {
     for (int i = 0; i < 4; i++) {
-        points->p[i].a = points->p[i].b = 0;
-        points->weight[i] = 0;
+        points->p[i].a = r->a[i];
+        points->p[i].b = r->b[i];
     }
+    points->count = 4;
 }
 
-void small_end_set_corner(small_end *end, const difference *corner) {
-    clear_points(&end->points);
-    end->points.p[0] = *corner;
-    end->points.weight[0] = 1;
-    end->points.count = 1;
-    end->kind = OVOID_PROOF_POINTS;
-    end->inner = (vec3){0, 0, 0};
-    end->has_witness = 0;
-}
-
+// The corners of lanes 0 to 2 that are valid, in their order, without a branch on which they are. Those that do not
+// count repeat one of them, with indices of zero.
 static void get_corners(const small_gjk_result *r, simplex *points) {
-    for (int i = 0; i < 4; i++)
-        if (r->valid >> i & 1) points->p[points->count++] = get_corner(r, i);
+    static const uint8_t lanes[8][4] = {{0, 0, 0, 0}, {0, 0, 0, 1}, {1, 1, 1, 1}, {0, 1, 0, 2},
+                                        {2, 2, 2, 1}, {0, 2, 0, 2}, {1, 2, 1, 2}, {0, 1, 2, 3}};
+    const uint8_t *lane = lanes[r->valid & 7];
+    points->count = lane[3];
+    for (int i = 0; i < 3; i++) {
+        uint32_t counts = -(uint32_t)(i < points->count);
+        points->p[i] = (difference){get_lane(r, lane[i]), r->a[lane[i]] & counts, r->b[lane[i]] & counts};
+    }
+    points->p[3].a = points->p[3].b = 0;
 }
 
 // One to three corners that were kept, with their weights: all but the differences, which no one asks for.
@@ -41,20 +39,31 @@ static void get_kept_corners(const small_gjk_result *r, simplex *points) {
     for (int i = 0; i < 3; i++) {
         points->p[i].a = r->a[i];
         points->p[i].b = r->b[i];
-        points->weight[i] = r->weight[i];
     }
+    points->p[3].a = points->p[3].b = 0;
+    both_store(points->weight, both_make(r->weight[0], r->weight[1]));
+    both_store(points->weight + 2, both_make(r->weight[2], 0));
+}
+
+// The distance of the nearest point of corners that get_corners gave; those that do not count have no weight.
+static double find_distance(simplex *points) {
+    simplex_compute_weights(points);
+    const double *w = points->weight;
+    vec3 p = vec3_add_scaled(vec3_scale(points->p[0].w, w[0]), points->p[1].w, w[1]);
+    return vec3_norm(vec3_add_scaled(p, points->p[2].w, w[2]));
 }
 
 // The upper bound: of the nearest point, or of the hull around the origin; infinity where the origin is not proven
 // inside.
-static double find_upper(const pair_frame *f, small_gjk_end kind, double claim, small_end *end) {
+static double find_upper(const pair_frame *f, const small_gjk_result *r, double claim, small_end *end) {
     simplex *points = &end->points;
-    if (kind != SMALL_GJK_INSIDE) {
+    if (r->end != SMALL_GJK_INSIDE) {
         end->kind = OVOID_PROOF_POINTS;
-        simplex_compute_weights(points);
-        return vec3_norm(simplex_compute_point(points)) - f->upper_radii + claim;
+        get_corners(r, points);
+        return find_distance(points) - f->upper_radii + claim;
     }
-    vec3 w[4] = {points->p[0].w, points->p[1].w, points->p[2].w, points->p[3].w};
+    get_tetrahedron(r, points);
+    vec3 w[4] = {get_lane(r, 0), get_lane(r, 1), get_lane(r, 2), get_lane(r, 3)};
     double depth = hull_find_weights(w, claim, points->weight);
     if (!(depth > 0)) return INFINITY;
     end->kind = OVOID_PROOF_HULL;
@@ -76,7 +85,7 @@ static int has_line(const pair_frame *f) { return vec3_norm_squared(f->between) 
 
 void small_end_at_inner(const placed_query *q, vec3 common, double upper, small_end *end) {
     end->inner = common;
-    clear_points(&end->points);
+    simplex_clear(&end->points, 0);
     end->kind = OVOID_PROOF_INNER;
     end_at_overlap(q, upper, OVOID_STAGE_INNER, end);
 }
@@ -112,19 +121,19 @@ small_gjk_query small_make_query(const pair_frame *f, const query_goal *goal) {
 
 int small_finish(const pair_frame *f, const query_goal *goal, const small_gjk_result *r, small_end *end) {
     if (r->end == SMALL_GJK_OPEN) return 0;
-    double claim = reject_get_claim(f), scale = 1 / sqrt(r->square);
+    double claim = reject_get_claim(f), scale = r->scale;
     // No zero of a direction is negative.
     end->normal = (vec3){r->n[0] * scale + 0.0, r->n[1] * scale + 0.0, r->n[2] * scale + 0.0};
     end->lower = r->gap * scale - f->lower_radii - claim;
     end->iterations = r->iterations;
     end->stage = r->iterations > 0 ? OVOID_STAGE_GJK : OVOID_STAGE_SUPPORT;
-    if (r->end == SMALL_GJK_APART) {
-        const difference corner = get_corner(r, 0);
-        small_end_set_corner(end, &corner);
-        end->upper = vec3_norm(corner.w) - f->upper_radii + claim;
+    // Of bodies far apart mostly one corner.
+    if (r->end == SMALL_GJK_APART || (r->end == SMALL_GJK_NEAR && r->valid == 1)) {
+        vec3 w = get_lane(r, 0);
+        small_end_set_corner(end, w, r->a[0], r->b[0]);
+        end->upper = vec3_norm(w) - f->upper_radii + claim;
         return query_goal_is_met(goal, end->lower, end->upper);
     }
-    clear_points(&end->points);
     end->inner = (vec3){0, 0, 0};
     end->has_witness = 0;
     if (r->end == SMALL_GJK_KEPT) {
@@ -132,8 +141,7 @@ int small_finish(const pair_frame *f, const query_goal *goal, const small_gjk_re
         end->kind = OVOID_PROOF_POINTS;
         end->upper = r->distance - f->upper_radii + claim;
     } else {
-        get_corners(r, &end->points);
-        end->upper = find_upper(f, r->end, claim, end);
+        end->upper = find_upper(f, r, claim, end);
     }
     return query_goal_is_met(goal, end->lower, end->upper);
 }
@@ -181,7 +189,7 @@ static int run_kept_inner(const placed_query *q, small_end *end) {
     double upper = inner_compute_upper_at(q->frame, inner);
     if (!(upper < 0)) return small_run_inner(q, end);
     end->inner = inner;
-    clear_points(&end->points);
+    simplex_clear(&end->points, 0);
     end->kind = OVOID_PROOF_INNER;
     end_at_overlap(q, upper, OVOID_STAGE_PROOF, end);
     return 1;
@@ -216,6 +224,6 @@ small_outcome small_run_earlier(const placed_query *q, rejection *found, small_e
     // More differences: it touched, and the stages of all pairs say more of that.
     if (earlier->count > 3) return SMALL_OPEN;
     uint32_t a = found->a, b = found->b;
-    small_gjk_kept met = {1, {a, a, a, a}, {b, b, b, b}};
+    small_gjk_kept met = {{a, a, a, a}, {b, b, b, b}, 1};
     return run_kept(q, &met, end);
 }

@@ -10,14 +10,17 @@
 #include "pair/reject.h"
 #include "simd/small_gjk.h"
 
+#include <string.h>
+
 /// Most vertices of a body: of a couple in lanes; of a pair alone, for a yes or no, and for a distance. A yes or no of
 /// more is as often decided by the outer ellipsoids.
 enum { SMALL_POINTS = 32, SMALL_POINTS_SIGN = 48, SMALL_POINTS_DISTANCE = 64 };
 
 /// What the search found: bounds that answer the query, and what proves them.
 typedef struct small_end {
-    double lower, upper;
+    double lower;
     vec3 normal; ///< of the lower bound: unit, world
+    double upper;
     /// Differences in the world's axes with weights: of the nearest point, or of the origin inside. Indices and weights
     /// of those that do not count are zero, so that sums run over all.
     simplex points;
@@ -29,8 +32,24 @@ typedef struct small_end {
     uint32_t iterations;
 } small_end;
 
-/// Sets one difference as the proof of the upper bound.
-void small_end_set_corner(small_end *end, const difference *corner);
+/// Sets the first of the weights, all others and all indices to zero: the weights in one, as they are copied from
+/// there.
+static inline void simplex_clear(simplex *points, double first) {
+    const double weight[4] = {first, 0, 0, 0};
+    memcpy(points->weight, weight, sizeof weight);
+    for (int i = 0; i < 4; i++) points->p[i].a = points->p[i].b = 0;
+    points->count = 0;
+}
+
+/// Sets the difference of vertices a and b as the proof of the upper bound.
+static inline void small_end_set_corner(small_end *end, vec3 w, uint32_t a, uint32_t b) {
+    simplex_clear(&end->points, 1);
+    end->points.p[0] = (difference){w, a, b};
+    end->points.count = 1;
+    end->kind = OVOID_PROOF_POINTS;
+    end->inner = (vec3){0, 0, 0};
+    end->has_witness = 0;
+}
 
 /// A query whose pair is placed in the world, once the enclosing spheres have left it open.
 typedef struct placed_query {

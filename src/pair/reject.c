@@ -25,13 +25,19 @@ ovoid_answer rejection_make_answer(const rejection *g, const pair_frame *f, cons
     double distance = vec3_norm(d);
     double upper = distance - f->upper_radii + reject_get_claim(f);
     // The radii go along the difference of the points, which is longer than both, as the lower bound is above zero.
-    double share_a = f->a->radius / distance, share_b = f->b->radius / distance;
+    double share_a = f->a->radius, share_b = f->b->radius;
+    if (share_a + share_b > 0) {
+        share_a /= distance;
+        share_b /= distance;
+    }
     // No zero is negative: of two spheres its sign would depend on their rotations.
     const vec3 normal = vec3_clear_signs(g->normal);
-    // One expression, which gcc 12 builds in the result's place; it would copy a variable.
+    // One expression, which gcc 12 builds in the result's place; it would copy a variable. All members are named: else
+    // it would clear the whole first.
     return (ovoid_answer){.status = OVOID_SEPARATED,
                           .stage = g->stage,
                           .limit = upper - g->lower <= goal->tolerance ? OVOID_LIMIT_NONE : goal->beyond,
+                          .iterations = 0,
                           .lower = g->lower,
                           .upper = upper,
                           .point_a = vec3_clear_signs(vec3_add(f->world_origin, vec3_add_scaled(a, d, share_a))),
@@ -39,10 +45,13 @@ ovoid_answer rejection_make_answer(const rejection *g, const pair_frame *f, cons
                               vec3_clear_signs(vec3_add(f->world_origin, vec3_add_scaled(vec3_add(a, d), d, -share_b))),
                           .normal = normal,
                           .proof = {.normal = normal,
+                                    .normal_low = {0, 0, 0},
                                     .kind = OVOID_PROOF_POINTS,
                                     .count = 1,
-                                    .a = {g->a},
-                                    .b = {g->b},
-                                    .weight_a = {1},
-                                    .weight_b = {1}}};
+                                    .a = {g->a, 0, 0, 0, 0, 0},
+                                    .b = {g->b, 0, 0, 0, 0, 0},
+                                    .weight_a = {1, 0, 0, 0, 0, 0},
+                                    .weight_b = {1, 0, 0, 0, 0, 0},
+                                    .inner_a = {0, 0, 0},
+                                    .inner_b = {0, 0, 0}}};
 }

@@ -120,29 +120,6 @@ vec3 simplex_reduce(simplex *s) {
     return direction(s, n.point);
 }
 
-void simplex_compute_weights(simplex *s) {
-    vec3 a = s->p[0].w;
-    if (s->count == 1) {
-        s->weight[0] = 1;
-        return;
-    }
-    vec3 b = s->p[1].w, e = vec3_sub(b, a);
-    if (s->count == 2) {
-        double t = -vec3_dot(a, e) / vec3_norm_squared(e);
-        s->weight[0] = 1 - t;
-        s->weight[1] = t;
-        if (!(t > 0 && t < 1)) (void)simplex_reduce(s);
-        return;
-    }
-    vec3 c = s->p[2].w, n = vec3_cross(e, vec3_sub(c, a));
-    double u = vec3_dot(n, vec3_cross(b, c)), v = vec3_dot(n, vec3_cross(c, a)), w = vec3_dot(n, vec3_cross(a, b));
-    double scale = 1 / ((u + v) + w);
-    s->weight[0] = u * scale;
-    s->weight[1] = v * scale;
-    s->weight[2] = w * scale;
-    if (!(u > 0 && v > 0 && w > 0 && isfinite(scale))) (void)simplex_reduce(s);
-}
-
 void simplex_compute_inside_weights(simplex *s) {
     double sum = 0, reach = 0;
     vec3 w[4];

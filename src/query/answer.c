@@ -171,12 +171,14 @@ static inline __attribute__((always_inline)) small_points find_small_points(cons
     return (small_points){vec3_add(f->world_origin, found.a), vec3_add(f->world_origin, found.b)};
 }
 
-ovoid_witness answer_make_small_witness(const small_end *end, const pair_frame *f) {
+void answer_write_small_witness(const small_end *end, const pair_frame *f, ovoid_witness *to) {
     small_points p = find_small_points(end, f);
-    return (ovoid_witness){p.a, p.b, end->normal};
+    to->point_a = p.a;
+    to->point_b = p.b;
+    to->normal = end->normal;
 }
 
-ovoid_proof answer_make_small_proof(const small_end *end) { return (ovoid_proof)SMALL_PROOF(end); }
+void answer_write_small_proof(const small_end *end, ovoid_proof *to) { *to = (ovoid_proof)SMALL_PROOF(end); }
 
 ovoid_answer answer_make_small(const small_end *end, const pair_frame *f, const query_goal *goal) {
     ovoid_verdict verdict = answer_make_small_verdict(end, goal);

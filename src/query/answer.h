@@ -27,15 +27,17 @@ static inline void small_points_add_radii(small_points *p, const pair_frame *f, 
 }
 
 /// The initialisers of a proof and of an answer. Within one expression gcc 12 builds it in the place of what it is for;
-/// it would copy a variable, or what a function returns.
+/// it would copy a variable, or what a function returns. All members are named: else it would clear the whole first.
 #define SMALL_PROOF(x)                                                                                                 \
     {                                                                                                                  \
-        .normal = (x)->normal, .kind = (x)->kind, .count = (uint32_t)(x)->points.count,                                \
-        .a = {(x)->points.p[0].a, (x)->points.p[1].a, (x)->points.p[2].a, (x)->points.p[3].a},                         \
-        .b = {(x)->points.p[0].b, (x)->points.p[1].b, (x)->points.p[2].b, (x)->points.p[3].b},                         \
-        .weight_a = {(x)->points.weight[0], (x)->points.weight[1], (x)->points.weight[2], (x)->points.weight[3]},      \
-        .weight_b = {(x)->points.weight[0], (x)->points.weight[1], (x)->points.weight[2], (x)->points.weight[3]},      \
-        .inner_a = (x)->inner,                                                                                         \
+        .normal = (x)->normal, .normal_low = {0, 0, 0}, .kind = (x)->kind, .count = (uint32_t)(x)->points.count,       \
+        .a = {(x)->points.p[0].a, (x)->points.p[1].a, (x)->points.p[2].a, (x)->points.p[3].a, 0, 0},                   \
+        .b = {(x)->points.p[0].b, (x)->points.p[1].b, (x)->points.p[2].b, (x)->points.p[3].b, 0, 0},                   \
+        .weight_a =                                                                                                    \
+            {(x)->points.weight[0], (x)->points.weight[1], (x)->points.weight[2], (x)->points.weight[3], 0, 0},        \
+        .weight_b =                                                                                                    \
+            {(x)->points.weight[0], (x)->points.weight[1], (x)->points.weight[2], (x)->points.weight[3], 0, 0},        \
+        .inner_a = (x)->inner, .inner_b = {0, 0, 0},                                                                   \
     }
 
 #define SMALL_ANSWER(x, verdict, points)                                                                               \
@@ -47,8 +49,8 @@ static inline void small_points_add_radii(small_points *p, const pair_frame *f, 
 
 /// The answer of a search of small bodies, with points and proof or without. Its frame needs only frame_place.
 ovoid_answer answer_make_small(const small_end *end, const pair_frame *frame, const query_goal *goal);
-ovoid_witness answer_make_small_witness(const small_end *end, const pair_frame *frame);
-ovoid_proof answer_make_small_proof(const small_end *end);
+void answer_write_small_witness(const small_end *end, const pair_frame *frame, ovoid_witness *to);
+void answer_write_small_proof(const small_end *end, ovoid_proof *to);
 static inline ovoid_verdict answer_make_small_verdict(const small_end *end, const query_goal *goal) {
     ovoid_status status = bracket_find_status(end->lower, end->upper, goal->tolerance - goal->allowance);
     final_bracket b = {end->lower, end->upper, goal->tolerance, 0, status, end->kind};

@@ -193,7 +193,7 @@ static void run_alone(const group_work *w, unsigned k, pair_frame *f, small_gjk_
 
 static int is_apart(const group_work *w, unsigned k, const small_gjk_result *r) {
     const gjk8 *g = &w->gjk.search;
-    return r->gap * (1 / sqrt(r->square)) - g->lower_radii.lane[k] - g->claim.lane[k] > g->far;
+    return r->gap * r->scale - g->lower_radii.lane[k] - g->claim.lane[k] > g->far;
 }
 
 // Fewer lanes are searched one by one, each in less time than the steps of eight take.

@@ -186,8 +186,8 @@ static void end_small(void *self, size_t index, const placed_query *q, const sma
         return;
     }
     write_verdict(to, index, answer_make_small_verdict(end, q->goal));
-    if (to->proofs) to->proofs[index] = answer_make_small_proof(end);
-    if (to->witnesses) to->witnesses[index] = answer_make_small_witness(end, q->frame);
+    if (to->proofs) answer_write_small_proof(end, &to->proofs[index]);
+    if (to->witnesses) answer_write_small_witness(end, q->frame, &to->witnesses[index]);
     if (to->answers) to->answers[index] = answer_make_small(end, q->frame, q->goal);
 }
 

@@ -2,6 +2,5 @@
 #include "query/answer.h"
 
 ovoid_answer ovoid_collide(const ovoid_pair *pair, const ovoid_options *options, const ovoid_proof *earlier) {
-    const query_goal goal = query_goal_make_collide();
-    return answer_find(pair, &(query_request){options, &goal, earlier, NULL, NULL});
+    return answer_find(pair, &(query_request){options, &query_goal_collide, earlier, NULL, NULL});
 }

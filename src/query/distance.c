@@ -2,6 +2,7 @@
 #include "query/answer.h"
 
 ovoid_answer ovoid_distance(const ovoid_pair *pair, const ovoid_options *options, const ovoid_proof *earlier) {
+    if (!options) return answer_find(pair, &(query_request){NULL, &query_goal_distance, earlier, NULL, NULL});
     const query_goal goal = query_goal_make_distance(options);
     return answer_find(pair, &(query_request){options, &goal, earlier, NULL, NULL});
 }

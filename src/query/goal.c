@@ -3,6 +3,11 @@
 
 #include "base/error.h"
 
+const query_goal query_goal_collide = {.far = 0, .near = -INFINITY, .beyond = OVOID_LIMIT_ANSWERED};
+const query_goal query_goal_within = {.wants_bracket = 1, .beyond = OVOID_LIMIT_ANSWERED};
+const query_goal query_goal_distance = {
+    .far = INFINITY, .near = -INFINITY, .wants_bracket = 1, .beyond = OVOID_LIMIT_CAP};
+
 ovoid_code options_validate(const ovoid_options *given, ovoid_options *options, ovoid_error *error) {
     if (options_make(given, options)) return OVOID_OK;
     return error_set(error, OVOID_ERROR_ARGUMENT, -1, "options: a tolerance or the cap is NaN or negative");

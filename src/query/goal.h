@@ -33,19 +33,22 @@ static inline ovoid_status bracket_find_status(double lower, double upper, doubl
 /// options_make for functions that return a code: ARGUMENT with a sentence where options are invalid.
 ovoid_code options_validate(const ovoid_options *given, ovoid_options *options, ovoid_error *error);
 
-/// The goals of the four queries.
-static inline query_goal query_goal_make_collide(void) {
-    return (query_goal){.far = 0, .near = -INFINITY, .beyond = OVOID_LIMIT_ANSWERED};
-}
+/// The goals of the four queries. A query copies its goal, and would wait for members that have just been written one
+/// by one: so a goal is one of these constants, or a copy of one with far and near set.
+extern const query_goal query_goal_collide, query_goal_within, query_goal_distance;
+static inline query_goal query_goal_make_collide(void) { return query_goal_collide; }
 static inline query_goal query_goal_make_within(double margin) {
-    return (query_goal){.far = margin, .near = margin, .wants_bracket = 1, .beyond = OVOID_LIMIT_ANSWERED};
+    query_goal goal = query_goal_within;
+    goal.far = goal.near = margin;
+    return goal;
 }
 /// Made in the caller's floating-point environment, by no arithmetic: there a subnormal cap might be compared as zero.
 static inline query_goal query_goal_make_distance(const ovoid_options *options) {
+    query_goal goal = query_goal_distance;
     uint64_t bits = 0;
     if (options) memcpy(&bits, &options->cap, sizeof bits);
-    double cap = bits << 1 ? options->cap : INFINITY;
-    return (query_goal){.far = cap, .near = -INFINITY, .wants_bracket = 1, .beyond = OVOID_LIMIT_CAP};
+    if (bits << 1) goal.far = options->cap;
+    return goal;
 }
 static inline query_goal query_goal_make_depth(const ovoid_options *options) {
     query_goal goal = query_goal_make_distance(options);

@@ -168,11 +168,11 @@ static ovoid_verdict end_at_rejection(const pair_frame *f, const rejection *foun
 static inline ovoid_verdict end_at_small(const pair_frame *f, const small_end *end, const query_goal *goal,
                                          const ovoid_evidence *out) {
     if (out) {
-        if (out->proof) *out->proof = answer_make_small_proof(end);
+        if (out->proof) answer_write_small_proof(end, out->proof);
         if (out->witness && end->has_witness)
             *out->witness = (ovoid_witness){end->point_a, end->point_b, end->normal};
         else if (out->witness)
-            *out->witness = answer_make_small_witness(end, f);
+            answer_write_small_witness(end, f, out->witness);
         if (out->answer) *out->answer = answer_make_small(end, f, goal);
     }
     return answer_make_small_verdict(end, goal);
@@ -241,8 +241,7 @@ static ovoid_verdict run(ovoid_prepared_pair pair, const ovoid_options *given, c
 
 ovoid_verdict ovoid_prepared_collide(ovoid_prepared_pair pair, const ovoid_options *options,
                                      const ovoid_evidence *out) {
-    const query_goal goal = query_goal_make_collide();
-    return run(pair, options, &goal, out);
+    return run(pair, options, &query_goal_collide, out);
 }
 
 ovoid_verdict ovoid_prepared_within(ovoid_prepared_pair pair, double margin, const ovoid_options *options,
@@ -253,6 +252,7 @@ ovoid_verdict ovoid_prepared_within(ovoid_prepared_pair pair, double margin, con
 
 ovoid_verdict ovoid_prepared_distance(ovoid_prepared_pair pair, const ovoid_options *options,
                                       const ovoid_evidence *out) {
+    if (!options) return run(pair, NULL, &query_goal_distance, out);
     const query_goal goal = query_goal_make_distance(options);
     return run(pair, options, &goal, out);
 }

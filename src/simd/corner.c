@@ -12,6 +12,7 @@
 // The conditions of Karush, Kuhn and Tucker, of which exactly one set holds, are combinations of these bits; so all
 // candidates are computed in lanes, without a branch, a division or a root, and one is picked. The directions are
 // n_i, e_i x c_i and a: orthogonal to their face or edge to rounding, also where the nearest point is almost 0.
+#include "base/compiler.h"
 #include "simd/kernels/corner_pick.h"
 
 #include <math.h>
@@ -24,6 +25,11 @@ static inline void cross(double out[3], const double a[3], const double b[3]) {
     out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
+// The candidates: faces in 0 to 2, edges in 4 to 6, the corner in 7. Squares of the edges' lengths.
+typedef struct candidates {
+    double x[8], y[8], z[8], edge[4];
+} candidates;
+
 static inline void set_candidate(candidates *all, int i, const double n[3], double sign) {
     all->x[i] = n[0] * sign;
     all->y[i] = n[1] * sign;
@@ -31,6 +37,15 @@ static inline void set_candidate(candidates *all, int i, const double n[3], doub
 }
 
 static inline unsigned sign(double x, int i) { return (unsigned)(signbit(x) != 0) << i; }
+
+// The candidate that the bits name: of the faces, of the edges, else the corner.
+static corner_step pick(const candidates *all, unsigned bits, int is_inside) {
+    static const uint8_t next[4] = {1, 2, 0, 3};
+    unsigned i = (unsigned)compiler_count_low_zeros(bits | 1u << 7);
+    double x = all->x[i], y = all->y[i], z = all->z[i], square = (x * x + y * y) + z * z;
+    int is_sliver = (i < 3) & !(square > 1e-4 * (all->edge[i & 3] * all->edge[next[i & 3]]));
+    return (corner_step){x, y, z, square, corner_kept[i], is_inside, is_sliver};
+}
 
 corner_step simd_step_from_corner_scalar(const corner_lanes *old, unsigned valid, vec3 a) {
     double w[3] = {a.x, a.y, a.z}, e[3][3], c[3][3];
@@ -63,7 +78,7 @@ corner_step simd_step_from_corner_scalar(const corner_lanes *old, unsigned valid
     first &= faces;
     next &= faces;
     unsigned of_face = first | (next << 1 & 7) | next >> 2;
-    return candidates_pick(&all, first & next & ~behind, before & ~of_face & valid & 7, behind == 7);
+    return pick(&all, (first & next & ~behind) | (before & ~of_face & valid & 7) << 4, behind == 7);
 }
 
 #if defined(__x86_64__) && defined(__GNUC__)

@@ -1,6 +1,8 @@
 // What a lane of gjk8.h ended with.
 #include "simd/gjk8.h"
 
+#include <math.h>
+
 static void take_corner(const gjk8_corner *c, unsigned k, int i, small_gjk_result *r) {
     uint32_t id = (uint32_t)c->id.lane[k];
     r->at.x[i] = c->x.lane[k];
@@ -17,7 +19,7 @@ void gjk8_get_result(const gjk8 *g, unsigned k, small_gjk_end end, small_gjk_res
     r->end = end;
     r->valid = 0;
     for (int i = 0; i < 3; i++) r->n[i] = n[i].lane[k];
-    r->square = (is_inside ? &g->start_square : &g->square)->lane[k];
+    r->scale = 1 / sqrt((is_inside ? &g->start_square : &g->square)->lane[k]);
     r->gap = (is_inside ? &g->start_gap : &g->gap)->lane[k];
     r->iterations = (uint32_t)g->steps.lane[k];
     if (end == SMALL_GJK_APART) {
@@ -43,7 +45,7 @@ void gjk8_put_result(gjk8 *g, unsigned k, const small_gjk_result *r) {
         g->is_valid[i].lane[k] = is_valid;
         if (is_valid) put_corner(&g->old[i], k, i, r);
     }
-    g->square.lane[k] = r->square;
+    g->square.lane[k] = vec3_norm_squared(vec3_at(r->n, 0));
     g->gap.lane[k] = r->gap;
     g->steps.lane[k] = r->iterations;
 }

@@ -59,12 +59,13 @@ typedef struct small_gjk_result {
     corner_lanes at;     ///< differences B minus A in the world,
     uint32_t a[4], b[4]; ///< of these points,
     unsigned valid;      ///< in the lanes of this mask
-    small_gjk_end end;
-    double n[3];         ///< a direction of any length, world, and
-    double square, gap;  ///< |n|^2, the gap along it times |n|
     uint32_t iterations; ///< steps of the simplex
-    double weight[3];    ///< KEPT: sum 1 to rounding
-    double distance;     ///< KEPT: of the weighted point from the origin
+    small_gjk_end end;
+    double n[3];      ///< a direction of any length, world
+    double scale;     ///< 1 / |n|
+    double gap;       ///< along n, times |n|
+    double weight[3]; ///< KEPT: sum 1 to rounding
+    double distance;  ///< KEPT: of the weighted point from the origin
 } small_gjk_result;
 
 /// Runs the search. The same bits from every instruction set. Every number that comes back but OPEN's is finite; none
@@ -78,7 +79,7 @@ void simd_run_small_gjk_unposed(const small_gjk_query *query, small_gjk_result *
 /// The end of a search a moment ago: the points of one to three differences, whose indices the bodies have. Places from
 /// `count` on repeat the first.
 typedef struct small_gjk_kept {
-    uint32_t count, a[4], b[4];
+    uint32_t a[4], b[4], count;
 } small_gjk_kept;
 
 /// Runs the search from these differences; query->start is not read. Mostly the nearest point still lies between them,

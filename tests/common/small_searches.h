@@ -62,7 +62,7 @@ static inline void fill_search(uint64_t *s, small_gjk_query *q, double rows[2][9
 static inline int same_search(const small_gjk_result *x, const small_gjk_result *y) {
     if (x->end != y->end) return 0;
     if (x->end == SMALL_GJK_OPEN) return 1;
-    if (memcmp(x->n, y->n, sizeof x->n) || memcmp(&x->square, &y->square, sizeof x->square)) return 0;
+    if (memcmp(x->n, y->n, sizeof x->n) || memcmp(&x->scale, &y->scale, sizeof x->scale)) return 0;
     if (x->gap != y->gap || x->iterations != y->iterations || x->valid != y->valid) return 0;
     if (x->end == SMALL_GJK_KEPT && (memcmp(x->weight, y->weight, sizeof x->weight) || x->distance != y->distance))
         return 0;

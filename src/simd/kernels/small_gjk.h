@@ -20,7 +20,7 @@
 // direction, of any length, and its height along it times that length.
 typedef struct walk {
     corners at;
-    uint32_t a[4], b[4];
+    uint64_t ids; // of their points, 16 bits a lane
     unsigned valid;
     vec3 n;
     double height, square;
@@ -34,22 +34,35 @@ typedef struct small_search {
     small_gjk_result *r;
 } small_search;
 
+// The number of a pair of points, of bodies of at most SMALL_GJK_POINTS.
+SMALL_GJK_INLINE uint64_t get_id(uint32_t a, uint32_t b) { return (a & 0xff) | (b & 0xff) << 8; }
+
 SMALL_GJK_INLINE void put_corner(walk *k, unsigned i, const met *m) {
     corners_put(&k->at, i, m);
-    k->a[i] = m->a;
-    k->b[i] = m->b;
+    k->ids = (k->ids & ~((uint64_t)0xffff << 16 * i)) | get_id(m->a, m->b) << 16 * i;
 }
 
+// 1 if the support is one of the corners. All lanes are compared at once: of the differences one is zero, and only
+// below the lowest zero does no borrow set a lane's highest bit.
 SMALL_GJK_INLINE int is_known(const walk *k, const met *m) {
-    int known = 0;
-    for (int i = 0; i < 3; i++) known |= (k->a[i] == m->a) & (k->b[i] == m->b) & (int)(k->valid >> i);
-    return known & 1;
+    static const uint64_t idle[8] = {~(uint64_t)0,
+                                     ~(uint64_t)0xffff,
+                                     ~(uint64_t)0xffff0000,
+                                     ~(uint64_t)0xffffffff,
+                                     ~(uint64_t)0xffff00000000,
+                                     ~(uint64_t)0xffff0000ffff,
+                                     ~(uint64_t)0xffffffff0000,
+                                     ~(uint64_t)0xffffffffffff};
+    const uint64_t ones = 0x0001000100010001;
+    uint64_t off = (k->ids ^ get_id(m->a, m->b) * ones) | idle[k->valid & 7];
+    return ((off - ones) & ~off & ones << 15) != 0;
 }
 
-// 1 if the bounds answer the query, as query_goal_is_met of pair/search.h says of pairs without allowances.
+// 1 if the bounds answer the query, as query_goal_is_met of pair/search.h says of pairs without allowances. Whether the
+// sign is known in a step follows no pattern, so that only the whole is branched on.
 SMALL_GJK_INLINE int is_answered(const small_gjk_query *q, double lower, double upper) {
-    return (lower > 0 || upper < 0) &&
-           (upper <= q->near || upper < 0 || (q->wants_bracket && upper - lower <= q->tolerance));
+    int is_narrow = (q->wants_bracket != 0) & (upper - lower <= q->tolerance);
+    return ((lower > 0) | (upper < 0)) & ((upper <= q->near) | (upper < 0) | is_narrow);
 }
 
 // The step to the new corner: ON with the next heading, or how the search ends.
@@ -77,17 +90,20 @@ SMALL_GJK_INLINE step_end take_step(walk *k, const met *m) {
     return STEP_ON;
 }
 
-SMALL_GJK_INLINE void write_direction(small_gjk_result *r, vec3 n, double square, double gap) {
+SMALL_GJK_INLINE void write_direction(small_gjk_result *r, vec3 n, double scale, double gap) {
     r->n[0] = n.x;
     r->n[1] = n.y;
     r->n[2] = n.z;
-    r->square = square;
+    r->scale = scale;
     r->gap = gap;
 }
 
 SMALL_GJK_INLINE void write_walk(small_gjk_result *r, const walk *k) {
     corners_store(&k->at, &r->at);
-    for (int i = 0; i < 4; i++) r->a[i] = k->a[i], r->b[i] = k->b[i];
+    for (int i = 0; i < 4; i++) {
+        r->a[i] = k->ids >> 16 * i & 0xff;
+        r->b[i] = k->ids >> (16 * i + 8) & 0xff;
+    }
     r->valid = k->valid;
 }
 
@@ -126,8 +142,8 @@ SMALL_GJK_INLINE int look(small_search *s, double scale) {
     const met *m = &s->m;
     double lower = find_lower(q, m, scale), upper = find_upper(q, k, scale);
     int is_apart = lower > q->far;
-    if (is_apart || is_answered(q, lower, upper)) {
-        write_direction(r, k->n, k->square, m->gap);
+    if (is_apart | is_answered(q, lower, upper)) {
+        write_direction(r, k->n, scale, m->gap);
         r->end = is_apart ? SMALL_GJK_APART : SMALL_GJK_NEAR;
         return 1;
     }
@@ -220,17 +236,17 @@ SMALL_GJK_INLINE int begin(small_search *s, const small_gjk_bodies *bodies, uint
     walk *k = &s->k;
     met *m = &s->m;
     vec3 n = vec3_at(q->start, 0);
-    double square = vec3_dot(n, n), w[3];
+    double square = vec3_dot(n, n), scale = 1 / sqrt(square), w[3];
     find_support(s, bodies, blocks, n);
-    write_direction(r, n, square, m->gap);
+    write_direction(r, n, scale, m->gap);
     r->iterations = 0;
     met_get(m, w);
     k->n = vec3_at(w, 0);
     k->height = k->square = vec3_dot(k->n, k->n);
     // The points of rounded bodies lie along their difference's own direction, which is measured next.
-    double lower = m->gap * (1 / sqrt(square)) - q->lower_radii - q->claim;
-    int is_apart = lower > q->far, is_round = q->lower_radii > 0;
-    if (is_apart || (!is_round && is_answered(q, lower, sqrt(k->square) - q->upper_radii + q->claim))) {
+    double lower = m->gap * scale - q->lower_radii - q->claim;
+    int is_apart = lower > q->far, is_sharp = !(q->lower_radii > 0);
+    if (is_apart | (is_sharp & is_answered(q, lower, sqrt(k->square) - q->upper_radii + q->claim))) {
         end_at_support(r, m);
         return 1;
     }
@@ -246,7 +262,7 @@ SMALL_GJK_INLINE void run(const small_gjk_query *q, small_gjk_bodies *bodies, ui
     if (bodies) pose_bodies(q, bodies, blocks);
     if (begin(&s, bodies, blocks)) return;
     corners_fill(&s.k.at, &s.m);
-    for (int i = 0; i < 4; i++) s.k.a[i] = s.m.a, s.k.b[i] = s.m.b;
+    s.k.ids = get_id(s.m.a, s.m.b);
     s.k.valid = 1;
     search(&s, bodies, blocks);
     if (r->end == SMALL_GJK_APART)

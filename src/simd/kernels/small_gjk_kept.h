@@ -69,14 +69,14 @@ SMALL_GJK_INLINE unsigned find_nearest(const corners *c, double w[3]) {
 
 // The walk at another point of the kept corners; 0 where there is no certain one. The step is told that the nearest
 // corner is the new one: nearly always it is one of those that hold the nearest point.
-SMALL_GJK_INLINE int step_at_kept(uint32_t count, walk *k) {
+SMALL_GJK_INLINE int step_at_kept(const small_gjk_kept *kept, walk *k) {
     met m;
     double w[3];
     unsigned nearest = find_nearest(&k->at, w);
     met_set(&m, w);
-    m.a = k->a[nearest];
-    m.b = k->b[nearest];
-    k->valid = ((1u << count) - 1) & ~(1u << nearest);
+    m.a = kept->a[nearest];
+    m.b = kept->b[nearest];
+    k->valid = ((1u << kept->count) - 1) & ~(1u << nearest);
     // Any height is a gain.
     k->height = 1e150;
     k->square = 1;
@@ -87,7 +87,8 @@ SMALL_GJK_INLINE int step_at_kept(uint32_t count, walk *k) {
 SMALL_GJK_INLINE void meet_kept(const small_gjk_query *q, const small_gjk_kept *kept, walk *k, small_gjk_result *r) {
     corners_meet(&k->at, q, kept->a, kept->b);
     corners_store(&k->at, &r->at);
-    for (int i = 0; i < 4; i++) k->a[i] = kept->a[i], k->b[i] = kept->b[i];
+    k->ids = 0;
+    for (int i = 0; i < 4; i++) k->ids |= get_id(kept->a[i], kept->b[i]) << 16 * i;
     k->valid = (1u << kept->count) - 1;
 }
 
@@ -96,7 +97,7 @@ SMALL_GJK_INLINE void meet_kept(const small_gjk_query *q, const small_gjk_kept *
 SMALL_GJK_INLINE int begin_at_kept(small_search *s, const small_gjk_kept *kept, kept_point *p) {
     walk *k = &s->k;
     meet_kept(s->q, kept, k, s->r);
-    if (!find_between(&s->r->at, kept->count, p)) return step_at_kept(kept->count, k) ? 0 : -1;
+    if (!find_between(&s->r->at, kept->count, p)) return step_at_kept(kept, k) ? 0 : -1;
     k->n = p->n;
     k->height = p->height;
     k->square = p->square;
@@ -104,18 +105,18 @@ SMALL_GJK_INLINE int begin_at_kept(small_search *s, const small_gjk_kept *kept, 
 }
 
 // Ends at the point between the kept corners, which are stored.
-SMALL_GJK_INLINE void end_at_kept(small_gjk_result *r, const walk *k, const kept_point *p) {
+SMALL_GJK_INLINE void end_at_kept(small_gjk_result *r, const small_gjk_kept *kept, const kept_point *p) {
     double scale = 1 / p->sum;
     vec3 point = {0, 0, 0};
     for (unsigned i = 0; i < 3; i++) {
-        int is_kept = k->valid >> i & 1;
-        r->a[i] = is_kept ? k->a[i] : 0;
-        r->b[i] = is_kept ? k->b[i] : 0;
+        uint32_t is_kept = -(uint32_t)(i < kept->count);
+        r->a[i] = is_kept & kept->a[i];
+        r->b[i] = is_kept & kept->b[i];
         r->weight[i] = p->part[i] * scale;
         point = vec3_add_scaled(point, get_lane(&r->at, (int)i), r->weight[i]);
     }
     r->distance = vec3_norm(point);
-    r->valid = k->valid;
+    r->valid = (1u << kept->count) - 1;
     r->end = SMALL_GJK_KEPT;
 }
 
@@ -133,9 +134,9 @@ SMALL_GJK_INLINE void run_kept(const small_gjk_query *q, const small_gjk_kept *k
     double scale = 1 / sqrt(s.k.square);
     if (!(s.k.height * scale > q->claim)) return;
     measure_unposed(&s.m, q, blocks, s.k.n);
-    write_direction(r, s.k.n, s.k.square, s.m.gap);
+    write_direction(r, s.k.n, scale, s.m.gap);
     if (is_between && is_near(q, &s.k, &s.m, scale)) {
-        end_at_kept(r, &s.k, &p);
+        end_at_kept(r, kept, &p);
         return;
     }
     meet_points(q, &s.m);
@@ -157,9 +158,11 @@ SMALL_GJK_INLINE void find_kept(const small_gjk_query *q, const small_gjk_kept *
     r->iterations = 0;
     r->end = SMALL_GJK_OPEN;
     meet_kept(q, kept, &k, r);
-    if (!find_between(&r->at, kept->count, &p) || !(p.height * (1 / sqrt(p.square)) > q->claim)) return;
-    write_direction(r, p.n, p.square, 0);
-    end_at_kept(r, &k, &p);
+    if (!find_between(&r->at, kept->count, &p)) return;
+    double scale = 1 / sqrt(p.square);
+    if (!(p.height * scale > q->claim)) return;
+    write_direction(r, p.n, scale, 0);
+    end_at_kept(r, kept, &p);
 }
 
 SMALL_GJK_INLINE void run_kept_class(const small_gjk_query *q, const small_gjk_kept *kept, small_gjk_result *r) {

@@ -3,6 +3,7 @@
 #ifndef OVOID_SIMD_KERNELS_SMALL_GJK_LANES_H
 #define OVOID_SIMD_KERNELS_SMALL_GJK_LANES_H
 
+#include "base/compiler.h"
 #include "simd/kernels/corner_avx2.h"
 #include "simd/kernels/lanes.h"
 #include "simd/small_gjk.h"
@@ -106,8 +107,8 @@ SMALL_GJK_INLINE void move_points(small_gjk_body *p, const placed_points *from, 
     }
 }
 
-// The largest of the values of 8 blocks points, and the lowest index among those that have it.
-SMALL_GJK_INLINE support_result find_best(const lane *v, uint32_t blocks) {
+// The largest of the values of 8 blocks points, in all lanes.
+SMALL_GJK_INLINE lane find_largest_value(const lane *v, uint32_t blocks) {
     lane m[SMALL_GJK_POINTS / LANES];
     uint32_t count = 8 * blocks / LANES;
     for (uint32_t i = 0; i < count; i++) m[i] = v[i];
@@ -115,20 +116,61 @@ SMALL_GJK_INLINE support_result find_best(const lane *v, uint32_t blocks) {
         half = (left + 1) / 2;
         for (uint32_t i = 0; i + half < left; i++) m[i] = lane_top(m[i], m[i + half]);
     }
-    lane best = lane_find_max(m[0]);
+    return lane_find_max(m[0]);
+}
+
+// The largest value, and the lowest index among those that have it.
+SMALL_GJK_INLINE support_result find_best(const lane *v, uint32_t blocks) {
+    lane best = find_largest_value(v, blocks);
     uint64_t equal = 0;
-    for (uint32_t i = 0; i < count; i++) equal |= (uint64_t)lane_bits(lane_at_least(v[i], best)) << LANES * i;
+    for (uint32_t i = 0; i < 8 * blocks / LANES; i++)
+        equal |= (uint64_t)lane_bits(lane_at_least(v[i], best)) << LANES * i;
     return (support_result){lane_first(best), equal ? (uint32_t)__builtin_ctzll(equal) : 0};
 }
 
-// The point that is farthest along n.
-SMALL_GJK_INLINE support_result find_farthest(const small_gjk_body *p, const lane n[3], uint32_t blocks) {
+// The farthest point along a direction, in all lanes, and how far.
+typedef struct farthest {
+    vectors4 p;
+    double value;
+    uint32_t index;
+} farthest;
+
+#if LANES == 4
+enum { MASKED_BLOCKS = 1 };
+
+// The coordinate of the one point whose lane is set, in all lanes.
+SMALL_GJK_INLINE __m256d spread_point(const double *x, const lane_mask is_best[2]) {
+    return spread4(lane_or(lane_and(lane_load(x), is_best[0]), lane_and(lane_load(x + 4), is_best[1])));
+}
+
+// Of eight points the coordinates come out of the lanes by masks, sooner than they are read by the index.
+SMALL_GJK_INLINE farthest find_farthest_of_eight(const small_gjk_body *p, const lane v[2]) {
+    lane best = find_largest_value(v, 1);
+    const lane_mask is_best[2] = {lane_at_least(v[0], best), lane_at_least(v[1], best)};
+    unsigned equal = lane_bits(is_best[0]) | lane_bits(is_best[1]) << 4, i = (unsigned)__builtin_ctz(equal | 1u << 8);
+    vectors4 at = {spread_point(p->x, is_best), spread_point(p->y, is_best), spread_point(p->z, is_best)};
+    if (__builtin_expect(__builtin_popcount(equal) != 1, 0)) {
+        i = equal ? i : 0;
+        at = vectors4_spread((vec3){p->x[i], p->y[i], p->z[i]});
+    }
+    return (farthest){at, lane_first(best), i};
+}
+#else
+enum { MASKED_BLOCKS = 0 };
+#endif
+
+SMALL_GJK_INLINE farthest find_farthest(const small_gjk_body *p, const lane n[3], uint32_t blocks) {
     lane v[SMALL_GJK_POINTS / LANES];
     for (uint32_t i = 0; i < 8 * blocks / LANES; i++) {
         uint32_t at = LANES * i;
         v[i] = dot_points((const lane[]){lane_load(p->x + at), lane_load(p->y + at), lane_load(p->z + at)}, n);
     }
-    return find_best(v, blocks);
+#if LANES == 4
+    if (blocks <= MASKED_BLOCKS) return find_farthest_of_eight(p, v);
+#endif
+    support_result best = find_best(v, blocks);
+    uint32_t i = best.index;
+    return (farthest){vectors4_spread((vec3){p->x[i], p->y[i], p->z[i]}), best.value, i};
 }
 
 // The extreme point along n of a body whose points are in its own frame.
@@ -146,13 +188,16 @@ SMALL_GJK_INLINE support_result find_extreme_point(const simd_points *p, vec3 n,
 
 SMALL_GJK_INLINE void measure(met *m, const small_gjk_bodies *bodies, uint32_t blocks, vec3 n) {
     const small_gjk_body *a = &bodies->a, *b = &bodies->b;
+    // The bodies are read from memory: kept in registers they would push the step's own numbers out of them.
+    if (blocks <= MASKED_BLOCKS) compiler_forget(bodies);
     const lane along[3] = {lane_set(n.x), lane_set(n.y), lane_set(n.z)}, back[3] = {-along[0], -along[1], -along[2]};
-    support_result high = find_farthest(a, along, blocks), low = find_farthest(b, back, blocks);
-    uint32_t i = m->a = high.index, k = m->b = low.index;
+    farthest high = find_farthest(a, along, blocks), low = find_farthest(b, back, blocks);
+    m->a = high.index;
+    m->b = low.index;
     m->gap = -low.value - high.value;
-    m->w.x = _mm256_sub_pd(_mm256_set1_pd(b->x[k]), _mm256_set1_pd(a->x[i]));
-    m->w.y = _mm256_sub_pd(_mm256_set1_pd(b->y[k]), _mm256_set1_pd(a->y[i]));
-    m->w.z = _mm256_sub_pd(_mm256_set1_pd(b->z[k]), _mm256_set1_pd(a->z[i]));
+    m->w.x = _mm256_sub_pd(low.p.x, high.p.x);
+    m->w.y = _mm256_sub_pd(low.p.y, high.p.y);
+    m->w.z = _mm256_sub_pd(low.p.z, high.p.z);
 }
 
 #endif
