@@ -7,6 +7,7 @@
 //   slivers, directions are divided until none is open (query/swept/divide.c).
 #include "query/swept/overlap.h"
 
+#include "query/swept/circles.h"
 #include "query/swept/enclose.h"
 
 enum { EXCHANGES = 2 };
@@ -95,6 +96,9 @@ static ovoid_verdict answer(const swept_placed *p, const least_overlap *at, doub
 
 ovoid_verdict swept_measure_overlap(const swept_placed *p, ovoid_witness *witness) {
     overlap_search s = {.of = {p->a, p->b, p->d, p->size}, .tolerance = 0.4 * TOLERANCE * p->size};
+    least_overlap least;
+    if (cores_have_circles(&s.of) && cores_search_circles(&s.of, s.tolerance, &least))
+        return answer(p, &least, least.value - s.tolerance - 4 * p->claim, witness);
     s.value = INFINITY;
     for (int is_x_b = 0; is_x_b < 2 && !s.is_proven; is_x_b++)
         if (has_way_out(is_x_b ? p->b : p->a)) exchange_from_middle(&s, is_x_b);
@@ -106,7 +110,6 @@ ovoid_verdict swept_measure_overlap(const swept_placed *p, ovoid_witness *witnes
         }
     }
     if (!(s.value > 4 * p->claim && s.value < INFINITY)) return swept_undecided;
-    least_overlap least;
     double lower;
     if (s.is_proven) {
         least.value = s.value, least.of.n = s.n, least.on_a = s.on_a, least.on_b = s.on_b;
