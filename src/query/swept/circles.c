@@ -15,7 +15,7 @@
 // - where the radius is not above r, if f is not below r at the ends: f - r is concave but for a sine;
 // - where it is not below r, if f is not at one point in it, and its slope there: f - r is convex but for a sine, f - r
 //   >= (f - r) cos x + f' sin x from there. The minimum is found by Newton's method.
-// Other arcs are halved. r is the least value so far; where that fell, all is shown once more.
+// Other arcs are halved. r is the least value so far, so what is shown for it stays so where that falls.
 //
 // (For two boxes that leaves the 15 axes of exact/boxes.c.)
 //
@@ -27,8 +27,8 @@
 
 #include "query/swept/pair.h"
 
-// Halves of an arc, steps to a minimum, and searches of all circles.
-enum { MOST_HALVES = 12, MOST_STEPS = 24, MOST_SEARCHES = 6 };
+// Halves of an arc, and steps to a minimum.
+enum { MOST_HALVES = 12, MOST_STEPS = 24 };
 // Points that are nearer than that part of the size span no line.
 #define SHORT 0x1p-6
 // A slope that is none, as a part of the size.
@@ -176,9 +176,10 @@ static circle make_circle(const box_and_round *q, int k) {
     return o;
 }
 
-// Of a minimum the direction is right to rounding, which a value that is as low is not.
+// Of a minimum the direction is right to rounding, which a value that is as low is not: it comes before others, and
+// these before what was known only where they are lower by more than that.
 static void take_in_plane(box_and_round *q, const circle *o, const arc_end *e, int is_minimum) {
-    if (!(e->value < q->value + is_minimum * LEVEL * q->size)) return;
+    if (!(e->value < q->value + (is_minimum ? LEVEL : -LEVEL) * q->size)) return;
     double at[3];
     at[o->i] = e->n.x, at[o->j] = e->n.y, at[o->k] = 0;
     set_least(q, min2(e->value, q->value), at, FREE_BOX, o->k);
@@ -260,6 +261,8 @@ static int set_piece(const box_and_round *q, circle *o, plane_vector from, plane
 static int hold_between(box_and_round *q, circle *o, plane_vector from, plane_vector to) {
     if (!set_piece(q, o, from, to)) return 1;
     const arc_end first = make_end(q, o, from), last = make_end(q, o, to);
+    take_in_plane(q, o, &first, 0);
+    take_in_plane(q, o, &last, 0);
     return hold_arc(q, o, &first, &last, MOST_HALVES);
 }
 
@@ -310,14 +313,9 @@ static int search_circles(box_and_round *q) {
         }
     }
     take_corners(q);
-    for (int i = 0; i < MOST_SEARCHES; i++) {
-        if (!(q->low > 0)) return 0;
-        const double before = q->value;
-        for (int k = 0; k < 3; k++)
-            if (!hold_circle(q, &circles[k])) return 0;
-        if (before - q->value <= 0.25 * q->tolerance) return 1;
-    }
-    return 0;
+    for (int k = 0; k < 3; k++)
+        if (!(q->low > 0 && hold_circle(q, &circles[k]))) return 0;
+    return q->low > 0;
 }
 
 // ---- the points
