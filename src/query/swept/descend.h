@@ -15,9 +15,10 @@ typedef struct cores {
 typedef struct piece {
     unsigned a, b;
     patch on_a, on_b;
-    double value;  ///< along the direction
-    double g[2];   ///< its slope along the plane's vectors
-    double weight; ///< not below 0; of all pieces together 1
+    patch_form form; ///< the second derivatives of both together
+    double value;    ///< along the direction
+    double g[2];     ///< its slope along the plane's vectors
+    double weight;   ///< not below 0; of all pieces together 1
 } piece;
 
 enum { LEAST_PIECES = 6 };

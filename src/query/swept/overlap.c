@@ -10,7 +10,7 @@
 #include "query/swept/circles.h"
 #include "query/swept/enclose.h"
 
-enum { EXCHANGES = 2 };
+enum { EXCHANGES = 1 };
 
 // The radius of a ball in the core that touches its surface from within at its farthest point along n, where that is
 // `reach` along n from the centre. Of an ellipsoid: with E its form, q another point of it and p that one,

@@ -32,6 +32,15 @@ static ovoid_swept_sphere make_core(ovoid_swept_core core, double *xyz, uint64_t
 
 static double measure(const cores *p, vec3 n) { return vec3_dot(cores_find_ends(p, n).v, n); }
 
+/// Around both ways of each axis: six that hold all directions.
+static const direction_caps all_directions = {6,
+                                              {{{1, 0, 0}, 0.577},
+                                               {{-1, 0, 0}, 0.577},
+                                               {{0, 1, 0}, 0.577},
+                                               {{0, -1, 0}, 0.577},
+                                               {{0, 0, 1}, 0.577},
+                                               {{0, 0, -1}, 0.577}}};
+
 /// What descents found, and how many of their minima were shown to be the least, or not.
 typedef struct tally {
     int found, failed, proven, refused;
@@ -71,7 +80,7 @@ static void check_pair(const cores *p, uint64_t *r, tally *to) {
             check_minimum(p, &at, height);
             least = min2(least, at.value);
             const double wanted = at.value - 1e-12 * p->size;
-            const int is_proven = cores_divide(p, &at, wanted);
+            const int is_proven = cores_divide(p, &at, wanted, &all_directions);
             to->proven += is_proven, to->refused += !is_proven;
             if (is_proven) proven = max2(proven, wanted);
         } else {
