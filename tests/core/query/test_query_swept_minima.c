@@ -5,6 +5,7 @@
 #include "query/swept/circles.h"
 #include "query/swept/divide.h"
 #include "query/swept/pair.h"
+#include "query/swept/sides.h"
 
 #include "check.h"
 #include "places.h"
@@ -41,9 +42,19 @@ static const direction_caps all_directions = {6,
                                                {{0, 0, 1}, 0.577},
                                                {{0, 0, -1}, 0.577}}};
 
+/// The overlap along the direction where a search begins is what it says; is it the least that descents find?
+static int check_sides(const cores *p, double least) {
+    vec3 n = {0, 0, 0};
+    const double value = cores_try_sides(p, &n);
+    CHECK_NEAR(vec3_norm(n), 1, 1e-12);
+    CHECK_NEAR(measure(p, n), value, 1e-12 * p->size);
+    return value <= least + 1e-6 * p->size;
+}
+
 /// What descents found, and how many of their minima were shown to be the least, or not.
 typedef struct tally {
     int found, failed, proven, refused;
+    int sides, near; ///< pairs with sides, and those of which these have the least overlap
 } tally;
 
 /// The least overlap along random directions, and the direction.
@@ -88,6 +99,7 @@ static void check_pair(const cores *p, uint64_t *r, tally *to) {
         }
         n = vec3_unit((vec3){random_normal(r), random_normal(r), random_normal(r)});
     }
+    if (cores_have_sides(p)) to->sides++, to->near += check_sides(p, least);
     // No overlap is less than what was shown to be the least.
     CHECK_LE(proven, least + 1e-12 * p->size);
 }
@@ -142,7 +154,7 @@ int main(void) {
     static const ovoid_swept_core types[] = {OVOID_SWEPT_SEGMENT, OVOID_SWEPT_CYLINDER,  OVOID_SWEPT_BOX,
                                              OVOID_SWEPT_CONE,    OVOID_SWEPT_ELLIPSOID, OVOID_SWEPT_POINTS};
     uint64_t r = check_seed = 5;
-    tally all = {0, 0, 0, 0};
+    tally all = {0, 0, 0, 0, 0, 0};
     for (int i = 0; i < PAIRS; i++) {
         double xyz[2][3 * POINTS];
         const ovoid_swept_sphere a = make_core(types[random_next(&r) % 6], xyz[0], &r),
@@ -154,6 +166,8 @@ int main(void) {
     CHECK_LE(20 * all.failed, all.found);
     CHECK_LE(all.found, 5 * all.proven);
     CHECK_LE(all.found, 10 * all.refused);
+    CHECK_LE(50, all.sides);
+    CHECK_LE(6 * all.sides, 10 * all.near);
     check_round_pairs(&r);
     return check_end();
 }
