@@ -26,11 +26,6 @@ enum { DESCENT_STEPS = 16 };
 #define FLAT 1e-9
 #define EVEN 1e-13
 
-overlap_ends cores_find_ends(const cores *p, vec3 n) {
-    vec3 on_a = patch_find_end(p->a, n, 1), on_b = patch_find_end(p->b, vec3_neg(n), 1);
-    return (overlap_ends){on_a, on_b, vec3_sub(vec3_sub(on_a, on_b), p->d)};
-}
-
 // ---- facets
 
 // A facet whose normal is near n: its number, an axis, or -1; *normal outward.

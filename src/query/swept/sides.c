@@ -5,7 +5,7 @@
 // Each is measured by a few products of the axes and the way between the centres.
 #include "query/swept/sides.h"
 
-enum { STEPS = 6 };
+enum { STEPS = 2 };
 // A slope that is none, as a part of the reach.
 #define LEVEL 1e-9
 // Normals of a side are looked at in the direction to the other body, and on by that many radians.
