@@ -92,6 +92,14 @@ template <class S> bool make_points_pair(const posed<S> &a, const posed<S> &b, o
     return is_one && make_swept_or_points<S>(a.self(), a.pose, to[0]) &&
            make_swept_or_points<S>(b.self(), b.pose, to[1]);
 }
+/// Two geometries of which one is a convex polytope with the corners of a box, and the other that or a swept sphere.
+template <class S>
+bool make_box_pair(const posed<S> &a, const posed<S> &b, const body_couple &couple, ovoid_swept_sphere (&to)[2]) {
+    const auto make = [](const posed<S> &x, const body *of, ovoid_swept_sphere &part) {
+        return of->box().is_one ? make_corner_box<S>(of->box(), x.pose, part) : make_swept<S>(x.self(), x.pose, part);
+    };
+    return (couple.a->box().is_one || couple.b->box().is_one) && make(a, couple.a, to[0]) && make(b, couple.b, to[1]);
+}
 template <class S> posed<S> pose_of(const ::fcl::CollisionObject<S> *o) {
     return {o->collisionGeometry().get(), o->getTransform(), &o->collisionGeometry()};
 }
@@ -209,6 +217,11 @@ template <class S> OVOID_FCL_APART std::size_t collide_plane(const posed<S> &a, 
     return to.count();
 }
 
+/// The contacts of two swept spheres; false if their shapes have to be asked.
+template <class S> bool collide_numbers(contact_list<S> &to, const ovoid_swept_pair &pair) {
+    return to.is_detailed() && have_faces(pair, to.room()) ? list_faces<S>(to, pair) : collide_swept<S>(to, pair);
+}
+
 /// The contacts of bodies, or false if FCL has to answer.
 template <class S> bool collide_bodies(contact_list<S> &to, const posed<S> &a, const posed<S> &b) {
     body_couple couple;
@@ -220,7 +233,9 @@ template <class S> bool collide_bodies(contact_list<S> &to, const posed<S> &a, c
         to.add(-1, -1);
         return true;
     }
-    if (make_points_pair(a, b, swept) && collide_swept<S>(to, {&swept[0], &swept[1]})) return true;
+    if ((make_box_pair(a, b, couple, swept) || make_points_pair(a, b, swept)) &&
+        collide_numbers<S>(to, {&swept[0], &swept[1]}))
+        return true;
     if (!place_couple(a, b, couple)) return false;
     if (couple.has_mesh()) {
         swept_parts<S> parts_a(*couple.a, a.self(), a.pose), parts_b(*couple.b, b.self(), b.pose);

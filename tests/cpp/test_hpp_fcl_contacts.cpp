@@ -225,6 +225,59 @@ static void test_capsules() {
     CHECK_EQ(check(pill, at, pill, make_transform(Vector3d(0.58, 0, 0), Vector3d::UnitX(), 0.2)), 1u);
 }
 
+/// The hull of a parallelepiped's corners around a centre, of which one face is tilted; its faces are not read.
+static body make_hull(const Vector3d &center, const Vector3d &x, const Vector3d &y, const Vector3d &z,
+                      double tilt = 0) {
+    const auto points = std::make_shared<std::vector<Vector3d>>();
+    for (int i = 0; i < 8; i++)
+        points->push_back(center + (i & 1 ? Vector3d((i & 2 ? 1 + tilt : 1) * x) : Vector3d(-x)) +
+                          (i & 2 ? 1 : -1) * y + (i & 4 ? 1 : -1) * z);
+    const auto hull =
+        std::make_shared<Convexd>(points, 1, std::make_shared<std::vector<int>>(std::vector<int>{4, 0, 1, 3, 2}));
+    return {hull, own(ovoid_shape_create_from_points((*points)[0].data(), 8, nullptr, nullptr)), {0, 0, 0}, 0};
+}
+
+/// Convex polytopes that are boxes, have their corners nearly, or are far from their frame's origin, beside each other
+/// and a box: a corner is not off by more than roundings where a box stands for the polytope.
+static void test_hulls_of_boxes() {
+    random_poses poses(3);
+    const Vector3d x = Vector3d::UnitX(), y = Vector3d::UnitY(), z = Vector3d::UnitZ(), none(0, 0, 0);
+    const Eigen::Matrix3d turn = poses.make<double>(0).linear();
+    const std::vector<std::pair<body, bool>> hulls = {
+        {make_hull(none, 0.5 * x, 0.4 * y, 0.3 * z), true},
+        {make_hull(none, 0.5 * z, 0.4 * x, 0.01 * y), true},
+        {make_hull(Vector3d(0.2, -0.1, 0.3), 0.5 * x, 0.1 * y, 0.4 * z), true},
+        {make_hull(none, turn * (0.5 * x), turn * (0.45 * y), turn * (0.55 * z)), true},
+        {make_hull(none, 0.5 * x, 0.4 * y, 0.3 * z + 1e-9 * x), false},
+        {make_hull(none, 0.5 * x, 0.4 * y + 0.2 * x, 0.3 * z), false},
+        {make_hull(none, 0.5 * x, 0.4 * y, 0.3 * z, 1e-9), false},
+        {make_hull(Vector3d(1e6, 0, 0), 0.5 * x, 0.5 * y, 0.5 * z), false}};
+    for (const auto &a : hulls) {
+        const ovoid::fcl::detail::corner_box box = ovoid::fcl::detail::find_corner_box(a.first.shape.get());
+        CHECK_EQ(box.is_one, a.second);
+        for (const auto &b : hulls)
+            for (int n = 0; n < 100; n++) {
+                const Transform3d s = poses.make<double>(0.4), t = poses.make<double>(0.4);
+                const ovoid_answer truth = ask(a.first, s, b.first, t);
+                const std::vector<Contactd> found = list(a.first, s, b.first, t);
+                if (truth.status == OVOID_SEPARATED) CHECK_EQ(found.size(), 0u);
+                if (truth.status != OVOID_OVERLAPPING) continue;
+                CHECK(!found.empty());
+                if (!found.empty()) CHECK_NEAR(found[0].penetration_depth, -truth.upper, 1e-8);
+            }
+    }
+    // Far away the corners are where they are, and not where the sum of a position and a centre is rounded to.
+    for (int n = 0; n < 100; n++) {
+        Transform3d s = poses.make<double>(0.4), t = poses.make<double>(0.4);
+        s.translation()[0] += 1e9, t.translation()[0] += 1e9;
+        const ovoid_answer truth = ask(hulls[2].first, s, hulls[2].first, t);
+        const std::vector<Contactd> found = list(hulls[2].first, s, hulls[2].first, t);
+        CHECK(truth.status != OVOID_OVERLAPPING || !found.empty());
+        if (truth.status == OVOID_OVERLAPPING && !found.empty())
+            CHECK_NEAR(found[0].penetration_depth, -truth.upper, 1e-9);
+    }
+}
+
 int main() {
     const std::vector<body> all = {make_box(1, 0.8, 0.6), make_box(0.9, 0.9, 0.9), make_box(2, 0.1, 0.3),
                                    make_capsule(0.25, 0.8), make_capsule(0.05, 1.5)};
@@ -235,5 +288,6 @@ int main() {
     test_crossing();
     test_long_crossing();
     test_capsules();
+    test_hulls_of_boxes();
     return check_end();
 }

@@ -79,12 +79,78 @@ inline shape_balls make_balls(const ovoid_shape *shape) {
     return balls;
 }
 
+/// A box in a shape's own frame: its centre, unit axes and half lengths, and the sum of these.
+struct corner_box {
+    bool is_one = false;
+    ovoid_vec3 center{0, 0, 0}, axis[3];
+    double half[3], size = 0;
+};
+
+/// The nearest of the points that are at right angles to the first `count` edges, as an edge from the origin, or zero.
+/// Of the corners of a box around one of them that is an edge.
+inline ovoid_vec3 find_edge(const ovoid_vec3 (&points)[8], const ovoid_vec3 (&edges)[3], int count) {
+    ovoid_vec3 nearest{0, 0, 0};
+    double least = std::numeric_limits<double>::infinity();
+    for (const ovoid_vec3 &p : points) {
+        const double square = dot(p, p);
+        bool is_across = square > 0 && square < least;
+        for (int k = 0; k < count; k++)
+            is_across =
+                is_across && std::fabs(dot(p, edges[k])) <= 0x1p-50 * std::sqrt(square * dot(edges[k], edges[k]));
+        if (is_across) nearest = p, least = square;
+    }
+    return nearest;
+}
+
+/// The box whose corners a shape has, each to 2^-51 of the box's size, if there is one. It is about its frame's origin:
+/// the distance of bodies is rounded by their sizes, not by coordinates that are greater.
+inline corner_box find_corner_box(const ovoid_shape *shape) {
+    const ovoid_polytope polytope = ovoid_shape_get_polytope(shape);
+    corner_box box;
+    if (polytope.vertex_count != 8 || polytope.facet_count != 6 || ovoid_shape_get_radius(shape) > 0) return box;
+    const double *v = polytope.vertices;
+    ovoid_vec3 points[8], edges[3];
+    double most = 0;
+    for (int i = 0; i < 8; i++) {
+        points[i] = {v[3 * i] - v[0], v[3 * i + 1] - v[1], v[3 * i + 2] - v[2]};
+        for (int k = 0; k < 3; k++) most = std::max(most, std::fabs(v[3 * i + k]));
+    }
+    for (int k = 0; k < 3; k++) edges[k] = find_edge(points, edges, k);
+    const ovoid_vec3 &o = polytope.origin;
+    box.center = {o.x + v[0], o.y + v[1], o.z + v[2]};
+    for (int k = 0; k < 3; k++) {
+        const double length = std::sqrt(dot(edges[k], edges[k]));
+        if (!(length > 0)) return box;
+        box.center = add_scaled(box.center, edges[k], 0.5);
+        box.axis[k] = add_scaled({0, 0, 0}, edges[k], 1 / length);
+        box.half[k] = length / 2;
+        box.size += length / 2;
+    }
+    if (!(most + sum_abs(o) <= 4 * box.size)) return box;
+    // All sums of the edges are corners.
+    for (int i = 0; i < 8; i++) {
+        ovoid_vec3 corner{0, 0, 0};
+        for (int k = 0; k < 3; k++)
+            if (i >> k & 1) corner = add_scaled(corner, edges[k], 1);
+        if (std::none_of(points, points + 8, [&](const ovoid_vec3 &p) {
+                const ovoid_vec3 off = add_scaled(p, corner, -1);
+                return std::max(std::fabs(off.x), std::max(std::fabs(off.y), std::fabs(off.z))) <= 0x1p-51 * box.size;
+            }))
+            return box;
+    }
+    box.is_one = true;
+    return box;
+}
+
 /// A geometry of FCL as a shape or a solid; neither of them if ovoid refused it: then FCL answers.
 class body {
   public:
     body() = default;
-    explicit body(shape_owner shape) : shape_(std::move(shape)) {
-        if (shape_) balls_ = make_balls(shape_.get());
+    /// may_be_box: the shape is asked whether it has the corners of a box.
+    explicit body(shape_owner shape, bool may_be_box = false) : shape_(std::move(shape)) {
+        if (!shape_) return;
+        balls_ = make_balls(shape_.get());
+        if (may_be_box) box_ = find_corner_box(shape_.get());
     }
     explicit body(solid_owner solid) : solid_(std::move(solid)), pieces_(count_triangles()) {}
     ~body() {
@@ -98,6 +164,8 @@ class body {
     bool is_empty() const { return !shape_ && !solid_; }
     /// Of a shape; of others they decide nothing.
     const shape_balls &balls() const { return balls_; }
+    /// Of a convex polytope the box that it is.
+    const corner_box &box() const { return box_; }
     std::size_t size() const {
         return shape_ ? ovoid_shape_get_size(shape_.get()) : solid_ ? ovoid_solid_get_size(solid_.get()) : 0;
     }
@@ -163,6 +231,7 @@ class body {
 
     shape_owner shape_;
     shape_balls balls_;
+    corner_box box_;
     solid_owner solid_;
     mutable std::vector<std::atomic<ovoid_shape *>> pieces_;
     mutable std::once_flag once_;
@@ -231,7 +300,7 @@ template <class S> std::shared_ptr<const body> make_body(const geometry<S> *g) {
     }
     case ::fcl::GEOM_CONVEX: {
         const auto &vertices = static_cast<const ::fcl::Convex<S> *>(g)->getVertices();
-        return hold(make_hull<S>(vertices.data(), vertices.size()));
+        return std::make_shared<const body>(shape_owner(make_hull<S>(vertices.data(), vertices.size())), true);
     }
     default: break;
     }

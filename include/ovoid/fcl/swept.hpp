@@ -6,6 +6,7 @@
 #ifndef OVOID_FCL_SWEPT_HPP
 #define OVOID_FCL_SWEPT_HPP
 
+#include "ovoid/fcl/body.hpp"
 #include "ovoid/fcl/contacts.hpp"
 #include "ovoid/fcl/faces.hpp"
 #include "ovoid/swept.h"
@@ -106,6 +107,20 @@ OVOID_FCL_INLINE bool make_swept(const typed<S> &g, const ::fcl::Transform3<S> &
     }
     to.center = to_vec3<S>(t.translation());
     return true;
+}
+/// A convex polytope that is a box, at its transform; false if that is not rigid to a few roundings, or the centre
+/// would be rounded by a translation that is large beside the box. What is rounded is less than 50 u of the size.
+template <class S> bool make_corner_box(const corner_box &box, const ::fcl::Transform3<S> &t, ovoid_swept_sphere &to) {
+    const bool is_central = !(sum_abs(box.center) > 0);
+    if (!is_central && !(sum_abs(to_vec3<S>(t.translation())) <= 16 * box.size)) return false;
+    to.radius = 0;
+    to.core = OVOID_SWEPT_BOX;
+    to.center = add_scaled(to_vec3<S>(t.translation()), turn<S>(t, box.center), 1);
+    for (int k = 0; k < 3; k++) {
+        to.half[k] = box.half[k];
+        to.axis[k] = turn<S>(t, box.axis[k]);
+    }
+    return off_rotation(to.axis) <= columns_rounding && is_rotation<S>(t);
 }
 /// The same of these types, of a convex polytope and of a triangle.
 template <class S> bool make_swept_or_points(const typed<S> &g, const ::fcl::Transform3<S> &t, ovoid_swept_sphere &to) {

@@ -13,6 +13,8 @@ enum { DESCENT_STEPS = 16 };
 // The first step at most, and the longest one.
 #define FIRST 0.2
 #define LONGEST 0.5
+#define FAR 2
+#define NEAR 0.1
 // Tangents of the widest and the narrowest angle that is looked at around a minimum, and of the next one to each.
 #define WIDEST 1.5
 #define NARROWEST 0.01
@@ -23,11 +25,6 @@ enum { DESCENT_STEPS = 16 };
 // Where the descent ends, as parts of the size: the slope, and how far pieces are from equal.
 #define FLAT 1e-9
 #define EVEN 1e-13
-
-overlap_ends cores_find_ends(const cores *p, vec3 n) {
-    vec3 on_a = patch_find_end(p->a, n, 1), on_b = patch_find_end(p->b, vec3_neg(n), 1);
-    return (overlap_ends){on_a, on_b, vec3_sub(vec3_sub(on_a, on_b), p->d)};
-}
 
 // ---- facets
 
@@ -91,6 +88,8 @@ static int measure_piece(const cores *p, least_overlap *at, int i) {
         to->on_b = at->pieces[same_b].on_b;
     else if (!patch_find(p->b, to->b, &back, &to->on_b))
         return 0;
+    const patch_form *a = &to->on_a.second, *b = &to->on_b.second;
+    to->form = (patch_form){a->xx + b->xx, a->xy + b->xy, a->yy + b->yy};
     vec3 v = vec3_sub(vec3_sub(to->on_a.at, to->on_b.at), p->d);
     to->value = vec3_dot(v, of->n);
     to->g[0] = vec3_dot(v, of->e[0]);
@@ -108,6 +107,19 @@ static int find_place(least_overlap *at, unsigned a, unsigned b, int *is_known) 
     }
     *is_known = 0;
     return at->count < LEAST_PIECES ? at->count++ : least;
+}
+
+// Forgets pieces that are too low to be the greatest within a step or two of `reach`.
+static void forget_low(least_overlap *at, double reach) {
+    const piece *first = &at->pieces[0];
+    for (int i = at->active; i < at->count;) {
+        const piece *p = &at->pieces[i];
+        const double low = first->value - p->value, x = p->g[0] - first->g[0], y = p->g[1] - first->g[1];
+        if (low > 0 && low * low > FAR * FAR * reach * reach * (x * x + y * y))
+            at->pieces[i] = at->pieces[--at->count];
+        else
+            i++;
+    }
 }
 
 typedef enum measured { NOT_SMOOTH, AS_KNOWN, NEW_PIECE } measured;
@@ -194,12 +206,22 @@ static patch_form add_piece(const piece *x, double weight, double reach) {
                         a * x->on_a.second.yy + b * x->on_b.second.yy};
 }
 
-// Of the active pieces the weighted sum, less h on the diagonal.
-static patch_form add_forms(const least_overlap *at, double reach, double less) {
-    patch_form sum = {-less, 0, -less};
+// Of the active pieces the weighted sum.
+static patch_form add_forms(const least_overlap *at, double reach) {
+    patch_form sum = {0, 0, 0};
     for (int i = 0; i < at->active; i++) {
         const patch_form of = add_piece(&at->pieces[i], at->pieces[i].weight, reach);
         sum.xx += of.xx, sum.xy += of.xy, sum.yy += of.yy;
+    }
+    return sum;
+}
+
+// The same of the pieces as they are here, less the value.
+static patch_form add_forms_here(const least_overlap *at) {
+    patch_form sum = {-at->value, 0, -at->value};
+    for (int i = 0; i < at->active; i++) {
+        const piece *x = &at->pieces[i];
+        sum.xx += x->weight * x->form.xx, sum.xy += x->weight * x->form.xy, sum.yy += x->weight * x->form.yy;
     }
     return sum;
 }
@@ -218,7 +240,7 @@ static plane_step multiply(const patch_form *q, plane_step t) {
 }
 
 static plane_step step_of_one(const least_overlap *at) {
-    patch_form q = add_forms(at, 0, at->value);
+    patch_form q = add_forms_here(at);
     double least = find_least_eigenvalue(&q), wanted = 0.05 * at->value;
     if (least < wanted) q.xx += 0.25 * at->value - least, q.yy += 0.25 * at->value - least;
     double det = q.xx * q.yy - q.xy * q.xy;
@@ -232,7 +254,7 @@ static int step_of_two(least_overlap *at, double reach, plane_step *to) {
     double gx = p->g[0] - q->g[0], gy = p->g[1] - q->g[1], length = sqrt(gx * gx + gy * gy);
     if (!(length > 1e-200)) return drop(at, p->value < q->value ? 0 : 1), 0;
     double fx = gx / length, fy = gy / length, ex = -fy, ey = fx, off = (q->value - p->value) / length;
-    patch_form form = add_forms(at, 0, at->value);
+    patch_form form = add_forms_here(at);
     plane_step t = {off * fx, off * fy}, along = multiply(&form, t), e = multiply(&form, (plane_step){ex, ey});
     double bend = ex * e.x + ey * e.y, slope = ex * (p->g[0] + along.x) + ey * (p->g[1] + along.y);
     double s = bend > 0.05 * at->value ? -slope / bend : slope > 0 ? -LONGEST : LONGEST;
@@ -254,7 +276,7 @@ static int step_of_three(least_overlap *at, plane_step *to) {
     if (!(fabs(det) > 1e-12 * sqrt((ax * ax + ay * ay) * (bx * bx + by * by)))) return drop(at, least), 0;
     double u = p[2].value - p[0].value, v = p[2].value - p[1].value;
     plane_step t = {(u * by - v * ay) / det, (v * ax - u * bx) / det};
-    patch_form form = add_forms(at, 0, at->value);
+    patch_form form = add_forms_here(at);
     plane_step along = multiply(&form, t);
     double x = -(p[2].g[0] + along.x), y = -(p[2].g[1] + along.y);
     double weight[3] = {(x * by - y * bx) / det, (y * ax - x * ay) / det, 0};
@@ -278,9 +300,7 @@ static plane_step step_of_active(least_overlap *at, double reach) {
 
 // A piece's value after a step, without what is common to all.
 static double predict(const piece *p, plane_step t) {
-    patch_form form = {p->on_a.second.xx + p->on_b.second.xx, p->on_a.second.xy + p->on_b.second.xy,
-                       p->on_a.second.yy + p->on_b.second.yy};
-    plane_step along = multiply(&form, t);
+    plane_step along = multiply(&p->form, t);
     return p->value + p->g[0] * t.x + p->g[1] * t.y + 0.5 * (along.x * t.x + along.y * t.y);
 }
 
@@ -391,6 +411,7 @@ int cores_descend(const cores *p, vec3 from, double height, least_overlap *to) {
             return 1;
         }
         last = sqrt(t.x * t.x + t.y * t.y);
+        forget_low(to, max2(last, NEAR));
         reach = min2(LONGEST, max2(reach, growth * last));
         n = vec3_unit(vec3_add_scaled(vec3_add_scaled(n, to->of.e[0], t.x), to->of.e[1], t.y));
     }
@@ -441,7 +462,7 @@ static int is_side_held(const least_overlap *at, int farther, const angle_ring *
 
 static int is_ring_held(const least_overlap *at, angle_ring ring) {
     if (at->active == 2) return is_side_held(at, 0, &ring) && is_side_held(at, 1, &ring);
-    const patch_form m = add_forms(at, ring.to, 0);
+    const patch_form m = add_forms(at, ring.to);
     return is_held(at, &m, &ring);
 }
 

@@ -15,9 +15,10 @@ typedef struct cores {
 typedef struct piece {
     unsigned a, b;
     patch on_a, on_b;
-    double value;  ///< along the direction
-    double g[2];   ///< its slope along the plane's vectors
-    double weight; ///< not below 0; of all pieces together 1
+    patch_form form; ///< the second derivatives of both together
+    double value;    ///< along the direction
+    double g[2];     ///< its slope along the plane's vectors
+    double weight;   ///< not below 0; of all pieces together 1
 } piece;
 
 enum { LEAST_PIECES = 6 };
@@ -41,7 +42,10 @@ typedef struct least_overlap {
 typedef struct overlap_ends {
     vec3 on_a, on_b, v;
 } overlap_ends;
-overlap_ends cores_find_ends(const cores *p, vec3 n);
+COMPILER_INLINED overlap_ends cores_find_ends(const cores *p, vec3 n) {
+    const vec3 on_a = patch_find_end(p->a, n, 1), on_b = patch_find_end(p->b, vec3_neg(n), 1);
+    return (overlap_ends){on_a, on_b, vec3_sub(vec3_sub(on_a, on_b), p->d)};
+}
 
 /// Descends from a unit direction, along which the overlap is `height`, to a local minimum that is not above that, with
 /// the pieces that are in *to already; 0 if none is found in a few steps. Where h is not above 0 on the way the cores

@@ -1,16 +1,16 @@
-// The overlap h(n) of two cores is nowhere less than r, by branch and bound over the directions: these are divided into
-// spherical triangles, at first eight around the minimum, then each that is open in half along its longest side. A
-// point of the difference body that is r along all three corners is r along all directions between them, since such a
-// unit direction is a sum of the corners whose weights are together 1 at least. Tried are the support point in the
-// middle of the triangle, and those of the triangles that it is a part of. Around the minimum, where no point does, the
-// second derivatives do up to an angle (query/swept/descend.c).
+// The overlap h(n) of two cores is nowhere less than r, by branch and bound over the directions that are open: a cap of
+// them is covered by two spherical triangles, and each triangle that is open is halved along its longest side. A point
+// of the difference body that is r along all three corners is r along all directions between them, since such a unit
+// direction is a sum of the corners whose weights are together 1 at least. Tried are the support point in the middle of
+// the triangle, and those of the triangles that it is a part of. Around the minimum, where no point does, the second
+// derivatives do up to an angle (query/swept/descend.c).
 //
 // Errors, in parts u s as in swept.c: a corner is of unit length, a middle off the great circle of its side, and a
 // product off, by less than 10 u s together, along which h changes by as much; the point is one of the body to 120 u s.
 #include "query/swept/divide.h"
 
 // The most supports that are asked, and the most times that a triangle is halved.
-enum { MOST_CELLS = 300, MOST_HALVES = 32 };
+enum { MOST_CELLS = 600, MOST_HALVES = 32 };
 
 typedef struct division {
     const cores *of;
@@ -53,17 +53,23 @@ static int divide(division *d, const cell *c, const vec3 *known) {
     return divide(d, &first, &point) && divide(d, &last, &point);
 }
 
-int cores_divide(const cores *p, const least_overlap *at, double wanted) {
-    const patch_plane *of = &at->of;
-    const double tangent = least_overlap_find_angle(at, wanted);
-    division d = {p, of->n, tangent > 0 ? 1 / sqrt(1 + tangent * tangent) + 0x1p-50 : 2, wanted, MOST_CELLS};
+// Seen from the middle of a cap great circles are lines: a square covers it.
+static int divide_cap(division *d, const direction_cap *cap) {
+    const patch_plane of = patch_make_plane(cap->n);
+    const double reach = sqrt(2 * (1 - cap->cosine * cap->cosine)) / cap->cosine;
+    vec3 corner[4];
+    for (int i = 0; i < 4; i++) corner[i] = vec3_unit(vec3_add_scaled(of.n, of.e[i & 1], i & 2 ? -reach : reach));
+    const cell first = {{corner[0], corner[1], corner[2]}, MOST_HALVES},
+               last = {{corner[2], corner[3], corner[0]}, MOST_HALVES};
     const vec3 none = {0, 0, 0};
+    return divide(d, &first, &none) && divide(d, &last, &none);
+}
+
+int cores_divide(const cores *p, const least_overlap *at, double wanted, const direction_caps *open) {
+    const double tangent = least_overlap_find_angle(at, wanted);
+    division d = {p, at->of.n, tangent > 0 ? 1 / sqrt(1 + tangent * tangent) + 0x1p-50 : 2, wanted, MOST_CELLS};
     int is_proven = 1;
-    for (int i = 0; i < 8 && is_proven; i++) {
-        const cell octant = {{i & 1 ? vec3_neg(of->n) : of->n, i & 2 ? vec3_neg(of->e[0]) : of->e[0],
-                              i & 4 ? vec3_neg(of->e[1]) : of->e[1]},
-                             MOST_HALVES};
-        is_proven = divide(&d, &octant, &none);
-    }
+    for (uint32_t i = 0; i < open->count && is_proven; i++)
+        is_proven = open->cap[i].cosine > 0 && divide_cap(&d, &open->cap[i]);
     return is_proven;
 }

@@ -206,6 +206,29 @@ static int take_face(enclosure *g) {
     return is_found;
 }
 
+// Where the overlap may be less than what is wanted, by a surface around the origin whose growth ended: on the way
+// along such an n to a point that is as far as wanted, beyond the difference body, a face is passed, of which n.n_f >
+// low / wanted. 0 if the surface is none around the origin.
+static int find_open(const enclosure *g, direction_caps *open) {
+    const epa8 *e = &g->lanes;
+    open->count = 0;
+    if ((e->alive[0] & e->inward[0]) | (e->alive[1] & e->inward[1])) return 0;
+    for (uint32_t i = 0; i < EPA8_FACES; i++) {
+        // Planes are known to less than 6 claims.
+        const double low = e->low[i] - 6 * g->claim;
+        if (!(e->alive[i / 64] >> i % 64 & 1) || low >= g->wanted) continue;
+        if (open->count == MOST_CAPS) return 0;
+        open->cap[open->count++] = (direction_cap){{-e->n[0][i], -e->n[1][i], -e->n[2][i]}, low / g->wanted - 0x1p-48};
+    }
+    return 1;
+}
+
+// What the growth left.
+static int divide_open(const enclosure *g) {
+    direction_caps open;
+    return find_open(g, &open) && cores_divide(g->of, g->least, g->wanted, &open);
+}
+
 int cores_enclose(const cores *p, double claim, double tolerance, least_overlap *at, double *lower) {
     enclosure g;
     // No product of the growth overflows.
@@ -221,7 +244,7 @@ int cores_enclose(const cores *p, double claim, double tolerance, least_overlap 
         end = grow(&g);
     } while (g.turn == TURN_ANEW);
     *lower = g.wanted - 7 * claim;
-    if (end == EPA8_LEFT && g.turn == TURN_ON && at->value < INFINITY) return cores_divide(p, at, g.wanted);
+    if (end == EPA8_LEFT && g.turn == TURN_ON && at->value < INFINITY) return divide_open(&g);
     if (end != EPA8_NARROW || g.turn == TURN_LEFT) return 0;
     if (g.lanes.low[g.lanes.nearest] < g.wanted && !take_face(&g)) return 0;
     *lower = g.wanted - 7 * claim;

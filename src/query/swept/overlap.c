@@ -7,9 +7,11 @@
 //   slivers, directions are divided until none is open (query/swept/divide.c).
 #include "query/swept/overlap.h"
 
+#include "query/swept/circles.h"
 #include "query/swept/enclose.h"
+#include "query/swept/sides.h"
 
-enum { EXCHANGES = 2 };
+enum { EXCHANGES = 1 };
 
 // The radius of a ball in the core that touches its surface from within at its farthest point along n, where that is
 // `reach` along n from the centre. Of an ellipsoid: with E its form, q another point of it and p that one,
@@ -72,6 +74,18 @@ static void exchange_from_middle(overlap_search *s, int is_x_b) {
 
 static int has_way_out(const swept *s) { return s->core >= OVOID_SWEPT_SEGMENT && s->core <= OVOID_SWEPT_CONE; }
 
+// The ways on which the middle of each core leaves the other one, or from one to the other.
+static void try_middles(overlap_search *s) {
+    const swept *a = s->of.a, *b = s->of.b;
+    for (int is_x_b = 0; is_x_b < 2 && !s->is_proven; is_x_b++)
+        if (has_way_out(is_x_b ? b : a)) exchange_from_middle(s, is_x_b);
+    if (s->is_proven) return;
+    const vec3 n = vec3_unit(vec3_sub(vec3_add(s->of.d, swept_find_middle(b)), swept_find_middle(a)));
+    if (!(vec3_norm_squared(n) > 0.5)) return;
+    const double value = vec3_dot(n, cores_find_ends(&s->of, n).v);
+    if (value < s->value) s->value = value, s->n = n;
+}
+
 // Is the minimum shown to be the least one without a polytope?
 static int is_least(overlap_search *s, const least_overlap *at) {
     vec3 next;
@@ -95,18 +109,15 @@ static ovoid_verdict answer(const swept_placed *p, const least_overlap *at, doub
 
 ovoid_verdict swept_measure_overlap(const swept_placed *p, ovoid_witness *witness) {
     overlap_search s = {.of = {p->a, p->b, p->d, p->size}, .tolerance = 0.4 * TOLERANCE * p->size};
-    s.value = INFINITY;
-    for (int is_x_b = 0; is_x_b < 2 && !s.is_proven; is_x_b++)
-        if (has_way_out(is_x_b ? p->b : p->a)) exchange_from_middle(&s, is_x_b);
-    if (!s.is_proven) {
-        vec3 d = vec3_sub(vec3_add(p->d, swept_find_middle(p->b)), swept_find_middle(p->a)), n = vec3_unit(d);
-        if (vec3_norm_squared(n) > 0.5) {
-            double value = vec3_dot(n, cores_find_ends(&s.of, n).v);
-            if (value < s.value) s.value = value, s.n = n;
-        }
-    }
-    if (!(s.value > 4 * p->claim && s.value < INFINITY)) return swept_undecided;
     least_overlap least;
+    if (cores_have_circles(&s.of) && cores_search_circles(&s.of, s.tolerance, &least))
+        return answer(p, &least, least.value - s.tolerance - 4 * p->claim, witness);
+    s.value = INFINITY;
+    if (cores_have_sides(&s.of))
+        s.value = cores_try_sides(&s.of, &s.n);
+    else
+        try_middles(&s);
+    if (!(s.value > 4 * p->claim && s.value < INFINITY)) return swept_undecided;
     double lower;
     if (s.is_proven) {
         least.value = s.value, least.of.n = s.n, least.on_a = s.on_a, least.on_b = s.on_b;

@@ -1,18 +1,22 @@
 // Local minima of the overlap of two cores (query/swept/descend.c), and the proof by dividing the directions that one
 // is the least of all (query/swept/divide.c), beside the overlaps along random directions and the minima that descents
-// from these find: supports are those of the library, which test_query_swept.c holds against shapes.
+// from these find: supports are those of the library, which test_query_swept.c holds against shapes. A box and a
+// cylinder or a cone have the least of all along circles of directions (query/swept/circles.c), beside the same.
+#include "query/swept/circles.h"
 #include "query/swept/divide.h"
+#include "query/swept/pair.h"
+#include "query/swept/sides.h"
 
 #include "check.h"
 #include "places.h"
 
-enum { PAIRS = 1500, DIRECTIONS = 400, STARTS = 8, POINTS = 12 };
+enum { PAIRS = 1500, ROUND_PAIRS = 2000, DIRECTIONS = 400, STARTS = 8, POINTS = 12 };
 
-/// A random core around the origin, of about size 1.
-static ovoid_swept_sphere make_core(ovoid_swept_core core, double *xyz, uint64_t *r) {
+/// A random core around the origin at a rotation, of about size 1.
+static ovoid_swept_sphere make_turned(ovoid_swept_core core, ovoid_quat rotation, double *xyz, uint64_t *r) {
     ovoid_swept_sphere s = {.core = core, .count = POINTS, .points = xyz};
     double rows[9];
-    const ovoid_pose pose = {{0, 0, 0}, random_quat(r)};
+    const ovoid_pose pose = {{0, 0, 0}, rotation};
     ovoid_pose_compute_matrix(&pose, rows);
     for (int k = 0; k < 3; k++) {
         s.axis[k] = (ovoid_vec3){rows[k], rows[3 + k], rows[6 + k]};
@@ -23,11 +27,34 @@ static ovoid_swept_sphere make_core(ovoid_swept_core core, double *xyz, uint64_t
     return s;
 }
 
+static ovoid_swept_sphere make_core(ovoid_swept_core core, double *xyz, uint64_t *r) {
+    return make_turned(core, random_quat(r), xyz, r);
+}
+
 static double measure(const cores *p, vec3 n) { return vec3_dot(cores_find_ends(p, n).v, n); }
+
+/// Around both ways of each axis: six that hold all directions.
+static const direction_caps all_directions = {6,
+                                              {{{1, 0, 0}, 0.577},
+                                               {{-1, 0, 0}, 0.577},
+                                               {{0, 1, 0}, 0.577},
+                                               {{0, -1, 0}, 0.577},
+                                               {{0, 0, 1}, 0.577},
+                                               {{0, 0, -1}, 0.577}}};
+
+/// The overlap along the direction where a search begins is what it says; is it the least that descents find?
+static int check_sides(const cores *p, double least) {
+    vec3 n = {0, 0, 0};
+    const double value = cores_try_sides(p, &n);
+    CHECK_NEAR(vec3_norm(n), 1, 1e-12);
+    CHECK_NEAR(measure(p, n), value, 1e-12 * p->size);
+    return value <= least + 1e-6 * p->size;
+}
 
 /// What descents found, and how many of their minima were shown to be the least, or not.
 typedef struct tally {
     int found, failed, proven, refused;
+    int sides, near; ///< pairs with sides, and those of which these have the least overlap
 } tally;
 
 /// The least overlap along random directions, and the direction.
@@ -64,7 +91,7 @@ static void check_pair(const cores *p, uint64_t *r, tally *to) {
             check_minimum(p, &at, height);
             least = min2(least, at.value);
             const double wanted = at.value - 1e-12 * p->size;
-            const int is_proven = cores_divide(p, &at, wanted);
+            const int is_proven = cores_divide(p, &at, wanted, &all_directions);
             to->proven += is_proven, to->refused += !is_proven;
             if (is_proven) proven = max2(proven, wanted);
         } else {
@@ -72,15 +99,62 @@ static void check_pair(const cores *p, uint64_t *r, tally *to) {
         }
         n = vec3_unit((vec3){random_normal(r), random_normal(r), random_normal(r)});
     }
+    if (cores_have_sides(p)) to->sides++, to->near += check_sides(p, least);
     // No overlap is less than what was shown to be the least.
     CHECK_LE(proven, least + 1e-12 * p->size);
+}
+
+/// How a rotation differs from that of no turn: not, by little, around one axis, or in any way.
+static ovoid_quat make_rotation(int kind, uint64_t *r) {
+    const double angle = kind == 1 ? random_uniform(r, -1e-7, 1e-7) : random_uniform(r, -3, 3);
+    const int axis = (int)(random_next(r) % 3);
+    if (kind == 3) return random_quat(r);
+    if (kind == 0) return (ovoid_quat){1, 0, 0, 0};
+    return (ovoid_quat){1, axis == 0 ? angle : 0, axis == 1 ? angle : 0, axis == 2 ? angle : 0};
+}
+
+/// No direction has less overlap than the least of the circles, whose points are in the cores.
+static int check_circles(const cores *p, uint64_t *r) {
+    vec3 n = {0, 0, 1};
+    double least = sample(p, r, &n);
+    if (!(least > 0.01)) return 0;
+    for (int i = 0; i < STARTS; i++) {
+        least_overlap at;
+        at.count = 0;
+        if (cores_descend(p, n, measure(p, n), &at) && at.value > 0) least = min2(least, at.value);
+        n = vec3_unit((vec3){random_normal(r), random_normal(r), random_normal(r)});
+    }
+    least_overlap found;
+    CHECK(cores_have_circles(p));
+    if (!cores_search_circles(p, 1e-13 * p->size, &found)) return -1;
+    check_minimum(p, &found, least);
+    CHECK(swept_leave_core(p->a, found.on_a).distance < 1e-12);
+    CHECK(swept_leave_core(p->b, found.on_b).distance < 1e-12);
+    return 1;
+}
+
+static void check_round_pairs(uint64_t *r) {
+    int count[3] = {0, 0, 0};
+    for (int i = 0; i < ROUND_PAIRS; i++) {
+        const ovoid_swept_core core = i & 1 ? OVOID_SWEPT_CONE : OVOID_SWEPT_CYLINDER;
+        double xyz[3 * POINTS];
+        const ovoid_swept_sphere a = make_core(OVOID_SWEPT_BOX, xyz, r);
+        ovoid_swept_sphere b = make_turned(core, make_rotation(i / 4 % 4, r), xyz, r), turned = b;
+        for (int k = 0; k < 3; k++) turned.axis[k] = patch_turn_back(&a, b.axis[k]);
+        const vec3 d = random_vec3(r, 0.5);
+        const cores p = {i & 2 ? &turned : &a, i & 2 ? &a : &turned, d, 4 + vec3_norm(d)};
+        count[1 + check_circles(&p, r)]++;
+    }
+    // Most overlap, and most of these are found: the axes of half are at right angles, or nearly.
+    CHECK_LE(ROUND_PAIRS / 3, count[2]);
+    CHECK_LE(20 * count[0], count[2]);
 }
 
 int main(void) {
     static const ovoid_swept_core types[] = {OVOID_SWEPT_SEGMENT, OVOID_SWEPT_CYLINDER,  OVOID_SWEPT_BOX,
                                              OVOID_SWEPT_CONE,    OVOID_SWEPT_ELLIPSOID, OVOID_SWEPT_POINTS};
     uint64_t r = check_seed = 5;
-    tally all = {0, 0, 0, 0};
+    tally all = {0, 0, 0, 0, 0, 0};
     for (int i = 0; i < PAIRS; i++) {
         double xyz[2][3 * POINTS];
         const ovoid_swept_sphere a = make_core(types[random_next(&r) % 6], xyz[0], &r),
@@ -92,5 +166,8 @@ int main(void) {
     CHECK_LE(20 * all.failed, all.found);
     CHECK_LE(all.found, 5 * all.proven);
     CHECK_LE(all.found, 10 * all.refused);
+    CHECK_LE(50, all.sides);
+    CHECK_LE(6 * all.sides, 10 * all.near);
+    check_round_pairs(&r);
     return check_end();
 }
