@@ -90,6 +90,24 @@ void small_end_at_inner(const placed_query *q, vec3 common, double upper, small_
     end_at_overlap(q, upper, OVOID_STAGE_INNER, end);
 }
 
+int small_end_at_hull(const placed_query *q, const uint32_t a[4], const uint32_t b[4], small_end *end) {
+    const pair_frame *f = q->frame;
+    const double *of_a = shape_vertices(f->a), *of_b = shape_vertices(f->b);
+    vec3 w[4];
+    if (!has_line(f)) return 0;
+    for (int i = 0; i < 4; i++) {
+        w[i] = frame_world_difference(f, vec3_at(of_a, a[i]), vec3_at(of_b, b[i]));
+        end->points.p[i] = (difference){w[i], a[i], b[i]};
+    }
+    double depth = hull_find_weights(w, reject_get_claim(f), end->points.weight);
+    if (!(depth > 0)) return 0;
+    end->points.count = 4;
+    end->inner = (vec3){0, 0, 0};
+    end->kind = OVOID_PROOF_HULL;
+    end_at_overlap(q, -depth - f->upper_radii, OVOID_STAGE_PROOF, end);
+    return 1;
+}
+
 int small_run_inner(const placed_query *q, small_end *end) {
     vec3 common;
     if (!has_line(q->frame)) return 0;
@@ -166,23 +184,6 @@ int small_run(const placed_query *q, small_end *end) {
 
 // ---- from an earlier proof
 
-// The hull of four differences that was around the origin: 1 if it still is.
-static int run_kept_hull(const placed_query *q, small_end *end) {
-    const pair_frame *f = q->frame;
-    vec3 w[4];
-    for (int i = 0; i < 4; i++) {
-        end->points.p[i] = kept_get_difference(f, q->earlier, i);
-        w[i] = end->points.p[i].w;
-    }
-    double depth = hull_find_weights(w, reject_get_claim(f), end->points.weight);
-    if (!(depth > 0)) return 0;
-    end->points.count = 4;
-    end->inner = (vec3){0, 0, 0};
-    end->kind = OVOID_PROOF_HULL;
-    end_at_overlap(q, -depth - f->upper_radii, OVOID_STAGE_PROOF, end);
-    return 1;
-}
-
 // The common point of the inner ellipsoids as it was, fixed in A, or another one.
 static int run_kept_inner(const placed_query *q, small_end *end) {
     vec3 inner = q->earlier->inner_a;
@@ -200,7 +201,7 @@ static small_outcome run_kept_overlap(const placed_query *q, small_end *end) {
     int is_proven = 0;
     if (!has_line(q->frame) || !proof_is_sound(q->frame, p)) return SMALL_UNKNOWN;
     if (p->kind == OVOID_PROOF_INNER) is_proven = run_kept_inner(q, end);
-    if (p->kind == OVOID_PROOF_HULL && p->count == 4) is_proven = run_kept_hull(q, end);
+    if (p->kind == OVOID_PROOF_HULL && p->count == 4) is_proven = small_end_at_hull(q, p->a, p->b, end);
     return is_proven ? SMALL_ANSWERED : SMALL_UNKNOWN;
 }
 

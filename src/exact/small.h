@@ -88,10 +88,12 @@ static inline int small_tries_inner(double sphere_gap, double reach) { return sp
 small_gjk_query small_make_query(const pair_frame *frame, const query_goal *goal);
 
 /// small_run in parts, for searches in lanes. Before the kernel's search: 1 if the inner ellipsoids have a common
-/// point, which answers the query; the end at one that is known, in A's body frame. After it: 1: answered, 0: unusual.
+/// point, which answers the query; the end at one that is known, in A's body frame. After it: 1: answered, 0: unusual;
+/// small_end_at_hull: of four differences around the origin, of which nothing is known but the vertices.
 /// Of the frame small_end_at_inner reads the line of centres, small_finish the size, what is hidden and the radii.
 int small_run_inner(const placed_query *query, small_end *end);
 void small_end_at_inner(const placed_query *query, vec3 common, double upper, small_end *end);
+int small_end_at_hull(const placed_query *query, const uint32_t a[4], const uint32_t b[4], small_end *end);
 int small_finish(const pair_frame *frame, const query_goal *goal, const small_gjk_result *result, small_end *end);
 
 typedef enum small_outcome {

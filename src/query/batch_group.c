@@ -5,22 +5,22 @@
 #include "base/compiler.h"
 #include "simd/group_gjk.h"
 
-// A group at work, and the vertices of the corners that its lanes end with.
+// A group at work.
 typedef struct group_work {
     const group_search *task;
     const lane_group *e;
     group_gjk gjk;
-    uint32_t a[PAIR8][3], b[PAIR8][3];
+    group_result found; ///< of lanes that ended near
 } group_work;
 
 static void put_corner(group_work *w, unsigned k, const gjk8_corner *corner) {
     group_gjk *s = &w->gjk;
     unsigned id = (unsigned)corner->id.lane[k], i = (unsigned)s->count.lane[k];
     s->count.lane[k] = i + 1;
-    w->a[k][i] = id % SMALL_GJK_POINTS;
-    w->b[k][i] = id / SMALL_GJK_POINTS;
+    w->found.a[k][i] = id % SMALL_GJK_POINTS;
+    w->found.b[k][i] = id / SMALL_GJK_POINTS;
     put3(&s->corner[3 * i], k, (vec3){corner->x.lane[k], corner->y.lane[k], corner->z.lane[k]});
-    put3(&s->corner_a[3 * i], k, vec3_at(shape_vertices(get_a(w->e, k)->shape), w->a[k][i]));
+    put3(&s->corner_a[3 * i], k, vec3_at(shape_vertices(get_a(w->e, k)->shape), w->found.a[k][i]));
 }
 
 // The simplex that each lane of a mask ended with.
@@ -31,31 +31,12 @@ static void put_corners(group_work *w, unsigned lanes) {
         w->gjk.count.lane[k] = 0;
         for (int i = 0; i < 3; i++)
             if (g->is_valid[i].lane[k] > 0) put_corner(w, k, &g->old[i]);
+        w->found.count[k] = (uint32_t)w->gjk.count.lane[k];
+        w->found.steps[k] = (uint32_t)g->steps.lane[k];
     }
 }
 
-static simplex get_corners(const group_work *w, unsigned k) {
-    simplex found = {.count = (int)w->gjk.count.lane[k]};
-    for (int i = 0; i < found.count; i++) {
-        found.p[i].a = w->a[k][i];
-        found.p[i].b = w->b[k][i];
-        found.weight[i] = w->gjk.weight[i].lane[k];
-    }
-    return found;
-}
-
-static query_goal get_goal(const group_work *w, unsigned k) {
-    query_goal goal = *w->task->goal;
-    goal.tolerance = w->e->lanes->tolerance.lane[k];
-    return goal;
-}
-
-static void finish(const group_work *w, unsigned k, const placed_query *query, const small_end *end) {
-    const small_owner *owner = &w->task->owner;
-    owner->finish(owner->self, w->e->index[k], query, end);
-}
-
-// What the verdict of a lane says that ended apart or at the nearest points, with such bounds.
+// What the verdict of a lane says that ended apart, with such bounds.
 static small_end make_end(const group_work *w, unsigned k, double lower, double upper) {
     small_end end;
     end.lower = lower;
@@ -66,67 +47,12 @@ static small_end make_end(const group_work *w, unsigned k, double lower, double 
     return end;
 }
 
-// The nearest points of a lane, from the origin of A's body frame.
-COMPILER_INLINED small_points get_points(const group_work *w, unsigned k, vec3 normal) {
-    const group_gjk *s = &w->gjk;
-    small_points points = {get3(s->point_a, k), get3(s->point_b, k)};
-    if (w->e->lanes->radii.lane[k] > 0) {
-        pair_frame f;
-        f.a = get_a(w->e, k)->shape;
-        f.b = get_b(w->e, k)->shape;
-        small_points_add_radii(&points, &f, normal);
-    }
-    return points;
-}
-
-// Ends a lane at the nearest points, for a verdict and the points alone: from the columns into their places, as numbers
-// that are copied just after they were made would be waited for.
-static void write_points(const group_work *w, unsigned k, const query_goal *goal) {
-    const group_search *task = w->task;
-    size_t index = w->e->index[k];
-    vec3 origin = get_a(w->e, k)->pose.position, normal = get3(w->gjk.normal, k);
-    small_end end = make_end(w, k, w->gjk.lower.lane[k], w->gjk.upper.lane[k]);
-    if (task->verdicts) task->verdicts[index] = answer_make_small_verdict(&end, goal);
-    if (!task->witnesses) return;
-    small_points points = get_points(w, k, normal);
-    ovoid_witness *to = &task->witnesses[index];
-    *to = (ovoid_witness){vec3_add(origin, points.a), vec3_add(origin, points.b), normal};
-}
-
-// Ends a lane at the nearest points, for a verdict, the points and a proof.
-static void end_with_corners(const group_work *w, unsigned k, const query_goal *goal) {
-    const ovoid_posed_shape *a = get_a(w->e, k);
-    pair_frame f;
-    f.a = a->shape;
-    f.b = get_b(w->e, k)->shape;
-    const placed_query query = {.frame = &f, .goal = goal};
-    small_end end = make_end(w, k, w->gjk.lower.lane[k], w->gjk.upper.lane[k]);
-    end.normal = get3(w->gjk.normal, k);
-    end.has_witness = 1;
-    small_points points = get_points(w, k, end.normal);
-    end.point_a = vec3_add(a->pose.position, points.a);
-    end.point_b = vec3_add(a->pose.position, points.b);
-    end.points = get_corners(w, k);
-    end.inner = (vec3){0, 0, 0};
-    finish(w, k, &query, &end);
-}
-
-static void end_at_points(const group_work *w, unsigned k) {
-    query_goal goal = get_goal(w, k);
-    if (!query_goal_is_met(&goal, w->gjk.lower.lane[k], w->gjk.upper.lane[k]))
-        finish(w, k, NULL, NULL);
-    else if (w->task->wants_corners)
-        end_with_corners(w, k, &goal);
-    else
-        write_points(w, k, &goal);
-}
-
 // Ends a lane apart, or with the origin inside its corners.
 static void end_at_result(const group_work *w, unsigned k, const pair_frame *f, const small_gjk_result *r) {
-    query_goal goal = get_goal(w, k);
+    query_goal goal = group_get_goal(w->task, w->e, k);
     const placed_query query = {.frame = f, .goal = &goal};
     small_end end;
-    finish(w, k, &query, small_finish(f, &goal, r, &end) ? &end : NULL);
+    group_finish(w->task, w->e->index[k], &query, small_finish(f, &goal, r, &end) ? &end : NULL);
 }
 
 static void end_lanes(const group_work *w, unsigned lanes, small_gjk_end how) {
@@ -135,7 +61,7 @@ static void end_lanes(const group_work *w, unsigned lanes, small_gjk_end how) {
         pair_frame f;
         small_gjk_result r;
         if (w->task->owner.wants_evidence) {
-            place_frame((group_lane){w->e, k}, &f);
+            lane_group_place_frame((group_lane){w->e, k}, &f);
         } else {
             f.size = w->e->lanes->size.lane[k];
             f.hidden = OVOID_LENGTH_MIN;
@@ -154,11 +80,11 @@ static void end_apart(const group_work *w, unsigned lanes) {
         end_lanes(w, lanes, SMALL_GJK_APART);
         return;
     }
-    for (; lanes && task->verdicts; lanes &= lanes - 1) {
+    for (; lanes && task->to->verdicts; lanes &= lanes - 1) {
         unsigned k = compiler_count_low_zeros(lanes);
-        query_goal goal = get_goal(w, k);
+        query_goal goal = group_get_goal(w->task, w->e, k);
         small_end end = make_end(w, k, g->lower.lane[k], g->upper.lane[k]);
-        task->verdicts[w->e->index[k]] = answer_make_small_verdict(&end, &goal);
+        task->to->verdicts[w->e->index[k]] = answer_make_small_verdict(&end, &goal);
     }
 }
 
@@ -181,11 +107,11 @@ static gjk8_ends run_rounds(group_work *w, const group_gjk_kernels *kernels) {
 
 // The search of one lane in the kernel of a single pair, with the bits of the lanes.
 static void run_alone(const group_work *w, unsigned k, pair_frame *f, small_gjk_result *r) {
-    query_goal goal = get_goal(w, k);
+    query_goal goal = group_get_goal(w->task, w->e, k);
     double square = w->gjk.search.square.lane[k];
     r->end = SMALL_GJK_OPEN;
     if (!(square > 1e-150 && square < 1e150)) return;
-    place_frame((group_lane){w->e, k}, f);
+    lane_group_place_frame((group_lane){w->e, k}, f);
     small_gjk_query query = small_make_query(f, &goal);
     for (int i = 0; i < 3; i++) query.start[i] = w->gjk.search.start[i].lane[k];
     simd_run_small_gjk_unposed(&query, r);
@@ -245,8 +171,9 @@ void group_search_run(const group_search *task, const lane_group *e, unsigned so
     end_lanes(&w, ends.inside, SMALL_GJK_INSIDE);
     if (ends.near) {
         put_corners(&w, ends.near);
-        kernels->finish(e->lanes, ends.near, &w.gjk);
+        kernels->finish(e->lanes, ends.near, &w.gjk, &w.found.nearest);
+        group_end_at_points(task, e, ends.near, &w.found);
     }
-    for (unsigned rest = ends.near; rest; rest &= rest - 1) end_at_points(&w, compiler_count_low_zeros(rest));
-    for (unsigned rest = ends.open; rest; rest &= rest - 1) finish(&w, compiler_count_low_zeros(rest), NULL, NULL);
+    for (unsigned rest = ends.open; rest; rest &= rest - 1)
+        group_finish(task, e->index[compiler_count_low_zeros(rest)], NULL, NULL);
 }

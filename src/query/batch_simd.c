@@ -1,14 +1,15 @@
 // Most couples of a batch are decided by their enclosing spheres or ellipsoids, which cost the same for every couple:
 // so a lane group of eight couples is taken at once, without a branch. Couples that the spheres leave open are packed
-// into full lane groups before they go on to the ellipsoids. Small ones are then searched in their group; of a yes or
-// no without evidence they go on in single precision instead (batch_floats.h). Others go on to the exact search, one by
+// into full lane groups before they go on to the ellipsoids. Small ones are then searched in their group
+// (batch_group.h); of a yes or no without evidence they go on in single precision instead (batch_floats.h), and of a
+// distance, before any ellipsoid, too (batch_nearest.h). Others go on to the exact search, one by
 // one, where the supports along the ellipsoids' direction leave them open. A couple that is in any way unusual (a far
 // origin, a quaternion to be scaled, a refused pose) is queried alone, from the start; so is one with an earlier proof
 // that the spheres leave open.
 //
 // No lane depends on the others, so nothing depends on which couples share a group, and a batch may be cut anywhere.
-// Working memory: six lane groups on the stack, 31 KB, and the couples in single precision, 36 KB; they are gone while
-// the couples that they left open are searched, which takes more.
+// Working memory: six lane groups on the stack, 31 KB, and what is in single precision, 36 KB; they are gone while the
+// couples that they left open are searched, which takes more.
 #include "query/batch_simd.h"
 
 #include "base/compiler.h"
@@ -17,6 +18,7 @@
 #include "pair/reject.h"
 #include "query/batch_floats.h"
 #include "query/batch_group.h"
+#include "query/batch_nearest.h"
 
 // A couple that the lanes leave open, with what they found.
 typedef struct open_couple {
@@ -42,17 +44,25 @@ typedef struct open_list {
     unsigned count, alone_count;
 } open_list;
 
+// Small couples to be searched, from groups that have few of them.
+typedef struct few_couples {
+    lane_group *group;
+    unsigned count;
+    int is_far; // of a distance: to be searched in doubles
+} few_couples;
+
 typedef struct batch_state {
     const ovoid_batch *batch;
     const pair8_kernels *kernels;
     const query_goal *goal; ///< without the tolerance, which is each couple's own
     pair8_query numbers;
-    int wants_evidence;  ///< answers, proofs or points, not only verdicts
-    lane_group *waiting; ///< couples on their way to the ellipsoids: PAIR8_GROUPS groups
+    int wants_evidence;                ///< answers, proofs or points, not only verdicts
+    lane_group *own;                   ///< the group that is taken through the spheres, where none of these has room
+    lane_group *waiting[PAIR8_GROUPS]; ///< couples on their way to the ellipsoids
     unsigned waiting_count;
-    lane_group *few; ///< small couples to be searched, from groups that have few of them
-    unsigned few_count;
-    batch_floats *floats; ///< of a yes or no without evidence; else NULL
+    few_couples few, far;
+    batch_floats *floats;   ///< of a yes or no without evidence; else NULL
+    batch_nearest *nearest; ///< of a distance without a cap; else NULL
     open_list *open;
 } batch_state;
 
@@ -92,7 +102,7 @@ void batch_query_single(const ovoid_batch *batch, size_t i, const query_goal *go
 // The frame of a lane after the ellipsoids, as frame_make makes it.
 static pair_frame get_frame(group_lane at) {
     pair_frame f;
-    place_frame(at, &f);
+    lane_group_place_frame(at, &f);
     f.rotation = get9(at.e->lanes->rotation, at.k);
     f.translation = get3(at.e->lanes->translation, at.k);
     return f;
@@ -121,7 +131,7 @@ static void end_at_spheres(const batch_state *c, group_lane at, const pair8_foun
     }
     pair_frame frame;
     query_goal goal = get_goal(c, at);
-    place_frame(at, &frame);
+    lane_group_place_frame(at, &frame);
     ovoid_answer own, *out = c->batch->answers ? &c->batch->answers[at.e->index[at.k]] : &own;
     double lower = at.e->lanes->lower.lane[at.k];
     vec3 line = found->origin >> at.k & 1 ? frame.offset : frame.between;
@@ -337,43 +347,50 @@ static void append(lane_group *to, unsigned at, const lane_group *e, unsigned k)
 
 // ---- searches of small bodies
 
+static group_search get_search_task(batch_state *c) {
+    return (group_search){c->goal, &c->numbers, c->goal->far < INFINITY, {end_small, c, c->wants_evidence}, c->batch};
+}
+
 // Searches the lanes `some` of a group.
 static void search_group(batch_state *c, const lane_group *e, unsigned some) {
-    const ovoid_batch *to = c->batch;
-    const group_search task = {.goal = c->goal,
-                               .numbers = &c->numbers,
-                               .is_along_n = c->goal->far < INFINITY,
-                               .owner = {end_small, c, c->wants_evidence},
-                               .wants_corners = to->proofs || to->answers,
-                               .verdicts = to->verdicts,
-                               .witnesses = to->witnesses};
+    const group_search task = get_search_task(c);
     group_search_run(&task, e, some);
 }
 
+// Searches the lanes `some` of a group; in single precision those of a distance that are not far apart. Then the group
+// may be another one.
+static void search_lanes(batch_state *c, lane_group **place, unsigned some, int is_far) {
+    if (c->nearest && !is_far)
+        batch_nearest_add(c->nearest, place, some);
+    else
+        search_group(c, *place, some);
+}
+
 // Searches the few that wait.
-static void search_few(batch_state *c) {
-    if (!c->few_count) return;
-    unsigned some = (1u << c->few_count) - 1;
-    fill(c->few, c->few_count);
-    place_again(c, c->few);
-    c->few_count = 0;
-    search_group(c, c->few, some);
+static void search_few(batch_state *c, few_couples *few) {
+    if (!few->count) return;
+    unsigned some = (1u << few->count) - 1;
+    fill(few->group, few->count);
+    place_again(c, few->group);
+    few->count = 0;
+    search_lanes(c, &few->group, some, few->is_far);
 }
 
 // Fewer lanes of a group do not pay for its search.
 enum { FEW = 6 };
 
 // Searches the lanes `some` at once or, where they are few and there are other groups, with those of these.
-static void search_or_wait(batch_state *c, const lane_group *e, unsigned some) {
+static void search_or_wait(batch_state *c, lane_group **place, unsigned some, few_couples *few) {
+    const lane_group *e = *place;
     if (count_lanes(some) >= FEW || c->batch->couple_count <= PAIR8) {
-        search_group(c, e, some);
+        search_lanes(c, place, some, few->is_far);
         return;
     }
     for (; some; some &= some - 1) {
         unsigned k = compiler_count_low_zeros(some);
-        if (c->goal->far < INFINITY) put3(c->few->lanes->n, c->few_count, get3(e->lanes->n, k));
-        append(c->few, c->few_count++, e, k);
-        if (c->few_count == PAIR8) search_few(c);
+        if (c->goal->far < INFINITY) put3(few->group->lanes->n, few->count, get3(e->lanes->n, k));
+        append(few->group, few->count++, e, k);
+        if (few->count == PAIR8) search_few(c, few);
     }
 }
 
@@ -391,7 +408,8 @@ static unsigned find_small(const batch_state *c, const lane_group *e, unsigned o
 }
 
 // Ends the lanes `some` of a group after the ellipsoids.
-static void end_group(batch_state *c, lane_group *e, unsigned some, const pair8_found *found) {
+static void end_group(batch_state *c, lane_group **place, unsigned some, const pair8_found *found) {
+    const lane_group *e = *place;
     for (unsigned rest = some; rest; rest &= rest - 1) {
         unsigned k = compiler_count_low_zeros(rest);
         if (found->odd >> k & 1)
@@ -403,7 +421,7 @@ static void end_group(batch_state *c, lane_group *e, unsigned some, const pair8_
     }
     unsigned open = some & ~(found->odd | found->inner | found->apart);
     unsigned small = find_small(c, e, open);
-    if (small) search_or_wait(c, e, small);
+    if (small) search_or_wait(c, place, small, &c->few);
     open &= ~small;
     if (open) meet(c, e, open);
 }
@@ -419,11 +437,11 @@ static void settle(batch_state *c) {
     unsigned groups = (c->waiting_count + PAIR8 - 1) / PAIR8, last = c->waiting_count % PAIR8;
     pair8_group waiting[PAIR8_GROUPS];
     for (unsigned i = 0; i < groups; i++) {
-        fill(&c->waiting[i], i + 1 == groups && last ? last : PAIR8);
-        place_again(c, &c->waiting[i]);
-        choose_directions(c, c->waiting[i].lanes);
-        waiting[i].from = find_ellipsoids(&c->waiting[i]);
-        waiting[i].lanes = c->waiting[i].lanes;
+        fill(c->waiting[i], i + 1 == groups && last ? last : PAIR8);
+        place_again(c, c->waiting[i]);
+        choose_directions(c, c->waiting[i]->lanes);
+        waiting[i].from = find_ellipsoids(c->waiting[i]);
+        waiting[i].lanes = c->waiting[i]->lanes;
     }
     c->kernels->ellipsoids(waiting, groups, &c->numbers);
     for (unsigned i = 0; i < groups; i++)
@@ -433,7 +451,7 @@ static void settle(batch_state *c) {
 
 // Appends lane k of e to the waiting couples; e may be the group that it goes to.
 static void wait_for_others(batch_state *c, const lane_group *e, unsigned k) {
-    append(&c->waiting[c->waiting_count / PAIR8], c->waiting_count % PAIR8, e, k);
+    append(c->waiting[c->waiting_count / PAIR8], c->waiting_count % PAIR8, e, k);
     c->waiting_count++;
 }
 
@@ -510,7 +528,7 @@ COMPILER_NOINLINE static unsigned find_warm(const ovoid_batch *batch, const lane
 // The query of a lane as it stands after the spheres; the frame and the goal must outlive it.
 static placed_query place_query(const batch_state *c, group_lane at, pair_frame *frame, query_goal *goal) {
     *goal = get_goal(c, at);
-    place_frame(at, frame);
+    lane_group_place_frame(at, frame);
     return (placed_query){frame, goal, NULL, at.e->lanes->lower.lane[at.k], 0};
 }
 
@@ -522,6 +540,10 @@ static void end_at_closed(batch_state *c, group_lane at) {
     placed_query query = place_query(c, at, &frame, &goal);
     end_small(c, at.e->index[at.k], &query, closed_run(&query, &end) ? &end : NULL);
 }
+
+// Of a distance in lanes the inner ellipsoids are tried only where they are nearly sure to overlap: the search takes
+// less time in lanes than alone.
+#define DEEP_DISTANCE (-0.6)
 
 // Fewer lanes are tried at their inner ellipsoids one by one.
 enum { FEW_DEEP = 4 };
@@ -551,11 +573,15 @@ static unsigned end_at_common(batch_state *c, const lane_group *e, unsigned deep
     return ended;
 }
 
+// Of bodies a sum of radii apart the first support is mostly the answer: it takes less time in doubles than floats take
+// to begin with.
+
 // Answers those of the lanes `open` that have a closed form, and searches the small ones from the line of centres where
 // a distance is asked for, which needs no ellipsoids, unless the inner ones decide it. Those that are small alone, but
 // too large for lanes, are left to be queried alone. The mask of all these.
-static unsigned add_small(batch_state *c, const lane_group *e, unsigned open) {
-    unsigned small = 0, searched = 0, deep = 0;
+static unsigned add_small(batch_state *c, lane_group **place, unsigned open) {
+    const lane_group *e = *place;
+    unsigned small = 0, searched = 0, deep = 0, far = 0;
     int is_distance = c->goal->far == INFINITY;
     for (unsigned rest = open; rest; rest &= rest - 1) {
         unsigned k = compiler_count_low_zeros(rest), lane = 1u << k;
@@ -570,11 +596,15 @@ static unsigned add_small(batch_state *c, const lane_group *e, unsigned open) {
         else
             searched |= lane;
         small |= lane;
-        if (small_tries_inner(sphere_gap, e->lanes->reach.lane[k])) deep |= lane;
+        if (sphere_gap < DEEP_DISTANCE * e->lanes->reach.lane[k]) deep |= lane;
+        if (sphere_gap > e->lanes->reach.lane[k]) far |= lane;
     }
     deep &= searched;
     if (deep) searched &= ~end_at_common(c, e, deep);
-    if (searched) search_or_wait(c, e, searched);
+    far &= searched;
+    if (far) search_or_wait(c, place, far, &c->far);
+    searched &= ~far;
+    if (searched) search_or_wait(c, place, searched, &c->few);
     return small;
 }
 
@@ -597,8 +627,8 @@ static unsigned add_floats(const batch_state *c, const lane_group *e, unsigned o
 
 // Takes couples through the spheres. They are placed where they would wait, so that a group that the spheres leave open
 // stays there.
-static void take_group(batch_state *c, size_t first, unsigned count, lane_group *own) {
-    lane_group *e = c->waiting_count % PAIR8 ? own : &c->waiting[c->waiting_count / PAIR8];
+static void take_group(batch_state *c, size_t first, unsigned count) {
+    lane_group **place = c->waiting_count % PAIR8 ? &c->own : &c->waiting[c->waiting_count / PAIR8], *e = *place;
     unsigned odd = find_places(c, first, count, e), all = (1u << count) - 1;
     pair8_found found = c->kernels->spheres(&e->at, &c->numbers, e->lanes);
     odd |= found.odd;
@@ -609,14 +639,14 @@ static void take_group(batch_state *c, size_t first, unsigned count, lane_group 
         leave_alone(c, first + compiler_count_low_zeros(rest));
     for (unsigned rest = apart; rest; rest &= rest - 1)
         end_at_spheres(c, (group_lane){e, compiler_count_low_zeros(rest)}, &found);
-    if (open) open &= ~add_small(c, e, open);
+    if (open) open &= ~add_small(c, place, open);
     if (open && c->floats) open &= ~add_floats(c, e, open);
     for (unsigned rest = open; rest; rest &= rest - 1) {
         unsigned k = compiler_count_low_zeros(rest);
         fetch_ellipsoids((const void *)e->at.shape_a[k]);
         fetch_ellipsoids((const void *)e->at.shape_b[k]);
     }
-    if (open == all && e != own) {
+    if (open == all && e != c->own) {
         c->waiting_count += count;
         e->is_placed = 1;
     } else
@@ -631,38 +661,51 @@ static int wants_floats(const batch_state *c) {
            c->goal->beyond == OVOID_LIMIT_ANSWERED;
 }
 
+static void begin_floats(batch_state *c, batch_floats *floats) {
+    floats->kernels = float_gjk_get_kernels(c->batch->couple_count);
+    floats->alone = float_gjk_get_kernels(1);
+    floats->goal = c->goal;
+    floats->verdicts = c->batch->verdicts;
+    floats->leave_open = leave_float_open;
+    floats->self = c;
+    floats->is_begun = 0;
+    c->floats = floats;
+}
+
+// What is asked in single precision: a yes or no, or a distance.
+typedef union single_room {
+    batch_floats floats;
+    batch_nearest nearest;
+} single_room;
+
 // Runs from couple `first` on, until enough couples are left open or all are done; returns the next one. The working
 // memory of the state is here.
 COMPILER_NOINLINE static size_t run_lanes(batch_state *c, size_t first) {
     pair8 lanes[PAIR8_GROUPS + 2];
-    lane_group groups[PAIR8_GROUPS + 2];
+    lane_group groups[PAIR8_GROUPS + 2], *next = groups;
+    single_room room;
     for (unsigned i = 0; i < PAIR8_GROUPS + 2; i++) groups[i].lanes = &lanes[i];
-    c->waiting = groups;
+    for (unsigned i = 0; i < PAIR8_GROUPS; i++) c->waiting[i] = next++;
+    c->own = next++;
+    c->few = (few_couples){next, 0, 0};
+    c->far = (few_couples){&room.nearest.far, 0, 1};
     c->waiting_count = 0;
-    c->few = &groups[PAIR8_GROUPS + 1];
-    c->few_count = 0;
-    batch_floats floats;
-    if (wants_floats(c)) {
-        floats.kernels = float_gjk_get_kernels(c->batch->couple_count);
-        floats.alone = float_gjk_get_kernels(1);
-        floats.goal = c->goal;
-        floats.verdicts = c->batch->verdicts;
-        floats.leave_open = leave_float_open;
-        floats.self = c;
-        floats.is_begun = 0;
-        c->floats = &floats;
-    }
+    const group_search task = get_search_task(c);
+    if (wants_floats(c)) begin_floats(c, &room.floats);
+    if (c->goal->far == INFINITY) batch_nearest_begin(c->nearest = &room.nearest, &task, c->kernels);
     size_t count = c->batch->couple_count;
     for (; first < count && c->open->count <= OPEN_FULL && c->open->alone_count <= ALONE_FULL; first += PAIR8) {
         size_t left = count - first;
         fetch_ahead(c->batch, first);
-        take_group(c, first, left < PAIR8 ? (unsigned)left : PAIR8, &groups[PAIR8_GROUPS]);
+        take_group(c, first, left < PAIR8 ? (unsigned)left : PAIR8);
     }
     if (c->waiting_count) settle(c);
-    search_few(c);
+    search_few(c, &c->far);
+    search_few(c, &c->few);
+    if (c->nearest) batch_nearest_end(c->nearest);
     if (c->floats) batch_floats_end(c->floats);
-    c->waiting = c->few = NULL;
     c->floats = NULL;
+    c->nearest = NULL;
     return first;
 }
 

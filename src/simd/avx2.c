@@ -39,8 +39,8 @@ LANES_TARGET void move8_run_avx2(const move8_places *from, const move8_errors *e
 
 LANES_TARGET epa8_end epa8_grow_avx2(epa8 *s, const epa8_query *query) { return run_grow(s, query); }
 
-const group_gjk_kernels group_gjk_avx2 = {run_group_begin, run_group_support, run_group_start, run_group_advance,
-                                          run_group_finish};
+const group_gjk_kernels group_gjk_avx2 = {run_group_begin,   run_group_support, run_group_start,
+                                          run_group_advance, run_group_finish,  run_group_measure};
 const kept8_kernels kept8_avx2 = {run_compare, run_gaps, run_depths};
 const pair8_kernels pair8_avx2 = {run_spheres, run_inner, run_ellipsoids, run_supports, run_floats};
 const patch_kernels patch_avx2 = {run_place, run_measure};

@@ -30,8 +30,8 @@ LANES_TARGET void move8_run_avx512(const move8_places *from, const move8_errors 
 
 LANES_TARGET epa8_end epa8_grow_avx512(epa8 *s, const epa8_query *query) { return run_grow(s, query); }
 
-const group_gjk_kernels group_gjk_avx512 = {run_group_begin, run_group_support, run_group_start, run_group_advance,
-                                            run_group_finish};
+const group_gjk_kernels group_gjk_avx512 = {run_group_begin,   run_group_support, run_group_start,
+                                            run_group_advance, run_group_finish,  run_group_measure};
 const kept8_kernels kept8_avx512 = {run_compare, run_gaps, run_depths};
 const pair8_kernels pair8_avx512 = {run_spheres, run_inner, run_ellipsoids, run_supports, run_floats};
 const solid8_kernels solid8_avx512 = {run_boxes, run_triangles};

@@ -1,6 +1,10 @@
-// The yes or no of small bodies in single precision, sixteen couples side by side: ellipsoids, then GJK. Each couple
-// ends proven apart, proven within the margin, proven to overlap, or open. The vertices are columns too, so a support
-// is a maximum over them without an index: no gather, no load that waits for an index.
+// Small bodies in single precision, sixteen couples side by side. A yes or no: ellipsoids, then GJK; each couple ends
+// proven apart, proven within the margin, proven to overlap, or open. The vertices are columns too, so a support is a
+// maximum over them without an index: no gather, no load that waits for an index.
+//
+// Nearest points: GJK that proves nothing, but counts which vertices its corners are of. Each couple ends near, at a
+// simplex whose support is one of its own corners or is no nearer; with the origin inside of four corners; or open. The
+// caller makes and proves the answer from the corners, in doubles.
 //
 // Lengths are in the couple's own unit, a power of two, so that its size z = ra + rb + |t| is in [1, 2): ra, rb the
 // radii of the enclosing spheres, t from A's centre to B's. Everything is in the axes of A about its sphere's centre: a
@@ -81,6 +85,12 @@ typedef struct float_bounds {
     unsigned apart, inside;
 } float_bounds;
 
+/// What `approach` ends with: the vertices of the corners, a + 32 b, one to three, and of those inside a fourth. Places
+/// of the three that are none repeat the first.
+typedef struct float_found {
+    float_column corner[4], count, steps; ///< steps: the corners that were found after the first, and taken
+} float_found;
+
 /// Sixteen searches, each at a step of its own.
 typedef struct float_gjk {
     float_query query;
@@ -88,6 +98,7 @@ typedef struct float_gjk {
     float_column n[3], height, square;
     float_column steps;        ///< the supports after the first
     float_column lower, upper; ///< the bounds of lanes that ended; lower not of those that overlap
+    float_found found;         ///< by `approach`
     float_column a[3 * FLOAT_GJK_POINTS], b[3 * FLOAT_GJK_POINTS]; ///< vertices: x of 8 blocks, then y, then z
     uint32_t blocks; ///< of both bodies of all couples, 1 to FLOAT_GJK_BLOCKS: set by the caller
     unsigned live;   ///< lanes that are at work
@@ -112,6 +123,9 @@ typedef struct float_gjk_kernels {
     void (*load)(const float_points *from, unsigned lanes, float_gjk *to);
     /// A support and a step of all lanes at work. Lanes that end are idle.
     float_ends (*advance)(float_gjk *s);
+    /// Searches the lanes for nearest points, from the line of centres to the end: near, inside or open. Of their
+    /// queries only the rotation, translation and claim are read.
+    float_ends (*approach)(float_gjk *s, unsigned lanes);
 } float_gjk_kernels;
 
 /// The kernels for so many couples: of the widest instruction set of this machine that they fill.

@@ -38,8 +38,8 @@ void move8_run_scalar(const move8_places *from, const move8_errors *errors, move
 
 epa8_end epa8_grow_scalar(epa8 *s, const epa8_query *query) { return run_grow(s, query); }
 
-const group_gjk_kernels group_gjk_scalar = {run_group_begin, run_group_support, run_group_start, run_group_advance,
-                                            run_group_finish};
+const group_gjk_kernels group_gjk_scalar = {run_group_begin,   run_group_support, run_group_start,
+                                            run_group_advance, run_group_finish,  run_group_measure};
 const kept8_kernels kept8_scalar = {run_compare, run_gaps, run_depths};
 const pair8_kernels pair8_scalar = {run_spheres, run_inner, run_ellipsoids, run_supports, run_floats};
 const patch_kernels patch_scalar = {run_place, run_measure};

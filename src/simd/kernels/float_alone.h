@@ -47,7 +47,7 @@ LANES_INLINE float_support find_extreme(const float *p, int count, lane3 n, int 
     for (int i = 0; i < count; i += 8)
         equal |= (unsigned)_mm256_movemask_ps(_mm256_cmp_ps(v[i / 8], best, _CMP_EQ_OQ)) << i;
     unsigned even = equal & 0x55555555, k = (unsigned)__builtin_ctz(even ? even : equal ? equal : 1);
-    return (float_support){sign * value, {p[k], p[(unsigned)count + k], p[2 * (unsigned)count + k]}};
+    return (float_support){sign * value, {p[k], p[(unsigned)count + k], p[2 * (unsigned)count + k]}, (float)(k)};
 }
 
 // ---- the step
@@ -182,33 +182,42 @@ LANES_INLINE void put_corner(edges4 *old, unsigned i, lane3 w) {
     old->z = _mm_blendv_ps(old->z, _mm_set1_ps(w.z), here);
 }
 
+// The place of a new corner, which is written there.
+LANES_INLINE unsigned replace_corner(float_walk *k, unsigned kept, lane3 w) {
+    unsigned place = (unsigned)__builtin_ctz(~kept);
+    put_corner(&k->old, place, w);
+    k->valid = kept | 1u << place;
+    return place;
+}
+
 // Takes the step to a new corner, if it gains: a support that is a corner again gains nothing, and a height within the
 // error says nothing of the sign.
 LANES_INLINE float_end advance_walk(float_gjk *s, float_walk *k, lane3 w) {
     float_step next = take_step(k->old, k->valid, w);
     if (next.is_inside) return test_inside(s, k, w);
     float claim = *s->query.claim.lane, high = lane3_dot(next.n, w), norm = lane3_dot(next.n, next.n);
-    int gains = (high * high * k->square < k->height * k->height * norm) & (norm > 1e-30f) &
-                (high * high > claim * claim * norm) & (k->steps < s->most);
+    int gains =
+        (high * high * k->square < k->height * k->height * norm) & is_clear(high, norm, claim) & (k->steps < s->most);
     if (!gains) return FLOAT_OPEN;
-    unsigned place = (unsigned)__builtin_ctz(~next.kept);
-    put_corner(&k->old, place, w);
-    k->valid = next.kept | 1u << place;
+    (void)replace_corner(k, next.kept, w);
     k->n = next.n;
     k->height = high;
     k->square = norm;
     return FLOAT_GOES;
 }
 
-LANES_INLINE float_end search(float_gjk *s, int count) {
+LANES_INLINE float_meeting find_meeting(const float_gjk *s, lane3 n, int count) {
     const float *a = s->a->lane, *b = s->b->lane;
+    return meet(s, n, 0, find_extreme(a, count, n, 0), find_extreme(b, count, turn_to_b(s, n, 0), 1));
+}
+
+LANES_INLINE float_end search(float_gjk *s, int count) {
     lane3 n = get3(s->query.start, 0);
     __m128 zero = _mm_setzero_ps();
     float_walk k = {{zero, zero, zero}, 0, n, INFINITY, lane3_dot(n, n), -1};
     float_end end = FLOAT_GOES;
     while (end == FLOAT_GOES) {
-        float_support high = find_extreme(a, count, k.n, 0), low = find_extreme(b, count, turn_to_b(s, k.n, 0), 1);
-        float_meeting m = meet(s, k.n, 0, high, low);
+        float_meeting m = find_meeting(s, k.n, count);
         k.steps += 1;
         end = test_bounds(s, &k, &m);
         if (end == FLOAT_GOES) end = advance_walk(s, &k, m.w);
@@ -217,15 +226,67 @@ LANES_INLINE float_end search(float_gjk *s, int count) {
     return end;
 }
 
-// Searches the couple of lane 0 to its end.
-LANES_TARGET static float_ends run_float_advance(float_gjk *s) {
-    float_end end;
-    switch (s->blocks) {
-    case 1: end = search(s, 8); break;
-    case 2: end = search(s, 16); break;
-    case 3: end = search(s, 24); break;
-    default: end = search(s, 32); break;
-    }
+LANES_INLINE float_ends end_walk(float_gjk *s, float_end end) {
     s->live = 0;
     return (float_ends){end == FLOAT_APART, end == FLOAT_NEAR, end == FLOAT_INSIDE, end == FLOAT_OPEN};
+}
+
+// Searches the couple of lane 0 to its end.
+LANES_TARGET static float_ends run_float_advance(float_gjk *s) {
+    switch (s->blocks) {
+    case 1: return end_walk(s, search(s, 8));
+    case 2: return end_walk(s, search(s, 16));
+    case 3: return end_walk(s, search(s, 24));
+    default: return end_walk(s, search(s, 32));
+    }
+}
+
+// ---- nearest points
+
+// The step of kernels/float_rounds.h's advance_walk.
+LANES_INLINE float_end approach_walk(const float_gjk *s, float_walk *k, const float_meeting *m, lane id[3]) {
+    float claim = *s->query.claim.lane;
+    if (is_nearest(m->gap, k->height, k->square, claim)) return FLOAT_NEAR;
+    for (int i = 0; i < 3; i++)
+        if ((k->valid >> i & 1) && id[i] == m->id) return FLOAT_NEAR;
+    float_step next = take_step(k->old, k->valid, m->w);
+    if (next.is_inside) return FLOAT_INSIDE;
+    float high = lane3_dot(next.n, m->w), norm = lane3_dot(next.n, next.n);
+    if (!(high * high * k->square < k->height * k->height * norm)) return FLOAT_NEAR;
+    if (!is_clear(high, norm, claim) | !(k->steps < s->most)) return FLOAT_OPEN;
+    id[replace_corner(k, next.kept, m->w)] = m->id;
+    k->n = next.n;
+    k->height = high;
+    k->square = norm;
+    k->steps += 1;
+    return FLOAT_GOES;
+}
+
+LANES_INLINE float_end approach(float_gjk *s, int count) {
+    float_meeting m = find_meeting(s, get3(s->query.translation, 0), count);
+    __m128 zero = _mm_setzero_ps();
+    float square = lane3_dot(m.w, m.w);
+    float_walk k = {{zero, zero, zero}, 0, m.w, square, square, 0};
+    lane id[3] = {m.id, 0, 0};
+    if (!is_clear(square, square, *s->query.claim.lane)) return FLOAT_OPEN;
+    (void)replace_corner(&k, 0, m.w);
+    float_end end = FLOAT_GOES;
+    while (end == FLOAT_GOES) {
+        m = find_meeting(s, k.n, count);
+        end = approach_walk(s, &k, &m, id);
+    }
+    lane_mask valid[3] = {k.valid & 1, k.valid >> 1 & 1, k.valid >> 2 & 1};
+    put_found(&s->found, 0, valid, id, end == FLOAT_INSIDE ? m.id : 0);
+    *s->found.steps.lane = k.steps;
+    return end;
+}
+
+LANES_TARGET static float_ends run_float_approach(float_gjk *s, unsigned lanes) {
+    (void)lanes;
+    switch (s->blocks) {
+    case 1: return end_walk(s, approach(s, 8));
+    case 2: return end_walk(s, approach(s, 16));
+    case 3: return end_walk(s, approach(s, 24));
+    default: return end_walk(s, approach(s, 32));
+    }
 }

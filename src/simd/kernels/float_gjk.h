@@ -94,16 +94,19 @@ LANES_TARGET static void run_float_fill(float_queue *from, unsigned lanes, float
 
 // ---- supports
 
-// A vertex extreme along a direction; of equal ones the first of the even or the first of the odd.
+// A vertex extreme along a direction; of equal ones the first of the even or the first of the odd. Where no one reads
+// the index, it costs nothing.
 typedef struct float_support {
     lane value;
     lane3 at;
+    lane index;
 } float_support;
 
-// The gap along n, and the difference of the supports.
+// The gap along n, the difference of the supports, and which vertices these are: a + 32 b.
 typedef struct float_meeting {
     lane gap;
     lane3 w;
+    lane id;
 } float_meeting;
 
 LANES_INLINE lane3 turn_to_b(const float_gjk *s, lane3 n, int at) {
@@ -112,7 +115,33 @@ LANES_INLINE lane3 turn_to_b(const float_gjk *s, lane3 n, int at) {
 
 LANES_INLINE float_meeting meet(const float_gjk *s, lane3 n, int at, float_support high, float_support low) {
     lane3 t = get3(s->query.translation, at), b = lane9_mul3(get9(s->query.rotation, at), low.at);
-    return (float_meeting){(lane3_dot(n, t) + low.value) - high.value, lane3_sub(lane3_add(b, t), high.at)};
+    return (float_meeting){(lane3_dot(n, t) + low.value) - high.value, lane3_sub(lane3_add(b, t), high.at),
+                           high.index + lane_set(FLOAT_GJK_POINTS) * low.index};
+}
+
+// 1 where the gap is as large as the height, but for what floats round: the simplex is the nearest. Of two edges that
+// are nearest, the support is one of four corners of the same height, of which the simplex has three.
+LANES_INLINE lane_mask is_nearest(lane gap, lane height, lane square, lane claim) {
+    lane left = height - gap, slack = claim * lane_set(0.125);
+    return lane_at_most(left * left, slack * slack * square);
+}
+
+// 1 where a first corner, or the height of a step, is beyond what floats round and what may underflow.
+LANES_INLINE lane_mask is_clear(lane height, lane norm, lane claim) {
+    return lane_and(lane_greater(norm, lane_set(1e-30)), lane_greater(height * height, claim * claim * norm));
+}
+
+// The corners that a search ended with, one after another. fresh: the fourth, of those that are inside.
+LANES_INLINE void put_found(float_found *to, int at, const lane_mask valid[3], const lane id[3], lane fresh) {
+    lane one = lane_set(1), zero = lane_set(0), count = zero;
+    for (int i = 0; i < 3; i++) count = count + lane_select(valid[i], one, zero);
+    lane first = lane_select(valid[0], id[0], lane_select(valid[1], id[1], id[2]));
+    lane second = lane_select(lane_and(valid[0], valid[1]), id[1], id[2]);
+    put(&to->corner[0], at, first);
+    put(&to->corner[1], at, lane_select(lane_greater(count, one), second, first));
+    put(&to->corner[2], at, lane_select(lane_greater(count, lane_set(2)), id[2], first));
+    put(&to->corner[3], at, fresh);
+    put(&to->count, at, count);
 }
 
 // ---- the answers

@@ -61,11 +61,12 @@ LANES_INLINE void take_better(float_support *best, float_support other, int is_l
     lane_mask is_better = is_least ? lane_less(other.value, best->value) : lane_greater(other.value, best->value);
     best->value = is_least ? lane_min(other.value, best->value) : lane_top(other.value, best->value);
     best->at = lane3_select(is_better, other.at, best->at);
+    best->index = lane_select(is_better, other.index, best->index);
 }
 
 LANES_INLINE float_support measure(const float_column *p, int count, int i, lane3 n, int at) {
     lane3 v = get_vertex(p, count, i, at);
-    return (float_support){lane3_dot(v, n), v};
+    return (float_support){lane3_dot(v, n), v, lane_set(i)};
 }
 
 // The greatest of `count` vertices, or the least. Two chains, as each comparison waits for the one before.
@@ -103,13 +104,17 @@ LANES_INLINE void replace_corner(float_gjk *s, int at, const lane_step *step, la
     }
 }
 
+LANES_INLINE float_meeting find_meeting(const float_gjk *s, lane3 n, int at, int count) {
+    float_support high_a = find_extreme(s->a, count, n, at, 0);
+    float_support low_b = find_extreme(s->b, count, turn_to_b(s, n, at), at, 1);
+    return meet(s, n, at, high_a, low_b);
+}
+
 LANES_INLINE void advance_lanes(float_gjk *s, int at, int count, float_ends *all) {
     lane3 n = get3(s->n, at), old[3];
     lane_mask valid[3];
     unsigned live = get_lanes(s->live, at);
-    float_support high_a = find_extreme(s->a, count, n, at, 0);
-    float_support low_b = find_extreme(s->b, count, turn_to_b(s, n, at), at, 1);
-    float_meeting m = meet(s, n, at, high_a, low_b);
+    float_meeting m = find_meeting(s, n, at, count);
     for (int i = 0; i < 3; i++) {
         old[i] = get3(&s->old[3 * i], at);
         valid[i] = lane_sign(get(&s->is_valid[i], at));
@@ -160,12 +165,111 @@ LANES_INLINE float_ends advance_all(float_gjk *s, int count) {
     return all;
 }
 
-// Loops of a known length.
-LANES_TARGET static float_ends run_float_advance(float_gjk *s) {
-    switch (s->blocks) {
-    case 1: return advance_all(s, 8);
-    case 2: return advance_all(s, 16);
-    case 3: return advance_all(s, 24);
-    default: return advance_all(s, 32);
+// Loops of a known length in vectors; one lane takes as long in those of any length, which are less code.
+#if LANES > 1
+#define FLOAT_RETURN_OF_BLOCKS(blocks, RUN)                                                                            \
+    switch (blocks) {                                                                                                  \
+    case 1: return RUN(8);                                                                                             \
+    case 2: return RUN(16);                                                                                            \
+    case 3: return RUN(24);                                                                                            \
+    default: return RUN(32);                                                                                           \
     }
+#else
+#define FLOAT_RETURN_OF_BLOCKS(blocks, RUN) return RUN(8 * (int)(blocks))
+#endif
+
+LANES_TARGET static float_ends run_float_advance(float_gjk *s) {
+#define RUN(count) advance_all(s, count)
+    FLOAT_RETURN_OF_BLOCKS(s->blocks, RUN);
+#undef RUN
+}
+
+// ---- nearest points
+
+// The simplex, its nearest point's direction and the height along it times its length, |n|^2.
+typedef struct float_walk {
+    lane3 old[3], n;
+    lane id[3], height, square, steps, fresh;
+    lane_mask valid[3], live, near, inside;
+} float_walk;
+
+// The first support is the simplex, and its direction the next one.
+LANES_INLINE float_walk begin_walk(const float_gjk *s, lane_mask some, int at, int count) {
+    float_meeting m = find_meeting(s, get3(s->query.translation, at), at, count);
+    lane zero = lane_set(0), square = lane3_dot(m.w, m.w);
+    lane_mask none = lane_none(), live = lane_and(some, is_clear(square, square, get(&s->query.claim, at)));
+    return (float_walk){.old = {m.w, m.w, m.w},
+                        .n = m.w,
+                        .valid = {live, none, none},
+                        .id = {m.id, zero, zero},
+                        .height = square,
+                        .square = square,
+                        .steps = zero,
+                        .fresh = zero,
+                        .live = live,
+                        .near = none,
+                        .inside = none};
+}
+
+// In the lanes that go on the new corner takes the place of the first that does not stay.
+LANES_INLINE void take_walk(float_walk *k, const lane_step *step, const float_meeting *m) {
+    lane_mask taken = lane_not(step->goes);
+    for (int i = 0; i < 3; i++) {
+        lane_mask here = lane_and(lane_not(taken), lane_not(step->keeps[i]));
+        taken = lane_or(taken, here);
+        k->old[i] = lane3_select(here, m->w, k->old[i]);
+        k->id[i] = lane_select(here, m->id, k->id[i]);
+        lane_mask stays = lane_or(here, step->keeps[i]);
+        k->valid[i] = lane_or(lane_and(step->goes, stays), lane_and(lane_not(step->goes), k->valid[i]));
+    }
+    k->n = lane3_select(step->goes, step->n, k->n);
+}
+
+// A support and a step of all lanes at work. A support that is a corner again ends the search, and so does one that is
+// no nearer: whether the corners are the nearest is seen in doubles.
+LANES_INLINE void advance_walk(const float_gjk *s, float_walk *k, int at, int count) {
+    float_meeting m = find_meeting(s, k->n, at, count);
+    lane claim = get(&s->query.claim, at);
+    lane_mask known = is_nearest(m.gap, k->height, k->square, claim);
+    for (int i = 0; i < 3; i++) {
+        lane_mask same = lane_and(lane_at_least(k->id[i], m.id), lane_at_most(k->id[i], m.id));
+        known = lane_or(known, lane_and(k->valid[i], same));
+    }
+    lane_step step = step_lanes(k->old, k->valid, m.w);
+    lane high = lane3_dot(step.n, m.w), norm = lane3_dot(step.n, step.n);
+    lane_mask inside = lane_and(lane_and(step.inside, lane_not(known)), k->live);
+    lane_mask gains = lane_and(lane_less(high * high * k->square, k->height * k->height * norm), lane_not(known));
+    lane_mask near = lane_and(lane_not(lane_or(gains, inside)), k->live);
+    lane_mask goes = lane_and(lane_and(gains, is_clear(high, norm, claim)), lane_less(k->steps, lane_set(s->most)));
+    step.goes = lane_and(lane_and(goes, lane_not(inside)), k->live);
+    take_walk(k, &step, &m);
+    k->height = lane_select(step.goes, high, k->height);
+    k->square = lane_select(step.goes, norm, k->square);
+    k->steps = lane_select(step.goes, k->steps + lane_set(1), k->steps);
+    k->fresh = lane_select(inside, m.id, k->fresh);
+    k->near = lane_or(k->near, near);
+    k->inside = lane_or(k->inside, inside);
+    k->live = step.goes;
+}
+
+LANES_INLINE float_ends approach(float_gjk *s, unsigned lanes, int count) {
+    float_ends all = {0, 0, 0, 0};
+    for (int at = 0; has_more(lanes, at); at += LANES) {
+        unsigned some = get_lanes(lanes, at);
+        if (!some) continue;
+        float_walk k = begin_walk(s, lane_from_bits(some), at, count);
+        while (lane_bits(k.live)) advance_walk(s, &k, at, count);
+        put_found(&s->found, at, k.valid, k.id, k.fresh);
+        put(&s->found.steps, at, k.steps);
+        all.near |= lane_bits(k.near) << at;
+        all.inside |= lane_bits(k.inside) << at;
+    }
+    all.open = lanes & ~(all.near | all.inside);
+    return all;
+}
+
+LANES_TARGET static float_ends run_float_approach(float_gjk *s, unsigned lanes) {
+#define RUN(count) approach(s, lanes, count)
+    FLOAT_RETURN_OF_BLOCKS(s->blocks, RUN);
+#undef RUN
 }

@@ -36,6 +36,20 @@ LANES_TARGET static void run_group_begin(const pair8 *o, const pair8_query *quer
 
 // ---- supports
 
+// Runs a function for the eights of points of the larger body of lane k. Plain C reads the counts themselves.
+#if LANES > 2
+#define GROUP_BY_BLOCKS(FIND, s, k)                                                                                    \
+    uint32_t of_a = (s)->points_a[k].padded_count, of_b = (s)->points_b[k].padded_count;                               \
+    switch ((of_a > of_b ? of_a : of_b) / 8) {                                                                         \
+    case 1: FIND(s, k, 1); break;                                                                                      \
+    case 2: FIND(s, k, 2); break;                                                                                      \
+    case 3: FIND(s, k, 3); break;                                                                                      \
+    default: FIND(s, k, 4); break;                                                                                     \
+    }
+#else
+#define GROUP_BY_BLOCKS(FIND, s, k) FIND(s, k, 0);
+#endif
+
 // The supports of lane k, for bodies of so many eights of points.
 SMALL_GJK_INLINE void find_ends(group_gjk *s, unsigned k, uint32_t blocks) {
     const simd_points *a = &s->points_a[k], *b = &s->points_b[k];
@@ -49,15 +63,7 @@ SMALL_GJK_INLINE void find_ends(group_gjk *s, unsigned k, uint32_t blocks) {
     s->search.fresh.id.lane[k] = high.index + SMALL_GJK_POINTS * low.index;
 }
 
-LANES_TARGET static void find_lane_ends(group_gjk *s, unsigned k) {
-    uint32_t a = s->points_a[k].padded_count, b = s->points_b[k].padded_count;
-    switch ((a > b ? a : b) / 8) {
-    case 1: find_ends(s, k, 1); break;
-    case 2: find_ends(s, k, 2); break;
-    case 3: find_ends(s, k, 3); break;
-    default: find_ends(s, k, 4); break;
-    }
-}
+LANES_TARGET static void find_lane_ends(group_gjk *s, unsigned k){GROUP_BY_BLOCKS(find_ends, s, k)}
 
 // The difference of the vertices and the gap. For lanes whose supports are as before they are as before.
 LANES_INLINE void meet_ends(const pair8 *o, group_gjk *s, int at) {
@@ -153,22 +159,111 @@ LANES_INLINE lane3 combine(const lane3 p[3], const lane weight[3]) {
     return lane3_add_scaled(lane3_add_scaled(lane3_scale(p[0], weight[0]), p[1], weight[1]), p[2], weight[2]);
 }
 
-LANES_TARGET static void run_group_finish(const pair8 *o, unsigned lanes, group_gjk *s) {
+// A direction n from A to B, and what the bounds along it are made with.
+typedef struct group_heading {
+    lane3 n;
+    lane scale, radii, claim; // scale: 1 / |n|
+} group_heading;
+
+// The points of corners with weights, the direction, and the upper bound. a: A's vertices, body frame.
+LANES_SHARED void put_nearest(const pair8 *o, int at, const corner_set *differences, const lane3 a[3],
+                              const group_heading *h, group_nearest *out) {
+    lane weight[3], zero = lane_set(0), scale = h->scale;
+    compute_group_weights(differences, weight);
+    lane3 between = combine(differences->p, weight), point_a = lane9_mul3(get9(o->world_a, at), combine(a, weight));
+    for (int i = 0; i < 3; i++) put(&out->weight[i], at, weight[i]);
+    put3(out->point_a, at, point_a);
+    put3(out->point_b, at, lane3_add(point_a, between));
+    // No zero of a direction is negative.
+    put3(out->normal, at, (lane3){h->n.x * scale + zero, h->n.y * scale + zero, h->n.z * scale + zero});
+    put(&out->upper, at, lane3_norm(between) - h->radii + h->claim);
+}
+
+LANES_INLINE void put_lower(int at, const group_heading *h, lane gap, group_nearest *out) {
+    put(&out->lower, at, gap * h->scale - h->radii - h->claim);
+}
+
+LANES_TARGET static void run_group_finish(const pair8 *o, unsigned lanes, const group_gjk *s, group_nearest *out) {
     const gjk8 *g = &s->search;
     for (int at = 0; at < PAIR8; at += LANES) {
         if (!has_lanes(lanes, at)) continue;
-        lane weight[3], count = get(&s->count, at), claim = get(&g->claim, at), radii = get(&g->lower_radii, at);
+        lane count = get(&s->count, at);
         corner_set differences = get_corners(s->corner, count, at), vertices = get_corners(s->corner_a, count, at);
-        compute_group_weights(&differences, weight);
-        lane3 between = combine(differences.p, weight), n = get3(g->n, at);
-        lane3 point_a = lane9_mul3(get9(o->world_a, at), combine(vertices.p, weight));
-        lane scale = lane_set(1) / lane_sqrt(get(&g->square, at)), zero = lane_set(0);
-        for (int i = 0; i < 3; i++) put(&s->weight[i], at, weight[i]);
-        put3(s->point_a, at, point_a);
-        put3(s->point_b, at, lane3_add(point_a, between));
-        // No zero of a direction is negative.
-        put3(s->normal, at, (lane3){n.x * scale + zero, n.y * scale + zero, n.z * scale + zero});
-        put(&s->lower, at, get(&g->gap, at) * scale - radii - claim);
-        put(&s->upper, at, lane3_norm(between) - radii + claim);
+        const group_heading h = {get3(g->n, at), lane_set(1) / lane_sqrt(get(&g->square, at)), get(&g->lower_radii, at),
+                                 get(&g->claim, at)};
+        put_nearest(o, at, &differences, vertices.p, &h, out);
+        put_lower(at, &h, get(&g->gap, at), out);
+    }
+}
+
+// ---- corners of a search in single precision
+
+// The direction from the origin to the nearest point of one to three differences: orthogonal to their edges.
+LANES_INLINE lane3 find_heading(const corner_set *c) {
+    lane3 w = c->p[0], e = lane3_sub(c->p[1], w), face = lane3_cross(e, lane3_sub(c->p[2], w));
+    lane3 edge = lane3_cross(e, lane3_cross(w, e));
+    lane_mask flips = lane_less(lane3_dot(face, w), lane_set(0));
+    face = lane3_select(flips, lane3_neg(face), face);
+    return lane3_select(c->has_three, face, lane3_select(c->has_two, edge, w));
+}
+
+// The difference of corner i, world, and its vertex of A.
+LANES_SHARED lane3 meet_corner(const pair8 *o, const group_corners *from, int at, int i, lane3 *a) {
+    *a = read_points(from->a[i], at);
+    lane3 b = lane9_mul3(get9(o->world_b, at), read_points(from->b[i], at));
+    return lane3_sub(lane3_add(b, get3(o->offset, at)), lane9_mul3(get9(o->world_a, at), *a));
+}
+
+// The differences of the corners, world, and A's vertices.
+LANES_INLINE corner_set meet_corners(const pair8 *o, const group_corners *from, int at, lane3 a[3]) {
+    lane count = get(&from->count, at);
+    corner_set c = {.has_two = lane_greater(count, lane_set(1.5)), .has_three = lane_greater(count, lane_set(2.5))};
+    for (int i = 0; i < 3; i++) c.p[i] = meet_corner(o, from, at, i, &a[i]);
+    return c;
+}
+
+// The values of the supports of lane k, for bodies of so many eights of points.
+SMALL_GJK_INLINE void measure_ends(group_corners *s, unsigned k, uint32_t blocks) {
+    vec3 in_a = {s->along_a[0].lane[k], s->along_a[1].lane[k], s->along_a[2].lane[k]};
+    vec3 in_b = {s->along_b[0].lane[k], s->along_b[1].lane[k], s->along_b[2].lane[k]};
+    s->high.lane[k] = find_extreme_point(&s->points_a[k], in_a, blocks, 0).value;
+    s->low.lane[k] = find_extreme_point(&s->points_b[k], in_b, blocks, 1).value;
+}
+
+LANES_TARGET static void measure_lane_ends(group_corners *s, unsigned k){GROUP_BY_BLOCKS(measure_ends, s, k)}
+
+LANES_INLINE group_heading get_heading(const pair8 *o, const pair8_query *query, const group_corners *from, int at) {
+    return (group_heading){get3(from->n, at), get(&from->scale, at), get(&o->radii, at),
+                           compute_claim(query, get(&o->size, at))};
+}
+
+// All but the lower bound.
+LANES_INLINE void begin_measure(const pair8 *o, const pair8_query *query, group_corners *from, int at,
+                                group_nearest *out) {
+    lane3 a[3];
+    corner_set c = meet_corners(o, from, at, a);
+    lane3 n = find_heading(&c);
+    lane square = lane3_dot(n, n);
+    lane_mask good = lane_and(lane_greater(square, lane_set(1e-150)), lane_less(square, lane_set(1e150)));
+    from->good |= lane_bits(good) << at;
+    put3(from->n, at, n);
+    put(&from->scale, at, lane_set(1) / lane_sqrt(square));
+    put3(from->along_a, at, lane9_mul3_transposed(get9(o->world_a, at), n));
+    put3(from->along_b, at, lane9_mul3_transposed(get9(o->world_b, at), n));
+    group_heading h = get_heading(o, query, from, at);
+    put_nearest(o, at, &c, a, &h, out);
+}
+
+LANES_TARGET static void run_group_measure(const pair8 *o, const pair8_query *query, unsigned lanes,
+                                           group_corners *from, group_nearest *out) {
+    from->good = 0;
+    for (int at = 0; at < PAIR8; at += LANES)
+        if (has_lanes(lanes, at)) begin_measure(o, query, from, at, out);
+    for (unsigned rest = lanes; rest; rest &= rest - 1) measure_lane_ends(from, (unsigned)__builtin_ctz(rest));
+    for (int at = 0; at < PAIR8; at += LANES) {
+        if (!has_lanes(lanes, at)) continue;
+        group_heading h = get_heading(o, query, from, at);
+        lane gap = (lane3_dot(h.n, get3(o->offset, at)) + get(&from->low, at)) - get(&from->high, at);
+        put_lower(at, &h, gap, out);
     }
 }

@@ -177,6 +177,15 @@ LANES_INLINE lane lane_get_power(lane v) {
 
 #endif
 
+/// What a kernel does several times: inlined where a call would store wide vectors, else one copy of the code.
+#if LANES > 2
+#define LANES_SHARED LANES_INLINE
+#elif defined(__GNUC__)
+#define LANES_SHARED LANES_TARGET static __attribute__((noinline))
+#else
+#define LANES_SHARED LANES_INLINE
+#endif
+
 LANES_INLINE lane_mask lane_less(lane a, lane b) { return lane_greater(b, a); }
 LANES_INLINE lane_mask lane_at_most(lane a, lane b) { return lane_at_least(b, a); }
 /// b where one of them is NaN.

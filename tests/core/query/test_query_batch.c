@@ -60,8 +60,10 @@ static void check_beside_single(int question, const ovoid_options *o, const ovoi
     CHECK(single.status == batch->status);
     CHECK(get_reason(single.limit) == get_reason(batch->limit));
     CHECK(single.lower <= batch->upper && batch->lower <= single.upper);
-    // A distance that one query narrows to the tolerance the other does not leave wide.
-    if (question > 1 && single.lower <= 0.75 * scale) CHECK(single.limit == batch->limit);
+    // A distance that one query narrows to the tolerance the other does not leave wide; of an overlap it proves the
+    // sign.
+    int is_exact = question == 3 || (question == 2 && single.status != OVOID_OVERLAPPING);
+    if (is_exact && single.lower <= 0.75 * scale) CHECK(single.limit == batch->limit);
     if (question == 1) CHECK(ovoid_answer_is_within(&single, 0.5) == ovoid_answer_is_within(batch, 0.5));
     // A batch returns no covers, so the depth's proof cannot be verified.
     if (batch->proof.kind == OVOID_PROOF_COVER) return;

@@ -1,11 +1,13 @@
-// The yes or no of small bodies in single precision: batches of which only the verdicts are wanted. Truth: the signed
-// distance of the single query, whose bracket must have a common point with the verdict's; the status, and within or
-// not, of the single query; the same bits from every vector width, in another order, in batches of every length. The
-// bodies are hulls, needles, plates, flat polygons and bodies far from their frames' origins, large beside small, of
-// scales from 1e-46 to 1e46, at gaps and overlaps of 1e-8 to 1 of the size, touching, and in one place.
+// Small bodies in single precision: batches of a yes or no of which only the verdicts are wanted, and of distances.
+// Truth: the signed distance of the single query, whose bracket must have a common point with the verdict's; the
+// status, and within or not, of the single query; a bracket as narrow as its, and a proof that holds, of a distance;
+// the same bits from every vector width, in another order, in batches of every length. The bodies are hulls, needles,
+// plates, flat polygons and bodies far from their frames' origins, large beside small, of scales from 1e-46 to 1e46, at
+// gaps and overlaps of 1e-8 to 1 of the size, touching, and in one place.
 #include "bits.h"
 
 enum { SHAPES = 24, COUPLES = 400, LENGTHS = 36 };
+enum { COLLIDE, WITHIN, DISTANCE, QUESTIONS };
 
 static ovoid_shape *shapes[SHAPES];
 static ovoid_posed_shape bodies[2 * COUPLES];
@@ -53,54 +55,74 @@ static void place(int i, uint64_t *s) {
     b->pose.position.z += step * now.normal.z;
 }
 
-static ovoid_code ask(int is_within, const ovoid_batch *batch) {
-    return is_within ? ovoid_within_batch(batch, margin, NULL) : ovoid_collide_batch(batch, NULL);
+static ovoid_code ask(int question, const ovoid_batch *batch) {
+    if (question == DISTANCE) return ovoid_distance_batch(batch, NULL);
+    return question == WITHIN ? ovoid_within_batch(batch, margin, NULL) : ovoid_collide_batch(batch, NULL);
 }
 
 static int is_within_margin(const ovoid_verdict *v) { return v->upper <= margin ? 1 : v->lower > margin ? 0 : -1; }
 
-static void check_beside_single(int is_within, int i) {
+static ovoid_answer ask_single(int question, const ovoid_pair *pair) {
+    if (question == DISTANCE) return ovoid_distance(pair, NULL, NULL);
+    return question == WITHIN ? ovoid_within(pair, margin, NULL, NULL) : ovoid_collide(pair, NULL, NULL);
+}
+
+static void check_beside_single(int question, int i) {
     const ovoid_verdict *v = &verdicts[i];
     ovoid_pair pair = get_pair(i);
-    ovoid_answer depth = ovoid_depth(&pair, NULL, NULL, NULL);
-    ovoid_answer single = is_within ? ovoid_within(&pair, margin, NULL, NULL) : ovoid_collide(&pair, NULL, NULL);
+    ovoid_answer depth = ovoid_depth(&pair, NULL, NULL, NULL), single = ask_single(question, &pair);
     CHECK(v->lower <= depth.upper && depth.lower <= v->upper);
     CHECK(v->status == single.status);
     CHECK(v->status != OVOID_SEPARATED || v->lower > 0);
     CHECK(v->status != OVOID_OVERLAPPING || v->upper < 0);
-    if (is_within) CHECK(is_within_margin(v) == ovoid_answer_is_within(&single, margin));
-    stages[v->stage]++;
+    if (question == WITHIN) CHECK(is_within_margin(v) == ovoid_answer_is_within(&single, margin));
+    if (question == DISTANCE && v->status == OVOID_SEPARATED) CHECK(v->limit == single.limit);
+    if (question != DISTANCE) stages[v->stage]++;
+}
+
+// The whole answers of a distance: the same verdicts, and proofs that hold.
+static void check_answers(void) {
+    static ovoid_answer answers[COUPLES];
+    ovoid_batch batch = {
+        .bodies = bodies, .body_count = 2 * COUPLES, .couples = couples, .couple_count = COUPLES, .answers = answers};
+    CHECK(ovoid_distance_batch(&batch, NULL) == OVOID_OK);
+    for (int i = 0; i < COUPLES; i++) {
+        ovoid_pair pair = get_pair(i);
+        check_seed = (uint64_t)i;
+        CHECK(memcmp(&answers[i], &verdicts[i], sizeof verdicts[i]) == 0);
+        CHECK(ovoid_answer_verify(&pair, &answers[i], NULL, NULL) == OVOID_OK);
+    }
 }
 
 // In another order, and in batches of every length up to two groups and more; each couple alone, too.
-static void check_neighbors(int is_within) {
+static void check_neighbors(int question) {
     static ovoid_couple other[COUPLES];
     static ovoid_verdict found[COUPLES];
     for (int i = 0; i < COUPLES; i++) other[i] = couples[(i * 7 + 3) % COUPLES];
     ovoid_batch batch = {
         .bodies = bodies, .body_count = 2 * COUPLES, .couples = other, .couple_count = COUPLES, .verdicts = found};
-    CHECK(ask(is_within, &batch) == OVOID_OK);
+    CHECK(ask(question, &batch) == OVOID_OK);
     for (int i = 0; i < COUPLES; i++) CHECK(memcmp(&found[i], &verdicts[(i * 7 + 3) % COUPLES], sizeof *found) == 0);
     for (size_t count = 1; count < LENGTHS; count++)
         for (size_t from = 0; from + count <= COUPLES; from += count == 1 ? 1 : 5 * count) {
             memset(found, 7, sizeof found);
             batch.couples = couples + from;
             batch.couple_count = count;
-            CHECK(ask(is_within, &batch) == OVOID_OK);
+            CHECK(ask(question, &batch) == OVOID_OK);
             CHECK(memcmp(found, verdicts + from, count * sizeof *found) == 0);
             CHECK(found[count].iterations == 0x07070707);
         }
 }
 
-static int asked_within;
+static int asked;
 
 static void check_width(void) {
     static ovoid_verdict found[COUPLES];
     ovoid_batch batch = {
         .bodies = bodies, .body_count = 2 * COUPLES, .couples = couples, .couple_count = COUPLES, .verdicts = found};
-    CHECK(ask(asked_within, &batch) == OVOID_OK);
+    CHECK(ask(asked, &batch) == OVOID_OK);
     CHECK(memcmp(found, verdicts, sizeof found) == 0);
-    check_neighbors(asked_within);
+    check_neighbors(asked);
 }
 
 static void check_scale(uint64_t *s) {
@@ -110,13 +132,14 @@ static void check_scale(uint64_t *s) {
     for (int i = 0; i < COUPLES; i++) place(i, s);
     ovoid_batch batch = {
         .bodies = bodies, .body_count = 2 * COUPLES, .couples = couples, .couple_count = COUPLES, .verdicts = verdicts};
-    for (asked_within = 0; asked_within < 2; asked_within++) {
-        CHECK(ask(asked_within, &batch) == OVOID_OK);
+    for (asked = 0; asked < QUESTIONS; asked++) {
+        CHECK(ask(asked, &batch) == OVOID_OK);
         for (int i = 0; i < COUPLES; i++) {
             check_seed = (uint64_t)i;
-            check_beside_single(asked_within, i);
+            check_beside_single(asked, i);
         }
-        check_neighbors(asked_within);
+        if (asked == DISTANCE) check_answers();
+        check_neighbors(asked);
         bits_run_narrower(check_width);
     }
     for (int i = 0; i < SHAPES; i++) ovoid_shape_destroy(shapes[i]);
@@ -148,6 +171,33 @@ static void check_options(uint64_t *s) {
     for (int i = 0; i < SHAPES; i++) ovoid_shape_destroy(shapes[i]);
 }
 
+// Distances of round hulls end in the lanes: their bits are seldom those of the single query, which what is left alone
+// has.
+static void check_plain(uint64_t *s) {
+    static ovoid_answer answers[COUPLES];
+    long alone = 0;
+    scale = 1;
+    for (int i = 0; i < SHAPES; i++)
+        if (!CHECK((shapes[i] = make_shape(0, s)) != NULL)) return;
+    for (int i = 0; i < COUPLES; i++) place(i, s);
+    ovoid_batch batch = {
+        .bodies = bodies, .body_count = 2 * COUPLES, .couples = couples, .couple_count = COUPLES, .answers = answers};
+    // Both enclosing spheres have radii of at most 1.
+    for (int i = 0; i < COUPLES; i++) {
+        bodies[2 * i + 1].pose.position = bodies[2 * i].pose.position;
+        bodies[2 * i + 1].pose.position.x += 2.25;
+    }
+    CHECK(ovoid_distance_batch(&batch, NULL) == OVOID_OK);
+    for (int i = 0; i < COUPLES; i++) {
+        ovoid_pair pair = get_pair(i);
+        ovoid_answer single = ovoid_distance(&pair, NULL, NULL);
+        alone += memcmp(&answers[i], &single, sizeof single) == 0;
+    }
+    printf("%ld of %d distances have the bits of the single query\n", alone, COUPLES);
+    CHECK(alone < COUPLES / 8);
+    for (int i = 0; i < SHAPES; i++) ovoid_shape_destroy(shapes[i]);
+}
+
 int main(void) {
     static const double scales[] = {1, 1e-9, 1e9, 1e-30, 1e30, 1e-46, 1e46};
     uint64_t s = 31;
@@ -159,5 +209,6 @@ int main(void) {
            stages[OVOID_STAGE_OUTER], stages[OVOID_STAGE_INNER], stages[OVOID_STAGE_SUPPORT], stages[OVOID_STAGE_GJK],
            stages[OVOID_STAGE_EPA] + stages[OVOID_STAGE_REFINE]);
     check_options(&s);
+    check_plain(&s);
     return check_end();
 }
