@@ -36,7 +36,7 @@ tests_of() {
     hull) echo "test_linear test_hull_sort test_hull test_measures test_shape $query" ;;
     shape) echo "test_centered_box test_regular_solid test_measures test_shape test_shape_triangles test_shape_file test_shape_lean test_shape_rim test_shape_ellipsoid $query" ;;
     ellipsoid) echo "test_ellipsoid_quick test_ellipsoid_contain test_ellipsoid_overlap test_ellipsoid_gap test_ellipsoid_exact test_ellipsoid_nearest test_ellipsoid_outer test_ellipsoid_inner $query" ;;
-    simd) echo "test_simd $query" ;;
+    simd) echo "test_simd test_simd_corner $query" ;;
     environment) echo "test_environment $query" ;;
     tools) echo "test_tools" ;;
     world) echo "test_simd_extents test_simd_kept8 test_simd_move8 test_world_moves test_world_depth test_world_tree test_world_margins test_world_rules test_world_even test_world_states test_world_find test_world test_world_far test_world_threads test_world_soak" ;;
