@@ -68,8 +68,13 @@ typedef struct check {
 /// Makes the rows of all pairs, or of those that are near. 0, or EXIT_INPUT after a message.
 static int find_rows(check *c) {
     cli_near near;
-    const ovoid_contact_query query = {.kind = OVOID_QUERY_WITHIN, .margin = c->settings->margin};
-    int code = near_open(&near, c->scene, &query, c->settings->part, c->settings->threads);
+    const near_request request = {.scene = c->scene,
+                                  .poses = c->poses,
+                                  .query = {.kind = OVOID_QUERY_WITHIN, .margin = c->settings->margin},
+                                  .part = c->settings->part,
+                                  .threads = c->settings->threads,
+                                  .is_still = 1};
+    int code = near_open(&near, &request);
     if (code) return code;
     code = near_find(&near);
     if (!code) {

@@ -2,6 +2,7 @@
 // queries, so that they do not depend on earlier ones.
 #include "pairs/near.h"
 
+#include "base/args.h"
 #include "base/message.h"
 #include "base/pipeline.h"
 #include "pairs/answers.h"
@@ -18,13 +19,21 @@
 #define MOVES 1024
 
 /// The object of an id: objects were added in order, to an empty world.
-static uint32_t get_object(const cli_near *near, ovoid_id id) { return (uint32_t)((id >> 32) - (near->ids[0] >> 32)); }
+static uint32_t get_object(const cli_near *near, ovoid_id id) {
+    uint32_t i = (uint32_t)((id >> 32) - (near->ids[0] >> 32));
+    return near->objects ? near->objects[i] : i;
+}
+
+/// 1 if the pair of objects a < b is the part's.
+static int is_of_part(const cli_near *near, uint32_t a, uint32_t b) {
+    return near->cut.roles ? cut_has_pair(&near->cut, a, b) : shard_part_has_pair(near->part, a, b);
+}
 
 /// Called for each pair that comes near.
 static int is_wanted(void *context, ovoid_id a, ovoid_id b) {
     cli_near *near = context;
     uint32_t p = get_object(near, a), q = get_object(near, b);
-    if (!shard_part_has_pair(near->part, p < q ? p : q, p < q ? q : p)) return 0;
+    if (!is_of_part(near, p < q ? p : q, p < q ? q : p)) return 0;
     if (ovoid_scene_is_ignored(near->scene, p, q)) return 0;
     atomic_fetch_add(&near->candidates, 1);
     return 1;
@@ -41,16 +50,35 @@ static void release(void *context, void *memory) {
     free(memory);
 }
 
-static int add_bodies(cli_near *near) {
-    size_t count = ovoid_scene_get_count(near->scene);
+/// Lists the objects that a part of a scene at rest searches.
+static int list_objects(cli_near *near) {
+    size_t count = near->object_count;
+    if (!near->cut.roles) return 0;
+    near->objects = calloc(count + 1, sizeof *near->objects);
+    if (!near->objects) return message_error("out of memory"), EXIT_INPUT;
+    near->object_count = 0;
+    for (size_t i = 0; i < count; i++)
+        if (near->cut.roles[i] != CUT_FAR) near->objects[near->object_count++] = (uint32_t)i;
+    return 0;
+}
+
+/// Of a part's objects those that are not its own are no pairs among themselves.
+static ovoid_groups get_groups(const cli_near *near, uint32_t object) {
+    if (!near->cut.roles) return (ovoid_groups){0, 0};
+    return near->cut.roles[object] == CUT_OWN ? (ovoid_groups){1, 3} : (ovoid_groups){2, 1};
+}
+
+static int add_bodies(cli_near *near, const ovoid_pose *poses) {
+    size_t count = near->object_count;
     ovoid_world_body *bodies = calloc(count + 1, sizeof *bodies);
     ovoid_error error = {OVOID_ERROR_MEMORY, -1, "out of memory"};
     near->ids = calloc(count + 1, sizeof *near->ids);
     int done = 0;
     if (bodies && near->ids) {
         for (size_t i = 0; i < count; i++) {
-            ovoid_pose pose = ovoid_scene_get(near->scene, i).pose;
-            bodies[i].body = answers_get_body(near->scene, i, &pose);
+            uint32_t object = near->objects ? near->objects[i] : (uint32_t)i;
+            bodies[i].body = answers_get_body(near->scene, object, &poses[object]);
+            bodies[i].groups = get_groups(near, object);
         }
         done =
             ovoid_world_add_many(near->world, &(ovoid_world_additions){bodies, count, near->ids}, &error) == OVOID_OK;
@@ -60,13 +88,17 @@ static int add_bodies(cli_near *near) {
     return done ? 0 : EXIT_INPUT;
 }
 
-int near_open(cli_near *near, const ovoid_scene *scene, const ovoid_contact_query *query, shard_part part,
-              unsigned threads) {
+/// Tells the empty world the margin, which would change the boxes of all bodies later.
+static int set_margin(const cli_near *near) {
     ovoid_error error;
-    *near = (cli_near){.scene = scene, .query = *query, .part = part};
-    if (query->margin < 0) return 0;
-    size_t most =
-        ovoid_scene_get_count(scene) < OVOID_WORLD_THREADS_MAX ? ovoid_scene_get_count(scene) : OVOID_WORLD_THREADS_MAX;
+    ovoid_contacts none;
+    if (ovoid_world_compute_contacts(near->world, &near->query, &none, &error) == OVOID_OK) return 0;
+    return message_error("%s", error.message), EXIT_INPUT;
+}
+
+static int create_world(cli_near *near, unsigned threads) {
+    ovoid_error error;
+    size_t most = near->object_count < OVOID_WORLD_THREADS_MAX ? near->object_count : OVOID_WORLD_THREADS_MAX;
     threads = pipeline_get_threads(threads);
     const ovoid_allocator allocator = {allocate, release, near};
     ovoid_world_options options = {.threads = threads < most ? threads : (uint32_t)most,
@@ -74,8 +106,21 @@ int near_open(cli_near *near, const ovoid_scene *scene, const ovoid_contact_quer
                                    .filter = is_wanted,
                                    .filter_context = near};
     near->world = ovoid_world_create(&options, &error);
-    if (!near->world) return message_error("%s", error.message), EXIT_INPUT;
-    int code = add_bodies(near);
+    if (near->world) return set_margin(near);
+    return message_error("%s", error.message), EXIT_INPUT;
+}
+
+int near_open(cli_near *near, const near_request *request) {
+    *near = (cli_near){.scene = request->scene,
+                       .query = request->query,
+                       .part = request->part,
+                       .object_count = ovoid_scene_get_count(request->scene)};
+    if (request->query.margin < 0) return 0;
+    const near_scene of = {request->scene, request->poses, request->query.margin};
+    int code = request->is_still ? cut_open(&near->cut, &of, request->part) : 0;
+    if (!code) code = list_objects(near);
+    if (!code) code = create_world(near, request->threads);
+    if (!code) code = add_bodies(near, request->poses);
     if (code) near_close(near);
     return code;
 }
@@ -83,9 +128,12 @@ int near_open(cli_near *near, const ovoid_scene *scene, const ovoid_contact_quer
 void near_close(cli_near *near) {
     ovoid_world_destroy(near->world);
     free(near->ids);
+    free(near->objects);
     free(near->couples);
+    cut_close(&near->cut);
     near->world = NULL;
     near->ids = NULL;
+    near->objects = NULL;
     near->couples = NULL;
 }
 

@@ -2,7 +2,7 @@
 #ifndef OVOID_CLI_PAIRS_NEAR_H
 #define OVOID_CLI_PAIRS_NEAR_H
 
-#include "base/args.h"
+#include "pairs/cut.h"
 
 #include <ovoid/io.h>
 #include <ovoid/ovoid.h>
@@ -12,19 +12,30 @@
 /// The objects of a scene in a world, and the pairs found last.
 typedef struct cli_near {
     const ovoid_scene *scene;
-    ovoid_world *world;    ///< NULL: all pairs are wanted
-    ovoid_id *ids;         ///< of the objects
+    ovoid_world *world; ///< NULL: all pairs are wanted
+    ovoid_id *ids;      ///< of the objects in the world
+    uint32_t *objects;  ///< these objects, ascending; NULL: all are in the world
+    size_t object_count;
     ovoid_couple *couples; ///< a < b, ascending
     size_t count, capacity;
     ovoid_contact_query query;
     shard_part part;          ///< of the pairs
+    cli_cut cut;              ///< of a scene at rest; else pairs are dealt out one by one
     atomic_size_t candidates; ///< pairs that the world keeps: those found last, and new ones
 } cli_near;
 
-/// Adds the objects to a world, at the poses of the scene. query: collide, or within a margin, which is negative for
-/// all pairs. part: only pairs of that shard are found. 0, or EXIT_INPUT after a message.
-int near_open(cli_near *near, const ovoid_scene *scene, const ovoid_contact_query *query, shard_part part,
-              unsigned threads);
+/// Which pairs are wanted.
+typedef struct near_request {
+    const ovoid_scene *scene;
+    const ovoid_pose *poses;   ///< of its objects
+    ovoid_contact_query query; ///< collide, or within a margin, which is negative for all pairs
+    shard_part part;           ///< only pairs of that shard are found
+    unsigned threads;
+    int is_still; ///< no object will be moved: a shard then has only the objects that may be near its own
+} near_request;
+
+/// Adds the objects to a world. 0, or EXIT_INPUT after a message.
+int near_open(cli_near *near, const near_request *request);
 
 /// Moves some objects; poses are those of all. 0, or EXIT_INPUT after a message.
 int near_move(cli_near *near, const uint32_t *moved, size_t count, const ovoid_pose *poses);

@@ -164,10 +164,14 @@ static int run_frames(run_state *r) {
 static int open_all(run_state *r) {
     const settings *s = r->settings;
     int is_collide = s->query == QUERY_COLLIDE;
-    const ovoid_contact_query query = {.kind = is_collide ? OVOID_QUERY_COLLIDE : OVOID_QUERY_WITHIN,
-                                       .margin = is_collide ? 0 : s->margin};
     int code = frames_open(&r->frames, s->motion, r->scene);
-    if (!code) code = near_open(&r->near, r->scene, &query, s->part, s->threads);
+    const near_request request = {
+        .scene = r->scene,
+        .poses = r->frames.poses,
+        .query = {.kind = is_collide ? OVOID_QUERY_COLLIDE : OVOID_QUERY_WITHIN, .margin = is_collide ? 0 : s->margin},
+        .part = s->part,
+        .threads = s->threads};
+    if (!code) code = near_open(&r->near, &request);
     if (!code && s->continuous) {
         r->impacts = (cli_impacts){.scene = r->scene,
                                    .frames = &r->frames,

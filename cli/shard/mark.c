@@ -14,7 +14,7 @@
 #include <string.h>
 
 /// The first line.
-#define MAGIC "ovoid shard 2\n"
+#define MAGIC "ovoid shard 3\n"
 
 /// The word before a field in its line, and what the field says, for people.
 static const struct {

@@ -478,7 +478,8 @@ static void check_boxes(void) {
                                          "{\"name\": \"a\", \"box\": [1, 2, 3]},\n"
                                          "{\"name\": \"b\", \"box\": {\"size\": [1, 2, 3]}},\n"
                                          "{\"name\": \"c\", \"box\": {\"half\": [0.5, 1, 1.5]}},\n"
-                                         "{\"name\": \"d\", \"compound\": [{\"box\": {\"half\": [0.5, 1, 1.5]}}]}]}\n");
+                                         "{\"name\": \"d\", \"compound\": [{\"box\": {\"half\": [0.5, 1, 1.5]}}]},\n"
+                                         "{\"name\": \"e\", \"box\": {\"half\": [1, 2, 3]}}]}\n");
     ovoid_scene *scene = ovoid_scene_read(path, NULL, &error);
     if (!CHECK(scene != NULL)) return;
     for (size_t i = 0; i < 4; i++) {
@@ -486,6 +487,8 @@ static void check_boxes(void) {
         const ovoid_shape *shape = i < 3 ? object.shape : ovoid_compound_get_part(object.compound, 0).shape;
         CHECK_NEAR(ovoid_shape_get_measures(shape).volume, 6, 1e-12); // of eight corners, exact but for their sum
     }
+    // The same numbers by another key are another body.
+    CHECK_NEAR(ovoid_shape_get_measures(ovoid_scene_get(scene, 4).shape).volume, 48, 1e-11);
     ovoid_scene_destroy(scene);
 }
 
