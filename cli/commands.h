@@ -5,6 +5,6 @@
 #include "base/args.h"
 
 extern const cli_command command_fit, command_info, command_decompose, command_distance, command_batch, command_check,
-    command_run, command_merge, command_verify, command_view, command_paper, command_robot;
+    command_run, command_pack, command_merge, command_verify, command_view, command_paper, command_robot;
 
 #endif

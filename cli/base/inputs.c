@@ -164,8 +164,8 @@ ovoid_scene *inputs_read_scene(const char *path, int hulls) {
 }
 
 unsigned inputs_get_fields(const ovoid_scene *scene) {
-    for (size_t i = 0; i < ovoid_scene_get_count(scene); i++)
-        if (ovoid_scene_get(scene, i).solid) return OVOID_RECORD_MESHES | OVOID_RECORD_SOLIDS;
+    for (size_t i = 0; i < ovoid_scene_get_mesh_count(scene); i++)
+        if (ovoid_scene_get_mesh_solid(scene, i)) return OVOID_RECORD_MESHES | OVOID_RECORD_SOLIDS;
     return 0;
 }
 
@@ -187,5 +187,6 @@ ovoid_shapes *inputs_read_list(const char *path, const read_settings *settings) 
 
 int inputs_is_scene(const char *path) {
     size_t length = strlen(path);
-    return length > 5 && strcmp(path + length - 5, ".json") == 0;
+    return (length > 5 && strcmp(path + length - 5, ".json") == 0) ||
+           (length > 7 && strcmp(path + length - 7, ".ovoids") == 0);
 }

@@ -84,7 +84,7 @@ void inputs_warn_scene(const ovoid_scene *scene);
 /// Warns that an open mesh is queried as its surface.
 void inputs_warn_surface(const char *path, uint64_t open_edges);
 
-/// 1 if the path is that of a scene: it ends in ".json".
+/// 1 if the path is that of a scene: it ends in ".json", or in ".ovoids" of a packed one.
 int inputs_is_scene(const char *path);
 
 #endif

@@ -7,8 +7,9 @@
 #include <sys/stat.h>
 
 /// Extensions that name a format: an output with one of these must be in that format.
-static const char *const known[] = {"stl", "obj",  "off", "ply", "dae",   "gltf", "glb",   "3ds", "x3d", "fbx",
-                                    "3mf", "json", "csv", "svg", "ovoid", "png",  "jsonl", "pdf", "jpg", "html"};
+static const char *const known[] = {"stl",   "obj",    "off", "ply",   "dae",  "gltf", "glb",
+                                    "3ds",   "x3d",    "fbx", "3mf",   "json", "csv",  "svg",
+                                    "ovoid", "ovoids", "png", "jsonl", "pdf",  "jpg",  "html"};
 
 int outputs_has_extension(const char *path, const char *word) {
     const char *dot = strrchr(path, '.');

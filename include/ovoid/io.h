@@ -236,6 +236,14 @@ OVOID_API ovoid_scene *ovoid_scene_read(const char *path, const ovoid_shape_opti
 OVOID_API ovoid_scene *ovoid_scene_read_hulls(const char *path, const ovoid_shape_options *options, ovoid_error *error);
 /** Frees it; NULL is allowed. */
 OVOID_API void ovoid_scene_destroy(ovoid_scene *scene);
+/**
+ * Writes a packed scene through an ovoid_output: one binary file with all that was read, the shapes of meshes too,
+ * which both readers read in a small part of the time. What they return is the same, to the bit. The choice of hulls is
+ * kept: where it matters, the reader that was used reads the file, and the other one refuses it (ARGUMENT). Paths of
+ * meshes are relative to the packed file, as to the scene. The file is of this version and byte order. Errors: FILE,
+ * MEMORY.
+ */
+OVOID_API ovoid_code ovoid_scene_write(const ovoid_scene *scene, const char *path, ovoid_error *error);
 /** How many objects there are. */
 OVOID_API size_t ovoid_scene_get_count(const ovoid_scene *scene);
 /** The unit of all its lengths, a word of ovoid_unit_get_scale; "" if it names none. */

@@ -118,6 +118,12 @@ class scene : public detail::owner<detail::pointer<ovoid_scene>, ovoid_scene, ov
     }
     /** The number of objects. */
     std::size_t size() const noexcept { return ovoid_scene_get_count(get()); }
+    /** Writes a packed scene, which both readers read in a small part of the time. Throws as ovoid_scene_write fails.
+     */
+    void write(const std::string &path) const {
+        ovoid_error e;
+        detail::require(ovoid_scene_write(get(), path.c_str(), &e), e);
+    }
     /** The unit of all lengths, for example "mm"; "" if the scene names none. */
     const char *unit() const noexcept { return ovoid_scene_get_unit(get()); }
     /** The name of object i < size. */

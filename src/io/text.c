@@ -137,6 +137,17 @@ static ovoid_code read_input(size_t most, bytes *out, ovoid_error *error) {
     return validate_content("-", out, error);
 }
 
+int bytes_begin_file(const char *path, const void *begin, size_t size) {
+    char found[64];
+    struct stat status;
+    int file = open(path, FILE_OPEN_FLAGS);
+    if (file < 0) return 0;
+    int is_one = fstat(file, &status) == 0 && S_ISREG(status.st_mode) && size <= sizeof found &&
+                 read(file, found, (unsigned)size) == (ptrdiff_t)size && memcmp(found, begin, size) == 0;
+    close(file);
+    return is_one;
+}
+
 ovoid_code bytes_read(const char *path, bytes *out, ovoid_error *error) {
     return read_file(path, OVOID_FILE_SIZE_MAX, out, error);
 }

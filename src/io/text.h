@@ -42,6 +42,9 @@ ovoid_code bytes_read(const char *path, bytes *out, ovoid_error *error);
 /// Reads a regular file, or standard input where the path is "-", of at most `most` bytes. The caller frees out->data.
 ovoid_code bytes_read_input(const char *path, size_t most, bytes *out, ovoid_error *error);
 
+/// 1 if the path names a regular file that begins with these bytes, at most 64. A pipe is not waited for.
+int bytes_begin_file(const char *path, const void *begin, size_t size);
+
 /// How files are opened to be read. O_NONBLOCK: a pipe of that name must be refused, not waited for.
 #define FILE_OPEN_FLAGS (O_RDONLY | O_NONBLOCK | O_CLOEXEC)
 /// An open file, and its path for messages.

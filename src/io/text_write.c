@@ -96,7 +96,20 @@ int text_read_escape(const char *text, const char *end) {
     return (int)(16 * (high - digits) + (low - digits));
 }
 
+// 1 for a text of letters, digits, underscores and points that begins with a letter, as most names do.
+static int is_word(const char *text) {
+    static const char marks[] = "_.";
+    const char *c = text;
+    if (!isalpha((unsigned char)*c) || (unsigned char)*c > '~') return 0;
+    while ((unsigned char)*c <= '~' && *c && (isalnum((unsigned char)*c) || strchr(marks, *c))) c++;
+    return !*c;
+}
+
 void ovoid_text_write_csv(FILE *file, const char *text) {
+    if (is_word(text)) {
+        fputs(text, file);
+        return;
+    }
     const char *end = text + strlen(text);
     int is_quoted = strpbrk(text, ",;\"") || *text == ' ' || (end > text && end[-1] == ' ');
     if (is_quoted) fputc('"', file);

@@ -35,6 +35,14 @@ awk 'BEGIN { srand(3); n = 60
     for (i = 0; i < n; i++)
         printf ",{\"name\":\"n%d\",%s,\"pose\":{\"xyz\":[%.6f,%.6f,%.6f],\"quat_wxyz\":[1,%.6f,0.3,0]}}", i, kind[i % 3 + 1], p[i, 0], p[i, 1], p[i, 2], p[i, 3] >"scene.json"
     print "],\"ignore\":[[\"n0\",\"n1\"],[\"n5\",\"n3\"]]}" >"scene.json"
+    # Of many sizes, dense and thin, and some at one place.
+    printf "{\"objects\":[{\"name\":\"floor\",\"box\":[9,9,1]}" >"cells.json"
+    for (i = 0; i < 400; i++) {
+        size = 0.1 + 2 * rand() ^ 8; far = i % 4 ? 3 : 9
+        for (k = 0; k < 3; k++) p[i, k] = i % 40 ? far * rand() : 1
+        printf ",{\"name\":\"n%d\",%s,\"pose\":{\"xyz\":[%.6f,%.6f,%.6f]}}", i, i % 3 ? sprintf("\"box\":[%.6f,0.2,0.1]", size) : sprintf("\"sphere\":%.6f", size / 2), p[i, 0], p[i, 1], p[i, 2] >"cells.json"
+    }
+    print "]}" >"cells.json"
     print "shoulder,wrist" >"states.csv"
     for (i = 0; i < 1900; i++) printf "%.6f,%.6f\n", 4.2 * rand() - 1.6, rand() >"states.csv" }'
 printf '%s/cube.off\n%s/tetra.obj\n' "$data" "$data" >shapes.txt
@@ -77,9 +85,37 @@ all "$every" 'batch, proofs' batch --shapes shapes.txt --pairs pairs.csv --csv -
 all 3 'batch, JSON' batch --shapes shapes.txt --pairs pairs.csv --json --query collide
 all 3 'check' check scene.json --csv --proofs
 all "$every" 'check, margin' check scene.json --margin 0.3 --json
+all '2 5' 'check, cells' check cells.json --margin 0.02 --csv
+all 9 'check, cells, wide' check cells.json --margin 0.4 --csv
 all 4 'check, top' check scene.json --top 50 --csv
 all 3 'run' run scene.json --motion moves.csv --margin 0.2 --json
 all "$every" 'run, continuous' run scene.json --motion moves.csv --query collide --continuous --csv --proofs
+
+# packed NAME SCENE COMMAND WORDS...: one run of a packed scene, and its shards, are one run of the scene.
+"$OVOID_TOOL" pack scene.json -o scene.ovoids 2>/dev/null
+"$OVOID_TOOL" pack cells.json -o cells.ovoids 2>/dev/null
+packed() {
+    name=$1 scene=$2 command=$3
+    shift 3
+    "$OVOID_TOOL" "$command" "$scene.json" "$@" >of_json 2>/dev/null
+    code=$?
+    "$OVOID_TOOL" "$command" "$scene.ovoids" "$@" >of_packed 2>/dev/null
+    got=$?
+    check "$name: the exit code of a packed scene, $got for $code" [ $got -eq $code ]
+    check "$name: the bytes of a packed scene" cmp of_json of_packed
+    all '2 4' "$name, packed" "$command" "$scene.ovoids" "$@"
+    check "$name: shards of a packed scene" cmp of_json merged
+}
+packed 'check, margin' scene check --margin 0.3 --json
+check 'proofs of a packed scene' "$OVOID_TOOL" verify of_packed scene.ovoids
+packed 'check, cells' cells check --margin 0.02 --csv
+packed 'check' scene check --csv --proofs
+packed 'run' scene run --motion moves.csv --margin 0.2 --continuous --csv --proofs
+rm -f -- *.shard *.mark
+"$OVOID_TOOL" check scene.json --margin 0.3 --json --shard 1/2 -o 1.shard 2>/dev/null
+"$OVOID_TOOL" check scene.ovoids --margin 0.3 --json --shard 2/2 -o 2.shard 2>/dev/null
+"$OVOID_TOOL" merge 1.shard 2.shard >merged 2>said
+check 'shards of a scene and of its packed one are none of one run' grep -q 'of inputs with the digest' said
 # shellcheck disable=SC2086 # words without blanks
 if [ $has_robot -eq 1 ]; then
     all 3 'robot check' $robot --csv

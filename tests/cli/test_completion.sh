@@ -28,7 +28,7 @@ expect() {
     fi
 }
 
-expect 'fit info decompose distance batch check run merge verify view paper robot help --help --version' ''
+expect 'fit info decompose distance batch check run pack merge verify view paper robot help --help --version' ''
 expect 'verify view' v
 expect '--help' --h
 expect 'distance' help di

@@ -74,6 +74,9 @@ void check_scenes() {
     CHECK(meshes.mesh_count() == 1 && meshes.mesh(0).convexity.kind == OVOID_MESH_SOLID && !*meshes.unit());
     const auto hulls = ovoid::scene::read_hulls(folder + "/meshes.json");
     CHECK(ovoid_scene_get(hulls.get(), 0).solid == nullptr && ovoid_scene_get(meshes.get(), 0).solid != nullptr);
+    scene.write(folder + "/scene.ovoids");
+    const auto packed = ovoid::scene::read(folder + "/scene.ovoids");
+    CHECK(packed.size() == scene.size() && packed.is_ignored(0, 1) && std::string(packed.unit()) == "mm");
     CHECK(scene.pair_count() == ovoid_scene_get_pair_count(scene.get()));
     const ovoid::body_answer a = ovoid::distance(ovoid::body_pair(scene[0], scene[1]));
     CHECK(a.lower <= 7 && a.upper >= 7 && a.part_b == 0);
@@ -134,8 +137,8 @@ int main() {
     check_shapes();
     check_scenes();
     check_tables();
-    for (const char *name : {"mesh.obj", "hull.ovoid", "list.txt", "bad.obj", "scene.json", "meshes.json", "motion.csv",
-                             "pairs.csv", "results.jsonl"})
+    for (const char *name : {"mesh.obj", "hull.ovoid", "list.txt", "bad.obj", "scene.json", "scene.ovoids",
+                             "meshes.json", "motion.csv", "pairs.csv", "results.jsonl"})
         CHECK(std::remove((folder + "/" + name).c_str()) == 0);
     CHECK(rmdir(path) == 0);
     return check_end();

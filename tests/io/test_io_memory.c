@@ -36,6 +36,18 @@ static int read_scene(ovoid_error *error) {
     return scene != NULL;
 }
 
+static ovoid_scene *packed;
+
+static int pack_scene(ovoid_error *error) {
+    return ovoid_scene_write(packed, file_path("memory.ovoids"), error) == OVOID_OK;
+}
+
+static int unpack_scene(ovoid_error *error) {
+    ovoid_scene *scene = ovoid_scene_read(file_path("memory.ovoids"), NULL, error);
+    ovoid_scene_destroy(scene);
+    return scene != NULL;
+}
+
 static int read_pairs(ovoid_error *error) {
     ovoid_pairs_reader *reader = ovoid_pairs_reader_open(file_path("memory.csv"), 2, error);
     ovoid_indexed_pair pair;
@@ -110,6 +122,10 @@ int main(void) {
     check_operation("list", 0, read_list);
     file_write_text("memory.json", scene);
     check_operation("scene", 1, read_scene);
+    packed = ovoid_scene_read(file_path("memory.json"), NULL, NULL);
+    check_operation("packing", 0, pack_scene);
+    check_operation("packed scene", 0, unpack_scene);
+    ovoid_scene_destroy(packed);
     file_write_text("memory.csv", csv);
     check_operation("pairs", 0, read_pairs);
     moved = ovoid_scene_read(file_path("memory.json"), NULL, NULL);

@@ -1,7 +1,7 @@
 // Scenes: JSON of named bodies with poses, and pairs to ignore. Strict: anything unknown is refused with its line, so
 // that no misspelt key is silently without effect. docs/scene.md describes the format. Cost: linear in the file, plus
 // the shapes; n log n for the names.
-#include "io/scene/scene.h"
+#include "io/scene/scene_packed.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -197,11 +197,15 @@ static ovoid_code read_scene(scene_reader *r) {
 static ovoid_scene *read_file(const char *path, const ovoid_shape_options *options, int hulls, ovoid_error *error) {
     scene_reader r = {.path = path, .options = options, .error = error, .part = NO_PART, .hulls = hulls};
     bytes file;
-    if (bytes_read_input(path, OVOID_SCENE_SIZE_MAX, &file, error)) return NULL;
+    // A packed scene may be larger than one of JSON.
+    size_t most = bytes_begin_file(path, PACKED_MAGIC, 8) ? OVOID_FILE_SIZE_MAX : OVOID_SCENE_SIZE_MAX;
+    if (bytes_read_input(path, most, &file, error)) return NULL;
     r.file = bytes_skip_mark(file);
     r.scene = calloc(1, sizeof *r.scene);
-    ovoid_code code = r.scene ? read_scene(&r) : io_fail_memory(error, path);
-    free(file.data);
+    if (r.scene) r.scene->hulls = hulls;
+    int is_packed = r.scene && packed_is(file);
+    ovoid_code code = is_packed ? scene_unpack(&r, file) : r.scene ? read_scene(&r) : io_fail_memory(error, path);
+    if (!is_packed) free(file.data);
     free(r.slots);
     if (!code) return r.scene;
     ovoid_scene_destroy(r.scene);
@@ -218,34 +222,37 @@ ovoid_scene *ovoid_scene_read_hulls(const char *path, const ovoid_shape_options 
 
 void ovoid_scene_destroy(ovoid_scene *scene) {
     if (!scene) return;
-    for (size_t i = 0; i < scene->count; i++) free(scene->entries[i].name);
+    for (size_t i = 0; i < scene->count && !scene->packed; i++) free(scene->entries[i].name);
     // A compound may have parts of earlier bodies, so bodies are destroyed from the last to the first.
     for (size_t i = scene->body_count; i-- > 0;) scene_body_clear(&scene->bodies[i]);
     free(scene->bodies);
     free(scene->entries);
     free(scene->by_name);
     free(scene->ignored);
+    for (size_t i = 0; i < scene->shape_count; i++) ovoid_shape_destroy(scene->shapes[i]);
+    for (size_t i = 0; i < scene->solid_count; i++) ovoid_solid_destroy(scene->solids[i]);
+    free(scene->shapes);
+    free(scene->solids);
+    free(scene->packed);
     free(scene);
 }
 
 size_t ovoid_scene_get_mesh_count(const ovoid_scene *scene) {
     size_t count = 0;
-    for (size_t i = 0; i < scene->body_count; i++)
-        if (scene->bodies[i].parts) count += ovoid_shapes_get_count(scene->bodies[i].parts);
+    for (size_t i = 0; i < scene->body_count; i++) count += scene_body_count_hulls(&scene->bodies[i]);
     return count;
 }
 
 // The body of mesh *i, and which of its hulls it is.
 static const scene_body *find_mesh(const ovoid_scene *scene, size_t *i) {
     const scene_body *body = scene->bodies;
-    for (; !body->parts || *i >= ovoid_shapes_get_count(body->parts); body++)
-        if (body->parts) *i -= ovoid_shapes_get_count(body->parts);
+    for (; *i >= scene_body_count_hulls(body); body++) *i -= scene_body_count_hulls(body);
     return body;
 }
 
 ovoid_named_shape ovoid_scene_get_mesh(const ovoid_scene *scene, size_t i) {
     const scene_body *body = find_mesh(scene, &i);
-    return ovoid_shapes_get(body->parts, i);
+    return scene_body_get_hull(body, i);
 }
 
 const ovoid_solid *ovoid_scene_get_mesh_solid(const ovoid_scene *scene, size_t i) {
@@ -272,7 +279,7 @@ ovoid_scene_object ovoid_scene_get(const ovoid_scene *scene, size_t i) {
         o.kind = ovoid_solid_get_report(body->solid).is_closed ? OVOID_MESH_SOLID : OVOID_MESH_SURFACE;
     else
         o.kind = body->compound ? OVOID_MESH_PARTS : OVOID_MESH_HULL;
-    if (body->mesh && body->shape) o.convexity = ovoid_shapes_get(body->parts, 0).convexity;
+    if (body->mesh && body->shape) o.convexity = scene_body_get_hull(body, 0).convexity;
     return o;
 }
 

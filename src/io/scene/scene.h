@@ -1,5 +1,5 @@
 // Shared by the files of the scene reader: scene.c reads objects, poses and pairs to ignore, scene_bodies.c their
-// geometry, scene_values.c single values.
+// geometry, scene_values.c single values; scene_pack.c writes a packed scene and scene_unpack.c reads it.
 #ifndef OVOID_IO_SCENE_SCENE_H
 #define OVOID_IO_SCENE_SCENE_H
 
@@ -12,10 +12,13 @@ typedef struct scene_body {
     const ovoid_shape *shape; ///< made, or the only part
     ovoid_shape *made;        ///< of a body that is no mesh
     ovoid_compound *compound;
-    char *mesh; ///< its path, NULL for none
+    char *mesh;     ///< its path, NULL for none
+    size_t mesh_at; ///< where in the path the name begins that the scene has
     ovoid_read_options read;
     ovoid_shapes *parts;      ///< the hulls of a mesh; other compounds have parts that are bodies of the scene
-    const ovoid_solid *solid; ///< of a mesh that is one, owned by `parts`; `shape` is its hull
+    ovoid_named_shape *hulls; ///< the same of a packed scene, which owns what they point to
+    size_t hull_count;
+    const ovoid_solid *solid; ///< of a mesh that is one; `shape` is its hull
     int is_asked;             ///< the scene says that it is to be one
 } scene_body;
 
@@ -34,6 +37,13 @@ struct ovoid_scene {
     size_t body_count, body_capacity;
     uint64_t *ignored; ///< pairs as (smaller << 32 | larger), ascending
     size_t ignored_count;
+    int hulls;      ///< 1: it was read with hulls for meshes that the scene leaves open
+    int has_choice; ///< 1: there are such meshes
+    // Of a packed scene.
+    char *packed; ///< the file, which has the names; NULL: each name is its own memory
+    ovoid_shape **shapes;
+    ovoid_solid **solids;
+    size_t shape_count, solid_count, solid_capacity;
 };
 
 enum { NO_PART = -1 };
@@ -70,5 +80,9 @@ ovoid_code scene_read_pose(scene_reader *r, json_t *value, ovoid_pose *pose);
 /// The body of an object, by its geometry and the members beside it: made, or found where an equal one exists.
 ovoid_code scene_read_body(scene_reader *r, json_t *object, size_t *body);
 void scene_body_clear(scene_body *body);
+
+/// The hulls of a mesh; of other bodies none.
+size_t scene_body_count_hulls(const scene_body *body);
+ovoid_named_shape scene_body_get_hull(const scene_body *body, size_t i);
 
 #endif

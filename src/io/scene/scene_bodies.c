@@ -193,6 +193,7 @@ static ovoid_code read_mesh(scene_reader *r, const geometry *g, scene_body *body
     body->mesh = text_copy(g->mesh, strlen(g->mesh));
     body->read = g->read;
     if (!body->mesh) return io_fail_memory(r->error, r->path);
+    body->mesh_at = strlen(body->mesh) - strlen(json_string_value(g->value));
     body->parts = ovoid_shapes_read_file(g->mesh, &g->read, &g->options, &why);
     if (!body->parts) return fail_mesh(r, &why);
     if (!g->read.parts) {
@@ -372,6 +373,7 @@ static ovoid_code read_choice(scene_reader *r, const json_t *object, geometry *g
     if (!code) code = read_flag(r, object, g, "solid", &solid);
     if (code) return code;
     g->is_plain = is_plain && r->part == NO_PART;
+    if (is_mesh && hull < 0 && solid < 0) r->scene->has_choice = 1;
     g->solid = is_mesh && !r->hulls ? -1 : 0;
     if (hull > 0 || solid == 0) g->solid = 0;
     if (hull == 0 && is_mesh) g->solid = -1;
@@ -542,7 +544,16 @@ void scene_body_clear(scene_body *body) {
     ovoid_compound_destroy(body->compound);
     ovoid_shape_destroy(body->made);
     ovoid_shapes_destroy(body->parts);
+    free(body->hulls);
     free(body->mesh);
     free(body->key);
     *body = (scene_body){.key = NULL};
+}
+
+size_t scene_body_count_hulls(const scene_body *body) {
+    return body->parts ? ovoid_shapes_get_count(body->parts) : body->hull_count;
+}
+
+ovoid_named_shape scene_body_get_hull(const scene_body *body, size_t i) {
+    return body->parts ? ovoid_shapes_get(body->parts, i) : body->hulls[i];
 }
