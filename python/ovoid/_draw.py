@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 #: The bits of ovoid_picture_layer.
 _LAYERS = {"outer": 1, "inner": 2, "areas": 4, "witness": 8, "names": 16, "legend": 32, "meshes": 64}
 #: Names' ends of other formats, which the tool refuses for a picture too.
-_OTHERS = frozenset("stl obj off ply dae gltf glb 3ds x3d fbx 3mf json csv ovoid png jsonl pdf jpg html".split())
+_OTHERS = frozenset("stl obj off ply dae gltf glb 3ds x3d fbx 3mf json csv ovoid ovoids png jsonl pdf jpg html".split())
 #: Most bodies of which a notebook draws a picture without being asked.
 _MOST = 400
 
