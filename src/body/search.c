@@ -111,7 +111,7 @@ void search_query_leaves(body_search *state, uint32_t a, uint32_t b, const ovoid
     const query_goal goal = make_goal(state);
     ovoid_cover *cover = goal.wants_depth && state->exclusions ? state->exclusions->cover : NULL;
     const ovoid_answer *x = &state->spare;
-    const query_request request = {&state->options, &goal, earlier, cover, NULL};
+    const query_request request = {.options = &state->options, .goal = &goal, .earlier = earlier, .cover = cover};
     answer_find_internal(pose_pair(state, a, b), &request, &state->spare);
     state->out->tested++;
     take_trouble(state, x->limit);
@@ -160,7 +160,7 @@ static void answer_best(body_search *state) {
     if (state->is_answered) return;
     query_goal goal = state->whole_goal;
     goal.far = max2(goal.far, state->least_far);
-    const query_request request = {&state->options, &goal, NULL, NULL, NULL};
+    const query_request request = {.options = &state->options, .goal = &goal};
     answer_find_internal(pose_pair(state, state->best.place_a, state->best.place_b), &request, &state->out->deciding);
     state->out->tested++;
 }

@@ -135,7 +135,7 @@ int epa_lanes_take_depth(search *s, const epa8 *lanes, ovoid_cover *cover) {
 // The points of an earlier cover, up to a full group. 0 if they are too many or not of these bodies.
 static int take_points(epa8 *lanes, const pair_frame *f, const ovoid_cover *kept) {
     uint32_t count = kept->point_count;
-    if (count < EPA8_START || count > EPA8_POINTS || !kept->a || !kept->b || !kept->triangles) return 0;
+    if (count < EPA8_START || count > EPA8_POINTS || !cover_has_arrays(kept)) return 0;
     for (uint32_t i = 0; i < count; i++) {
         lanes->a[i] = kept->a[i], lanes->b[i] = kept->b[i];
         if (kept->a[i] >= f->a->vertex_count || kept->b[i] >= f->b->vertex_count) return 0;

@@ -269,7 +269,8 @@ COMPILER_NOINLINE static ovoid_answer search_pair(const task *t) {
     query_goal goal = query_goal_make_depth(NULL);
     goal.far = t->terms.margin;
     ovoid_answer answer;
-    answer_find_internal(&t->pair, &(query_request){&options, &goal, NULL, t->terms.cover, NULL}, &answer);
+    answer_find_internal(&t->pair, &(query_request){.options = &options, .goal = &goal, .cover = t->terms.cover},
+                         &answer);
     return answer;
 }
 

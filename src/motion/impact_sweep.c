@@ -84,7 +84,8 @@ void sweep_query(sweep *s, double time) {
     ovoid_proof earlier = s->answer.proof;
     s->shift = find_pair(s, time, &pair);
     const query_goal goal = query_goal_make_distance(s->query);
-    answer_find_internal(&pair, &(query_request){s->query, &goal, s->used ? &earlier : NULL, NULL, NULL}, &s->answer);
+    answer_find_internal(
+        &pair, &(query_request){.options = s->query, .goal = &goal, .earlier = s->used ? &earlier : NULL}, &s->answer);
     find_fall(s, time);
     s->queried_at = time;
     s->used++;

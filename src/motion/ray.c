@@ -30,7 +30,7 @@ static ovoid_ray_hit refuse(ovoid_limit limit) { return (ovoid_ray_hit){.limit =
 static void take_inside(const ovoid_pair *pair, ovoid_ray_hit *out) {
     ovoid_answer depth;
     const query_goal goal = query_goal_make_depth(NULL);
-    answer_find_internal(pair, &(query_request){NULL, &goal, NULL, NULL, NULL}, &depth);
+    answer_find_internal(pair, &(query_request){.goal = &goal}, &depth);
     out->point = depth.point_a;
     out->normal = depth.normal;
     out->upper = 0;

@@ -132,7 +132,7 @@ double surface_compute_depth(const surface *s, double error) {
 int surface_take_cover(surface *s, const pair_frame *f, const ovoid_cover *cover, vec3 *w) {
     if (!cover || cover->point_count > OVOID_COVER_POINTS_MAX || cover->triangle_count > 2 * OVOID_COVER_POINTS_MAX)
         return 0;
-    if (cover->point_count && !(cover->a && cover->b && (cover->triangles || !cover->triangle_count))) return 0;
+    if (!cover_has_arrays(cover)) return 0;
     int is_small = cover->point_count <= OVOID_COVER_POINTS;
     for (uint32_t i = 0; i < cover->point_count; i++) {
         if (!shape_has_vertex(f->a, cover->a[i]) || !shape_has_vertex(f->b, cover->b[i])) return 0;

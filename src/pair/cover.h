@@ -25,6 +25,11 @@ static inline vec3 surface_get_point(const surface *s, uint32_t i) {
     return s->points ? s->points[i] : frame_proof_difference(s->frame, s->a[i], s->b[i]);
 }
 
+/// 1 if a cover has arrays for the points and triangles that it counts.
+static inline int cover_has_arrays(const ovoid_cover *cover) {
+    return !cover->point_count || (cover->a && cover->b && (cover->triangles || !cover->triangle_count));
+}
+
 /// Over the differences of a cover; few points are computed once, into w (OVOID_COVER_POINTS). 0 if counts or vertices
 /// are out of range; the triangles are not looked at.
 int surface_take_cover(surface *s, const pair_frame *frame, const ovoid_cover *cover, vec3 *w);

@@ -93,7 +93,7 @@ void batch_query_single(const ovoid_batch *batch, size_t i, const query_goal *go
     ovoid_pair pair = get_pair(batch, i);
     ovoid_answer own, *out = batch->answers ? &batch->answers[i] : &own;
     const ovoid_proof *earlier = batch->proofs && !is_blank(&batch->proofs[i]) ? &batch->proofs[i] : NULL;
-    answer_find_internal(&pair, &(query_request){batch->options, goal, earlier, NULL, NULL}, out);
+    answer_find_internal(&pair, &(query_request){.options = batch->options, .goal = goal, .earlier = earlier}, out);
     batch_write(batch, i, out);
 }
 

@@ -2,9 +2,9 @@
 #include "query/answer.h"
 
 ovoid_answer ovoid_distance(const ovoid_pair *pair, const ovoid_options *options, const ovoid_proof *earlier) {
-    if (!options) return answer_find(pair, &(query_request){NULL, &query_goal_distance, earlier, NULL, NULL});
+    if (!options) return answer_find(pair, &(query_request){.goal = &query_goal_distance, .earlier = earlier});
     const query_goal goal = query_goal_make_distance(options);
-    return answer_find(pair, &(query_request){options, &goal, earlier, NULL, NULL});
+    return answer_find(pair, &(query_request){.options = options, .goal = &goal, .earlier = earlier});
 }
 
 double ovoid_answer_get_distance(const ovoid_answer *answer) {

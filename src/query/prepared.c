@@ -188,7 +188,7 @@ COMPILER_NOINLINE static ovoid_verdict find_near(ovoid_prepared_pair pair, const
     ovoid_options options;
     query_goal goal = *wanted;
     if (!(pair.a->is_ready & pair.b->is_ready) || !options_make(given, &options) || !(goal.far >= 0))
-        return find_afresh(pair, &(query_request){given, wanted, earlier, NULL, NULL}, out);
+        return find_afresh(pair, &(query_request){.options = given, .goal = wanted, .earlier = earlier}, out);
     pair_frame frame;
     rejection found;
     small_end end;
@@ -203,7 +203,7 @@ COMPILER_NOINLINE static ovoid_verdict find_near(ovoid_prepared_pair pair, const
     default: break;
     }
     if ((pair.a->is_ready | pair.b->is_ready) & FRAME_BY_MATRIX)
-        return find_afresh(pair, &(query_request){given, wanted, earlier, NULL, NULL}, out);
+        return find_afresh(pair, &(query_request){.options = given, .goal = wanted, .earlier = earlier}, out);
     frame_relate(&frame);
     return search_on(pair, &query, out);
 }

@@ -8,7 +8,7 @@
 ovoid_answer ovoid_within(const ovoid_pair *pair, double margin, const ovoid_options *options,
                           const ovoid_proof *earlier) {
     const query_goal goal = query_goal_make_within(margin);
-    return answer_find(pair, &(query_request){options, &goal, earlier, NULL, NULL});
+    return answer_find(pair, &(query_request){.options = options, .goal = &goal, .earlier = earlier});
 }
 
 // The order of doubles as that of integers, both zeros alike. It needs no floating-point environment, in which the

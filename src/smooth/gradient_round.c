@@ -110,7 +110,7 @@ static int ask_point(const round_body *hull, nearest *result) {
     const ovoid_options options = {.relative_tolerance = 1e-14};
     ovoid_answer found;
     const query_goal goal = query_goal_make_distance(&options);
-    answer_find_internal(&pair, &(query_request){&options, &goal, NULL, NULL, NULL}, &found);
+    answer_find_internal(&pair, &(query_request){.options = &options, .goal = &goal}, &found);
     const ovoid_proof *proof = &found.proof;
     if (proof->kind != OVOID_PROOF_POINTS || !proof->count) return 0;
     result->of_q =

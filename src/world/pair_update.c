@@ -153,7 +153,7 @@ static void query_shapes(const ovoid_world *w, const world_pair *p, ovoid_cover 
     const query_goal goal = make_goal(w, p->a, p->b);
     ovoid_options options = w->query_options;
     options.iterations = cover_get_iterations(cover, options.iterations);
-    query_request request = {&options, &goal, is_warm ? &earlier : NULL, cover, NULL};
+    query_request request = {.options = &options, .goal = &goal, .earlier = is_warm ? &earlier : NULL, .cover = cover};
     if (w->kind != OVOID_QUERY_DEPTH) {
         answer_find_internal(&both, &request, out);
         return;

@@ -145,7 +145,7 @@ COMPILER_NOINLINE static int search_triangle(solid_search *s, uint32_t place, fo
     query_goal goal = query_goal_make_depth(NULL);
     goal.far = s->terms.margin;
     ovoid_answer answer;
-    answer_find_internal(&pair, &(query_request){NULL, &goal, NULL, NULL, NULL}, &answer);
+    answer_find_internal(&pair, &(query_request){.goal = &goal}, &answer);
     s->found->tested++;
     if (answer.lower > s->terms.margin || !(vec3_norm_squared(answer.normal) > 0.5)) return 0;
     found->given = answer.normal;

@@ -11,7 +11,7 @@ static inline void bodies_query(const ovoid_body_pair *pair, const ovoid_options
     if (a->shape && b->shape) {
         ovoid_pair two = {a->shape, b->shape, a->pose, b->pose};
         ovoid_answer answer;
-        answer_find_internal(&two, &(query_request){options, goal, NULL, NULL, NULL}, &answer);
+        answer_find_internal(&two, &(query_request){.options = options, .goal = goal}, &answer);
         *out = ovoid_body_answer_make(&answer, 0, 0);
         out->tested = 1;
         return;
