@@ -204,6 +204,29 @@ static void check_lies(bytes file) {
     free(kept);
 }
 
+// A part of a compound that is no body's own, which could not be packed again.
+static void check_parts(void) {
+    static const char json[] =
+        "{\"objects\": [{\"name\": \"a\", \"box\": [1, 1, 1]}, {\"name\": \"b\", \"sphere\": 1}, {\"name\": \"c\", "
+        "\"compound\": [{\"box\": [1, 1, 1]}, {\"sphere\": 1}]}]}";
+    char path[300];
+    bytes file;
+    file_write_text("packed_parts.json", json);
+    ovoid_scene *scene = ovoid_scene_read(file_path("packed_parts.json"), NULL, NULL);
+    snprintf(path, sizeof path, "%s", file_path("packed_parts.ovoids"));
+    if (!CHECK(scene != NULL)) return;
+    CHECK_EQ(ovoid_scene_write(scene, path, NULL), OVOID_OK);
+    ovoid_scene_destroy(scene);
+    if (!CHECK(bytes_read(path, &file, NULL) == OVOID_OK)) return;
+    // The second body has the shape of the first.
+    uint64_t *number = (uint64_t *)(void *)(file.data + file.size) - (2 + 2 * 8) - 1;
+    CHECK_EQ(*number, 1);
+    *number = 0;
+    set_checksum(file);
+    CHECK(!is_read(file.data, file.size));
+    free(file.data);
+}
+
 static void check_damaged(const char *packed) {
     bytes file = read_all(packed);
     CHECK(is_read(file.data, file.size));
@@ -319,6 +342,7 @@ int main(void) {
     check_choice(solids, ovoid_scene_read_hulls, "with --hull to read it so");
     check_choice(hulls, ovoid_scene_read, "read it with --hull");
     check_damaged(solids);
+    check_parts();
     check_words(solids);
     check_open();
     check_numbers();

@@ -11,6 +11,7 @@ typedef struct unpacker {
     const char *begin, *at, *end;
     const ovoid_allocator *allocator;
     const packed_header *header;
+    unsigned char *is_owned; ///< of each shape: 1 once it is a body's own, and not only a part of a compound
 } unpacker;
 
 static ovoid_code refuse(const unpacker *u, const char *what) {
@@ -156,11 +157,13 @@ static ovoid_code read_shapes(unpacker *u) {
 
 // ---- bodies
 
-// A shape by its number; NULL.
-static const ovoid_shape *take_shape(unpacker *u) {
+// A shape by its number, of a body or (is_part) of a compound, whose parts are those of bodies before it; NULL.
+static const ovoid_shape *take_shape(unpacker *u, int is_part) {
     int good = 1;
     uint64_t number = take_word(u, &good);
-    return good && number < u->r->scene->shape_count ? u->r->scene->shapes[number] : NULL;
+    if (!good || number >= u->r->scene->shape_count || (is_part && !u->is_owned[number])) return NULL;
+    u->is_owned[number] = 1;
+    return u->r->scene->shapes[number];
 }
 
 static ovoid_code read_solid(unpacker *u, const ovoid_solid **solid) {
@@ -240,6 +243,7 @@ static ovoid_code read_mesh_head(unpacker *u, scene_body *body, uint64_t *first,
     if (!body->mesh || !body->hulls) return fail_memory(u);
     body->mesh_at = strlen(body->mesh) - strlen(name);
     body->hull_count = (size_t)count;
+    memset(u->is_owned + *first, 1, (size_t)count);
     return OVOID_OK;
 }
 
@@ -268,7 +272,7 @@ static ovoid_code read_compound(unpacker *u, scene_body *body) {
     ovoid_posed_shape *parts = malloc((size_t)count * sizeof *parts);
     if (!parts) return fail_memory(u);
     for (size_t i = 0; i < count && good; i++) {
-        parts[i].shape = take_shape(u);
+        parts[i].shape = take_shape(u, 1);
         const double *numbers = take(u, 7, sizeof *numbers);
         good = parts[i].shape && numbers;
         if (good) parts[i].pose = make_pose(numbers);
@@ -283,7 +287,7 @@ static ovoid_code read_body(unpacker *u, scene_body *body) {
     uint64_t kind = take_word(u, &good);
     if (good && kind == PACKED_MESH) return read_mesh(u, body);
     if (good && kind == PACKED_COMPOUND) return read_compound(u, body);
-    body->shape = good && kind == PACKED_SHAPE ? take_shape(u) : NULL;
+    body->shape = good && kind == PACKED_SHAPE ? take_shape(u, 0) : NULL;
     return body->shape ? OVOID_OK : refuse(u, "a body is of no kind, or has no shape");
 }
 
@@ -293,7 +297,8 @@ static ovoid_code read_bodies(unpacker *u) {
     // Each has at least its kind.
     if (count > (uint64_t)(u->end - u->at) / 8) return refuse(u, "it has not the bodies it says");
     scene->bodies = calloc((size_t)count + 1, sizeof *scene->bodies);
-    if (!scene->bodies) return fail_memory(u);
+    u->is_owned = calloc(scene->shape_count + 1, 1);
+    if (!scene->bodies || !u->is_owned) return fail_memory(u);
     ovoid_code code = OVOID_OK;
     for (size_t i = 0; i < count && !code; i++) code = read_body(u, &scene->bodies[scene->body_count++]);
     if (!code && u->at != u->end) return refuse(u, "there is more than it says");
@@ -316,5 +321,7 @@ ovoid_code scene_unpack(scene_reader *r, bytes file) {
     (void)take(&u, 1, sizeof *u.header);
     code = read_objects(&u);
     if (!code) code = read_shapes(&u);
-    return code ? code : read_bodies(&u);
+    if (!code) code = read_bodies(&u);
+    free(u.is_owned);
+    return code;
 }
