@@ -140,7 +140,7 @@ static void work(void *context, void *slot) {
     const answers_job *job = ((work_state *)context)->job;
     chunk *k = slot;
     int lines = job->results && results_are_lines(job->results);
-    int proofs = job->results && results_have_proofs(job->results);
+    int proofs = job->wants_proof || (job->results && results_have_proofs(job->results));
     if (!k->records) k->records = calloc(CHUNK, sizeof *k->records);
     FILE *file = lines ? open_memstream(&k->text, &k->size) : NULL;
     k->failed = !k->records || (lines && !file);

@@ -56,6 +56,7 @@ typedef struct answers_job {
     const ovoid_manifold_options *contacts; ///< of the contacts of the records; NULL: they have none
     double time;
     cli_results *results; ///< where records are written; NULL: nowhere
+    int wants_proof;      ///< 1: each is the answer that is written with its proof, whose memory takes a search farther
     int are_units;        ///< 1: each pair is a unit of a shard's work
     /// Receives each record in order (without cover and exclusions); i: of the couple. May be NULL.
     void (*take)(void *context, size_t i, const ovoid_record *record);

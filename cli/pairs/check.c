@@ -162,6 +162,8 @@ static int sort_rows(check *c) {
     int code = find_rows(c);
     if (code) return code;
     answers_job job = make_job(c);
+    // The order is that of the brackets that are written, by which shards are merged.
+    job.wants_proof = results_have_proofs(&(cli_results){.settings = &c->settings->out});
     job.take = take_bracket;
     progress_start("pairs", c->row_count);
     code = answers_run(&job);

@@ -91,6 +91,15 @@ all 4 'check, top' check scene.json --top 50 --csv
 all 3 'run' run scene.json --motion moves.csv --margin 0.2 --json
 all "$every" 'run, continuous' run scene.json --motion moves.csv --query collide --continuous --csv --proofs
 
+# Searches for depths that fill their memory go farther where proofs are written.
+cat >sizes.json <<'END'
+{"objects":[{"box":[7.889982050451218,7.889982050451218,7.889982050451218],"name":"o3","pose":{"xyz":[0.6578745853158191,1.6636244539173282,-1.4239153689754074],"quat_wxyz":[-0.365606394624974,0.29705377546415784,0.6138572478257066,-1.0134762399299608]},"radius":0.7889982050451219,"allowance":{"outside":0.07889982050451218,"inside":0.15779964100902436}},
+{"cone":{"radius":1710456.2801992295,"length":1925053.9772578424},"name":"o4","pose":{"xyz":[-1.1988030346456733,-0.660747291736653,-0.5532017374487067]}},
+{"compound":[{"cylinder":{"radius":0.006434138572451362,"length":0.0059868708186269545},"pose":{"xyz":[0.008373588967579025,0.0029312496154726953,0.005470708951596489],"rpy":[0,0.14772306054947837,0.7789843224117946]}},
+{"ellipsoid":{"half_axes":[0.004454294976041548,0.0075086952028367935,0.0075086952028367935]},"pose":{"xyz":[0.007464013673564487,-0.004358867568950675,0.006779822007013957],"rpy":[0,1.5707963267948966,0.8121166315317105]}}],"name":"o11","pose":{"xyz":[-0.17689229955010297,0.025003510611431492,2.0624542532377443],"rpy":[1.5707963267948966,1.5707963267948966,1.5707963267948966]}}]}
+END
+all 2 'check, bodies of sizes far apart' check sizes.json --json
+
 # packed NAME SCENE COMMAND WORDS...: one run of a packed scene, and its shards, are one run of the scene.
 "$OVOID_TOOL" pack scene.json -o scene.ovoids 2>/dev/null
 "$OVOID_TOOL" pack cells.json -o cells.ovoids 2>/dev/null
