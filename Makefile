@@ -97,7 +97,7 @@ soak-robot: ## states and edges of robots before a judge in long double, 10^7 an
 
 soak-fcl: ## a million calls by FCL and by <ovoid/fcl.hpp>: which differ, and which of both a proof refutes; minutes
 	@$(call build,bench,bench_fcl_calls)
-	@$(BUILD)/bench/bench_fcl_calls --calls 8850 --rounds 0
+	@$(BUILD)/bench/bench_fcl_calls --calls 7500 --rounds 0
 
 planned-proofs: ## proofs of the motions of PROBLEMS=7 planning problems a robot, made by the tool and verified
 	@$(call build,planned-proofs,ovoid_cli bench_planner)
