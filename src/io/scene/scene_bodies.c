@@ -1,6 +1,7 @@
 // The geometry of a scene's objects: shapes and compounds. Equal geometries are made once and shared: they are found by
 // a text of all that they are made from, through a hash table. Cost: linear in the file, plus the shapes.
 #include "io/scene/scene.h"
+#include "io/scene/scene_bytes.h"
 #include "tools/hash.h"
 
 #include <math.h>
@@ -400,67 +401,49 @@ static ovoid_code read_path(scene_reader *r, geometry *g) {
 
 // ---- bodies by their keys
 
-/// A key under construction; data NULL after there was no memory.
-typedef struct key_text {
-    char *data;
-    size_t length, capacity;
-} key_text;
-
-static void add_text(key_text *k, const char *text, size_t length) {
-    if (!k->data) return;
-    if (k->capacity - k->length <= length) {
-        size_t capacity = 2 * k->capacity + length;
-        char *grown = realloc(k->data, capacity);
-        if (!grown) free(k->data);
-        k->data = grown;
-        k->capacity = capacity;
-        if (!grown) return;
-    }
-    memcpy(k->data + k->length, text, length);
-    k->length += length;
-    k->data[k->length] = 0;
-}
-
 // All bits of a number: printing it would take most of the time that a box of a scene of a million takes.
-static void add_number(key_text *k, double number) {
+static void add_number(scene_bytes *k, double number) {
     static const char digits[] = "0123456789abcdef";
     char text[17] = " ";
     uint64_t bits;
     memcpy(&bits, &number, sizeof bits);
     for (int i = 0; i < 16; i++) text[16 - i] = digits[bits >> 4 * i & 15];
-    add_text(k, text, sizeof text);
+    scene_bytes_add(k, text, sizeof text);
 }
 
 // Numbers and lists of them by their bits, all else as JSON.
-static void add_value(key_text *k, const json_t *value) {
+static void add_value(scene_bytes *k, const json_t *value) {
     if (json_is_number(value)) {
         add_number(k, json_number_value(value));
     } else if (json_is_array(value)) {
-        add_text(k, "[", 1);
+        scene_bytes_add(k, "[", 1);
         for (size_t i = 0; i < json_array_size(value); i++) add_value(k, json_array_get(value, i));
-        add_text(k, "]", 1);
+        scene_bytes_add(k, "]", 1);
     } else {
         char *text = json_dumps(value, JSON_COMPACT | JSON_SORT_KEYS | JSON_ENCODE_ANY);
-        if (text) add_text(k, text, strlen(text));
-        if (!text) free(k->data), k->data = NULL;
+        if (text) scene_bytes_add(k, text, strlen(text));
+        k->is_failed |= !text;
         free(text);
     }
 }
 
 // The key of a geometry: a text of all that the body is made from; NULL where there is no memory.
 static char *make_key(const geometry *g) {
-    key_text k = {malloc(160), 0, 160};
-    add_text(&k, g->kind, strlen(g->kind));
+    scene_bytes k = {NULL, 0, 0, 0};
+    scene_bytes_add(&k, g->kind, strlen(g->kind));
     const ovoid_allowance *allowance = &g->options.allowance;
     const ovoid_vec3 axis = allowance->axis;
     const double numbers[] = {g->options.radius, allowance->outside, allowance->inside, axis.x, axis.y, axis.z,
                               g->read.scale,     g->read.parts,      g->solid};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) add_number(&k, numbers[i]);
     if (g->mesh)
-        add_text(&k, g->mesh, strlen(g->mesh));
+        scene_bytes_add(&k, g->mesh, strlen(g->mesh));
     else
         add_value(&k, g->value);
-    return k.data;
+    scene_bytes_add(&k, "", 1);
+    if (!k.is_failed) return k.data;
+    free(k.data);
+    return NULL;
 }
 
 static int is_end(const void *table, size_t slot, const void *key) {
