@@ -46,7 +46,7 @@ static double find_nearest(const line *l, vec3 p) {
 static vec3 line_get_point(const line *l, double t) { return vec3_add_scaled(l->middle, l->half, t); }
 
 // C. Ericson, Real-time collision detection, 2004: the nearest points of two segments.
-nearest_points features_find_nearest(const pair_frame *f, uint32_t feature_a, uint32_t feature_b) {
+feature_points features_find_nearest(const pair_frame *f, uint32_t feature_a, uint32_t feature_b) {
     line a = get_feature_line(f->a, feature_a), b = get_feature_line(f->b, feature_b);
     b = (line){frame_b(f, b.middle), mat3_mul_vec3(f->rotation, b.half)};
     vec3 w = vec3_sub(b.middle, a.middle);
@@ -55,7 +55,7 @@ nearest_points features_find_nearest(const pair_frame *f, uint32_t feature_a, ui
     double s = det > 0 ? clamp((bb * vec3_dot(a.half, w) - ab * vec3_dot(b.half, w)) / det) : 0;
     double t = find_nearest(&b, line_get_point(&a, s));
     s = find_nearest(&a, line_get_point(&b, t));
-    return (nearest_points){line_get_point(&a, s), line_get_point(&b, t)};
+    return (feature_points){line_get_point(&a, s), line_get_point(&b, t)};
 }
 
 // Orthogonal to an edge of each, from A to B: each edge is on the side of its body that faces the other body, so n
@@ -74,7 +74,7 @@ static int make_from_edges(const pair_frame *f, const manifold_axis *axis, vec3 
 
 // Between the nearest points, if these are apart by more than what rounding makes of their direction.
 static int make_from_points(const pair_frame *f, const manifold_axis *axis, vec3 *n) {
-    nearest_points p = features_find_nearest(f, axis->a, axis->b);
+    feature_points p = features_find_nearest(f, axis->a, axis->b);
     vec3 d = vec3_sub(p.b, p.a);
     int has_facet =
         feature_get_kind(axis->a) == OVOID_MANIFOLD_FACET || feature_get_kind(axis->b) == OVOID_MANIFOLD_FACET;
@@ -102,21 +102,30 @@ int axis_compute_normal(const pair_frame *f, const manifold_axis *axis, vec3 *n)
     }
 }
 
+gap_along gap_measure_along(const pair_frame *f, vec3 n) {
+    gap_along g = {.n = n, .n_in_b = mat3_mul_transposed_vec3(f->rotation, n), .tn = vec3_dot(n, f->translation)};
+    simd_pair ends = frame_find_pair(f, n, vec3_neg(g.n_in_b));
+    g.gap = (g.tn - ends.low.value) - ends.high.value;
+    g.low_a = ends.high.index;
+    g.low_b = ends.low.index;
+    return g;
+}
+
 // T. Duff et al., Building an orthonormal basis, revisited, 2017.
-void manifold_frame_make(const pair_frame *pair, vec3 n, manifold_frame *m) {
+void manifold_frame_make(const pair_frame *pair, const gap_along *along, manifold_frame *m) {
+    vec3 n = along->n;
     double sign = n.z >= 0 ? 1.0 : -1.0, a = -1 / (sign + n.z), b = n.x * n.y * a;
     m->pair = pair;
     m->n = n;
     m->u = (vec3){1 + sign * n.x * n.x * a, sign * b, -sign * n.x};
     m->v = (vec3){b, sign + n.y * n.y * a, -n.y};
-    m->n_in_b = mat3_mul_transposed_vec3(pair->rotation, n);
+    m->n_in_b = along->n_in_b;
     m->u_in_b = mat3_mul_transposed_vec3(pair->rotation, m->u);
     m->v_in_b = mat3_mul_transposed_vec3(pair->rotation, m->v);
-    m->tn = vec3_dot(n, pair->translation);
+    m->tn = along->tn;
     m->tu = vec3_dot(m->u, pair->translation);
     m->tv = vec3_dot(m->v, pair->translation);
-    simd_pair ends = frame_find_pair(pair, n, vec3_neg(m->n_in_b));
-    m->gap = (m->tn - ends.low.value) - ends.high.value;
-    m->low_a = ends.high.index;
-    m->low_b = ends.low.index;
+    m->gap = along->gap;
+    m->low_a = along->low_a;
+    m->low_b = along->low_b;
 }

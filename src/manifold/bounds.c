@@ -28,21 +28,26 @@ typedef struct frustum {
     double h, s;       ///< as in the theorem
     double inset;      ///< each p_e is less by this
     double depth;      ///< the bound so far; negative: there is none
+    double least;      ///< a bound below it is of no use
 } frustum;
 
+static int is_of_use(const frustum *f) { return !(f->depth < f->least); }
+
+// A side that is nearer than the least depth is seen by squares, which are off by a few roundings.
 static void add_side(frustum *f, double ox, double oy, double p) {
     p -= f->inset;
     double q = (ox * f->cx + oy * f->cy) + f->s * p, rise = f->cz + f->h;
-    double above = p * f->cz + q * f->h;
-    double distance = above / sqrt((q - p) * (q - p) + rise * rise) * (1 - 16 * ROUNDING);
-    if (!(p >= 0)) distance = -1;
+    double above = p * f->cz + q * f->h, square = (q - p) * (q - p) + rise * rise;
+    int is_near = f->least > 0 && (above < 0 || above * above < f->least * f->least * square * (1 - 1e-9));
+    double distance = -1;
+    if (p >= 0 && !is_near) distance = above / sqrt(square) * (1 - 16 * ROUNDING);
     f->depth = min2(f->depth, distance);
 }
 
 // The sides of a patch, with the distances to their inner sides of what is opposite. sign: -1 for those of B. Edges of
 // no length are no sides, and of a segment its ends are none.
 static void add_sides(frustum *f, const manifold_patch *p, const double *distance, double sign) {
-    for (uint32_t i = 0; i < p->at.count && p->at.count > 1; i++)
+    for (uint32_t i = 0; i < p->at.count && p->at.count > 1 && is_of_use(f); i++)
         if (p->at.side_x[i] != 0 || p->at.side_y[i] != 0)
             add_side(f, sign * p->at.side_x[i], sign * p->at.side_y[i], distance[i]);
 }
@@ -66,7 +71,7 @@ static range get_range(const manifold_patch *p) {
     return r;
 }
 
-// The point above and the radius of the ball around it.
+// The point above; returns the radius of the ball around it.
 static double set_top(frustum *f, const manifold_frame *m) {
     const ovoid_shape *a = m->pair->a, *b = m->pair->b;
     vec3 p = a->inner.center, q = b->inner.center;
@@ -81,42 +86,49 @@ static double get_pad(const manifold_frame *m) { return m->pair->check + 64 * RO
 
 // Of both patches: the heights of the lowest and the highest point of their difference are -lowest and -h.
 typedef struct slab {
-    double h, lowest, reach;
+    double h, lowest;
 } slab;
 
-// 0 if there is no frustum.
-static int start(frustum *f, const manifold_frame *m, const slab *s) {
-    double radius = set_top(f, m), pad = get_pad(m);
+// 1 if the slab is below the origin, by the least depth that is of use.
+static int is_deep(const slab *s, double least) { return s->h > 0 && !(s->h < least); }
+
+// The frustum of a slab that is deep, whose points are within the reach of one another across n. 0 if there is none.
+static int start(frustum *f, const manifold_frame *m, const slab *s, double reach) {
+    double radius = set_top(f, m);
     f->h = s->h;
-    if (!(f->h > 0 && f->cz > 0)) return 0;
-    f->inset = pad;
-    if (s->lowest > s->h)
-        f->inset += (s->lowest - s->h) / (f->cz + s->lowest) * (sqrt(f->cx * f->cx + f->cy * f->cy) + s->reach);
-    f->s = s->reach > 0 ? min2(1, radius / (s->reach * (1 + 16 * ROUNDING))) : 1;
     f->depth = min2(f->h, f->cz);
+    if (!(f->cz > 0) || !is_of_use(f)) return 0;
+    f->inset = get_pad(m);
+    if (s->lowest > s->h)
+        f->inset += (s->lowest - s->h) / (f->cz + s->lowest) * (sqrt(f->cx * f->cx + f->cy * f->cy) + reach);
+    f->s = reach > 0 ? min2(1, radius / (reach * (1 + 16 * ROUNDING))) : 1;
     return 1;
 }
 
-static double prove_by_patches(const manifold_frame *m, const manifold_patch *a, const manifold_patch *b,
-                               const simd_patch_table *to_a, const simd_patch_table *to_b) {
-    frustum f;
+static double prove_by_patches(const manifold_state *state, double least) {
+    const manifold_frame *m = &state->frame;
+    const manifold_patch *a = &state->a, *b = &state->b;
+    frustum f = {.least = least};
     range za = get_range(a), zb = get_range(b);
-    slab s = {za.low - zb.high, za.high - zb.low,
-              get_reach(a, a->at.x[0], a->at.y[0]) + get_reach(b, a->at.x[0], a->at.y[0])};
-    if ((a->at.count < 3 && b->at.count < 3 && a->at.count + b->at.count < 4) || !start(&f, m, &s)) return 0;
-    add_sides(&f, a, to_a->most, 1);
-    add_sides(&f, b, to_b->most, -1);
+    const slab s = {za.low - zb.high, za.high - zb.low};
+    if (!is_deep(&s, least) || (a->at.count < 3 && b->at.count < 3 && a->at.count + b->at.count < 4)) return 0;
+    double reach = get_reach(a, a->at.x[0], a->at.y[0]) + get_reach(b, a->at.x[0], a->at.y[0]);
+    if (!start(&f, m, &s, reach)) return 0;
+    add_sides(&f, a, state->to_a.most, 1);
+    add_sides(&f, b, state->to_b.most, -1);
     return f.depth - get_pad(m);
 }
 
-// A facet of one body that makes the axis, and the other's vertex that is extreme.
-static double prove_by_facet(const manifold_frame *m, const manifold_patch *p, vec3 vertex, double sign) {
-    frustum f;
+// A facet of one body that makes the axis, and the other's vertex that is extreme. sign: -1 for a facet of B.
+static double prove_by_facet(const manifold_state *state, double sign, double least) {
+    const manifold_frame *m = &state->frame;
+    const manifold_patch *p = sign > 0 ? &state->a : &state->b;
+    vec3 vertex = sign > 0 ? frame_place_b(m, m->low_b) : frame_place_a(m, m->low_a);
+    frustum f = {.least = least};
     range z = get_range(p);
-    slab s = {sign > 0 ? z.low - vertex.z : vertex.z - z.high, sign > 0 ? z.high - vertex.z : vertex.z - z.low,
-              get_reach(p, vertex.x, vertex.y)};
+    const slab s = {sign > 0 ? z.low - vertex.z : vertex.z - z.high, sign > 0 ? z.high - vertex.z : vertex.z - z.low};
     double distance[PATCH_CORNERS];
-    if (p->at.count < 3 || !start(&f, m, &s)) return 0;
+    if (p->at.count < 3 || !is_deep(&s, least) || !start(&f, m, &s, get_reach(p, vertex.x, vertex.y))) return 0;
     for (uint32_t i = 0; i < p->at.count; i++) distance[i] = patch_get_side(p, i, vertex.x, vertex.y);
     add_sides(&f, p, distance, sign);
     return f.depth - get_pad(m);
@@ -147,32 +159,30 @@ static double get_distance(vec3 p, vec3 from) {
     return sqrt(dx * dx + dy * dy);
 }
 
-static double prove_by_edges(const manifold_frame *m, const manifold_axis *axis) {
-    frustum f;
+static double prove_by_edges(const manifold_frame *m, const manifold_axis *axis, double least) {
+    frustum f = {.least = least};
     edge_ends i = shape_get_ends(m->pair->a, feature_get_index(axis->a)),
               j = shape_get_ends(m->pair->b, feature_get_index(axis->b));
     segment a = make_segment(frame_place_a(m, i.from), frame_place_a(m, i.to)),
             b = make_segment(frame_place_b(m, j.from), frame_place_b(m, j.to));
+    const slab s = {min2(a.p.z, a.q.z) - max2(b.p.z, b.q.z), max2(a.p.z, a.q.z) - min2(b.p.z, b.q.z)};
+    if (!is_deep(&s, least)) return 0;
     double reach = get_distance(a.q, a.p) + max2(get_distance(b.p, a.p), get_distance(b.q, a.p));
-    slab s = {min2(a.p.z, a.q.z) - max2(b.p.z, b.q.z), max2(a.p.z, a.q.z) - min2(b.p.z, b.q.z), reach};
-    if (!start(&f, m, &s)) return 0;
+    if (!start(&f, m, &s, reach)) return 0;
     add_segment(&f, &a, &b, 1);
-    add_segment(&f, &b, &a, -1);
+    if (is_of_use(&f)) add_segment(&f, &b, &a, -1);
     return f.depth - get_pad(m);
 }
 
 // By edges first where they make the axis: the facets beside them are tilted.
-double manifold_prove_depth(const manifold_state *s, const manifold_axis *axis, double enough) {
-    const manifold_frame *m = &s->frame;
+double manifold_prove_depth(const manifold_state *s, const manifold_axis *axis, const depth_demand *d) {
     double depth = 0;
-    if (axis->kind == OVOID_MANIFOLD_EDGES) depth = prove_by_edges(m, axis);
-    if (depth >= enough) return depth;
-    depth = max2(depth, prove_by_patches(m, &s->a, &s->b, &s->to_a, &s->to_b));
-    if (depth >= enough) return depth;
-    if (axis->kind == OVOID_MANIFOLD_FACE_A)
-        return max2(depth, prove_by_facet(m, &s->a, frame_place_b(m, m->low_b), 1));
-    if (axis->kind == OVOID_MANIFOLD_FACE_B)
-        return max2(depth, prove_by_facet(m, &s->b, frame_place_a(m, m->low_a), -1));
+    if (axis->kind == OVOID_MANIFOLD_EDGES) depth = prove_by_edges(&s->frame, axis, d->least);
+    if (depth >= d->enough) return depth;
+    depth = max2(depth, prove_by_patches(s, d->least));
+    if (depth >= d->enough) return depth;
+    if (axis->kind == OVOID_MANIFOLD_FACE_A) return max2(depth, prove_by_facet(s, 1, d->least));
+    if (axis->kind == OVOID_MANIFOLD_FACE_B) return max2(depth, prove_by_facet(s, -1, d->least));
     return depth;
 }
 

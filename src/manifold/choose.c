@@ -10,36 +10,37 @@ static edge_range get_edges(const ovoid_shape *s, uint32_t vertex) {
     return (edge_range){starts[vertex], starts[vertex + 1]};
 }
 
-// The name of a directed edge.
-static uint32_t get_name(const ovoid_shape *s, uint32_t edge) {
-    edge_ends e = shape_get_ends(s, edge);
-    return e.from < e.to ? edge : shape_find_edge(s, e.to, e.from);
-}
-
-static int is_around(const ovoid_shape *s, uint32_t facet, uint32_t vertex) {
-    edge_range r = get_edges(s, vertex);
-    for (uint32_t i = r.first; i < r.end; i++)
-        if (shape_edge_facets(s)[i] == facet) return 1;
-    return 0;
-}
-
-// Facets around the vertex first that hold the vertex second too, the one that faces n most; `kept` has 1e-6 in
-// advance.
+// The facet that faces n most; `kept` has 1e-6 in advance.
 typedef struct facing {
     uint32_t facet;
     double cosine;
 } facing;
-static facing find_facing(const ovoid_shape *s, edge_ends hold, const facet_choice *c) {
+
+static void take_facing(const ovoid_shape *s, uint32_t edge, const facet_choice *c, facing *best) {
+    uint32_t facet = shape_edge_facets(s)[edge];
+    double cosine = vec3_dot(shape_get_facet_normal(s, facet), c->n);
+    if (c->has_kept && c->kept == (OVOID_MANIFOLD_FACET | facet)) cosine += 1e-6;
+    if (cosine > best->cosine) *best = (facing){facet, cosine};
+}
+
+// Of the facets around a vertex.
+static facing find_facing(const ovoid_shape *s, uint32_t vertex, const facet_choice *c) {
     facing best = {UINT32_MAX, -2};
-    edge_range r = get_edges(s, hold.from);
-    for (uint32_t i = r.first; i < r.end && s->rank >= 2; i++) {
-        uint32_t facet = shape_edge_facets(s)[i];
-        double cosine = vec3_dot(shape_get_facet_normal(s, facet), c->n);
-        int is_kept = c->has_kept && c->kept == (OVOID_MANIFOLD_FACET | facet);
-        if (is_kept) cosine += 1e-6;
-        if (cosine <= best.cosine || (hold.to != hold.from && !is_around(s, facet, hold.to))) continue;
-        best = (facing){facet, cosine};
-    }
+    edge_range r = get_edges(s, vertex);
+    for (uint32_t i = r.first; i < r.end && s->rank >= 2; i++) take_facing(s, i, c, &best);
+    return best;
+}
+
+// Of the two facets beside an edge, in the order in which they are around its first end. An edge inside of a facet is
+// beside that facet alone.
+static facing find_beside(const ovoid_shape *s, uint32_t edge, const facet_choice *c) {
+    facing best = {UINT32_MAX, -2};
+    edge_ends e = shape_get_ends(s, edge);
+    edge_range r = get_edges(s, e.from);
+    const uint32_t *facets = shape_edge_facets(s);
+    uint32_t left = facets[edge], right = facets[shape_find_edge(s, e.to, e.from)];
+    for (uint32_t i = r.first; i < r.end && s->rank >= 2; i++)
+        if (facets[i] == left || facets[i] == right) take_facing(s, i, c, &best);
     return best;
 }
 
@@ -74,8 +75,7 @@ uint32_t facet_choose(const ovoid_shape *s, const facet_choice *c) {
     if (is_kept_best(s, c)) return c->kept;
     int is_edge = feature_get_kind(c->axis) == OVOID_MANIFOLD_EDGE;
     if (s->rank == 1) is_edge = 1, index = shape_loop_edges(s)[0];
-    edge_ends hold = is_edge ? shape_get_ends(s, index) : (edge_ends){c->low, c->low};
-    facing best = find_facing(s, hold, c);
+    facing best = is_edge ? find_beside(s, index, c) : find_facing(s, c->low, c);
     if (best.facet == UINT32_MAX && s->rank == 2) best = find_side(s, c->n);
     if (best.facet != UINT32_MAX && best.cosine >= c->least) return OVOID_MANIFOLD_FACET | best.facet;
     if (is_edge && get_slant(s, index, c->n) <= sqrt(1 - c->least * c->least)) return OVOID_MANIFOLD_EDGE | index;
@@ -101,52 +101,53 @@ uint32_t shape_find_low_edge(const ovoid_shape *s, vec3 n, uint32_t low, double 
     double top = vec3_dot(vec3_at(x, low), n), least = within;
     uint32_t found = UINT32_MAX;
     for (uint32_t i = r.first; i < r.end; i++) {
-        uint32_t to = shape_neighbors(s)[i], reverse = shape_find_edge(s, to, low);
+        uint32_t to = shape_neighbors(s)[i];
         double under = top - vec3_dot(vec3_at(x, to), n);
-        int is_inner = s->rank >= 2 && shape_edge_facets(s)[i] == shape_edge_facets(s)[reverse];
-        if (is_inner || !(under <= least)) continue;
+        if (!(under <= least)) continue;
+        uint32_t reverse = shape_find_edge(s, to, low);
+        if (s->rank >= 2 && shape_edge_facets(s)[i] == shape_edge_facets(s)[reverse]) continue;
         least = under;
-        found = OVOID_MANIFOLD_EDGE | get_name(s, i);
+        found = OVOID_MANIFOLD_EDGE | (low < to ? i : reverse);
     }
     return found;
 }
 
 static side make_side(const ovoid_shape *shape, vec3 n, uint32_t low) {
     side s = {shape, n, low, UINT32_MAX, -2, UINT32_MAX};
-    facing best = find_facing(shape, (edge_ends){low, low}, &(facet_choice){.n = n});
+    facing best = find_facing(shape, low, &(facet_choice){.n = n});
     if (best.facet == UINT32_MAX && shape->rank == 2) best = find_side(shape, n);
     if (best.facet != UINT32_MAX) s.facet = OVOID_MANIFOLD_FACET | best.facet, s.cosine = best.cosine;
     return s;
 }
 
-// The normal of the axis, if the gap along it is not below the least.
-static int take(const pair_frame *f, const manifold_axis *axis, double least, vec3 *n) {
-    vec3 found = *n;
-    if (!axis_compute_normal(f, axis, &found) || !(frame_find_support(f, found).gap >= least)) return 0;
-    *n = found;
+// The gap along the normal of the axis, if it is not below the least.
+static int take(const pair_frame *f, const manifold_axis *axis, double least, gap_along *along) {
+    vec3 n = along->n;
+    if (!axis_compute_normal(f, axis, &n)) return 0;
+    gap_along found = gap_measure_along(f, n);
+    if (!(found.gap >= least)) return 0;
+    *along = found;
     return 1;
 }
 
 #define NEARLY_FLAT (1 - 1e-9)
 
-manifold_axis axis_choose(const pair_frame *f, double tolerance, vec3 *n) {
-    vec3 in_b = vec3_neg(mat3_mul_transposed_vec3(f->rotation, *n));
-    frame_support s = frame_find_support(f, *n);
-    double least = s.gap - tolerance, within = 1e-8 * f->size;
-    side a = make_side(f->a, *n, s.a), b = make_side(f->b, in_b, s.b);
+manifold_axis axis_choose(const pair_frame *f, double tolerance, gap_along *along) {
+    double least = along->gap - tolerance, within = 1e-8 * f->size;
+    side a = make_side(f->a, along->n, along->low_a), b = make_side(f->b, vec3_neg(along->n_in_b), along->low_b);
     manifold_axis axis = {OVOID_MANIFOLD_FACE_A, a.facet, b.low};
-    if (a.cosine >= NEARLY_FLAT && take(f, &axis, least, n)) return axis;
+    if (a.cosine >= NEARLY_FLAT && take(f, &axis, least, along)) return axis;
     axis = (manifold_axis){OVOID_MANIFOLD_FACE_B, a.low, b.facet};
-    if (b.cosine >= NEARLY_FLAT && take(f, &axis, least, n)) return axis;
+    if (b.cosine >= NEARLY_FLAT && take(f, &axis, least, along)) return axis;
     a.edge = shape_find_low_edge(a.shape, a.n, a.low, within);
     b.edge = shape_find_low_edge(b.shape, b.n, b.low, within);
     axis = (manifold_axis){OVOID_MANIFOLD_EDGES, a.edge, b.edge};
-    if (a.edge != UINT32_MAX && b.edge != UINT32_MAX && take(f, &axis, least, n)) return axis;
+    if (a.edge != UINT32_MAX && b.edge != UINT32_MAX && take(f, &axis, least, along)) return axis;
     axis = (manifold_axis){OVOID_MANIFOLD_FREE, a.edge, b.low};
-    if (a.edge != UINT32_MAX && take(f, &axis, least, n)) return axis;
+    if (a.edge != UINT32_MAX && take(f, &axis, least, along)) return axis;
     axis = (manifold_axis){OVOID_MANIFOLD_FREE, a.low, b.edge};
-    if (b.edge != UINT32_MAX && take(f, &axis, least, n)) return axis;
+    if (b.edge != UINT32_MAX && take(f, &axis, least, along)) return axis;
     axis = (manifold_axis){OVOID_MANIFOLD_FREE, a.low, b.low};
-    if (take(f, &axis, least, n)) return axis;
+    if (take(f, &axis, least, along)) return axis;
     return (manifold_axis){OVOID_MANIFOLD_FREE, OVOID_MANIFOLD_DIRECTION, OVOID_MANIFOLD_DIRECTION};
 }

@@ -5,6 +5,7 @@
 #include "exact/cover_memory.h"
 #include "manifold/manifold.h"
 #include "query/answer.h"
+#include "query/begin.h"
 
 #include <string.h>
 
@@ -40,19 +41,9 @@ int manifold_terms_make(const ovoid_manifold_options *given, const pair_frame *f
 
 // ---- what the features show ----
 
-// A unit direction and the gap of the cores along it.
-typedef struct gap_along {
-    vec3 n, n_in_b;
-    double gap;
-} gap_along;
-
-static double compute_lower_along(const pair_frame *f, const gap_along *g) {
+static double compute_lower(const pair_frame *f, const gap_along *g) {
     double lower = g->gap - f->lower_radii - f->claim;
     return frame_take_gain(lower, frame_compute_gain(f, g->n, g->n_in_b, AXIS_CLAIM));
-}
-
-double manifold_compute_lower(const manifold_frame *m) {
-    return compute_lower_along(m->pair, &(gap_along){m->n, m->n_in_b, m->gap});
 }
 
 double manifold_compute_points_upper(const manifold_state *s) {
@@ -74,14 +65,13 @@ void manifold_clip(const manifold_terms *t, const manifold_axis *axis, const ovo
     s->polygon.least = min2(s->polygon.least, fabs(c.separation) + 2 * manifold_compute_excess(s, &c));
 }
 
-// Patches and polygon about a unit normal.
-static void build(const task *t, const manifold_axis *axis, vec3 n, manifold_state *s) {
+// Patches and polygon about the normal along which a gap was measured.
+static void build(const task *t, const manifold_axis *axis, const gap_along *along, manifold_state *s) {
     const pair_frame *f = &t->frame;
     const ovoid_manifold *e = t->earlier;
-    manifold_frame_make(f, n, &s->frame);
-    facet_choice a = {n, axis->a, s->frame.low_a, e ? e->facet_a : 0, e != NULL, t->terms.least};
-    facet_choice b = {vec3_neg(s->frame.n_in_b), axis->b,   s->frame.low_b,
-                      e ? e->facet_b : 0,        e != NULL, t->terms.least};
+    manifold_frame_make(f, along, &s->frame);
+    facet_choice a = {along->n, axis->a, along->low_a, e ? e->facet_a : 0, e != NULL, t->terms.least};
+    facet_choice b = {vec3_neg(along->n_in_b), axis->b, along->low_b, e ? e->facet_b : 0, e != NULL, t->terms.least};
     s->facet_a = facet_choose(f->a, &a);
     s->facet_b = facet_choose(f->b, &b);
     patch_make_a(&s->frame, s->facet_a, &s->a);
@@ -103,24 +93,25 @@ static void take_upper(bracket *b, double upper, ovoid_manifold_proof proof) {
     b->proof = proof;
 }
 
-// How wide a bracket may be, beside the allowances, and what an earlier search left, or NULL.
+// How wide a bracket may be, beside the allowances; what an earlier search left, or NULL; and up to where an upper
+// bound is of use that leaves the bracket wider: that of the present search, else -infinity.
 typedef struct demand {
     double width;
     const ovoid_manifold_memory *memory;
+    double useful;
 } demand;
 
-// The bounds that the features show; of overlaps also the one that is left of an earlier search, where they show less
-// than enough.
-static bracket measure(const task *t, const manifold_state *s, const manifold_axis *axis, const demand *d) {
+// The upper bound that the features show; of overlaps, where they show less than enough, also the one that is left of
+// an earlier search.
+static void measure(const task *t, const manifold_state *s, const manifold_axis *axis, const demand *d, bracket *b) {
     const pair_frame *f = &t->frame;
-    bracket b = {manifold_compute_lower(&s->frame), INFINITY, OVOID_MANIFOLD_PROOF_NONE};
-    double enough = b.lower + d->width + frame_get_allowance(f);
-    take_upper(&b, manifold_compute_points_upper(s), OVOID_MANIFOLD_PROOF_POINTS);
-    if (!(s->frame.gap < 0) || b.upper <= enough) return b;
-    double depth = manifold_prove_depth(s, axis, -enough - f->upper_radii);
-    if (depth > 0) take_upper(&b, -depth - f->upper_radii, OVOID_MANIFOLD_PROOF_FACETS);
-    if (b.upper > enough && d->memory) take_upper(&b, memory_compute_upper(d->memory, f), OVOID_MANIFOLD_PROOF_SEARCH);
-    return b;
+    double enough = b->lower + d->width + frame_get_allowance(f);
+    take_upper(b, manifold_compute_points_upper(s), OVOID_MANIFOLD_PROOF_POINTS);
+    if (!(s->frame.gap < 0) || b->upper <= enough) return;
+    const depth_demand depths = {-max2(enough, d->useful) - f->upper_radii, -enough - f->upper_radii};
+    double depth = manifold_prove_depth(s, axis, &depths);
+    if (depth > 0) take_upper(b, -depth - f->upper_radii, OVOID_MANIFOLD_PROOF_FACETS);
+    if (b->upper > enough && d->memory) take_upper(b, memory_compute_upper(d->memory, f), OVOID_MANIFOLD_PROOF_SEARCH);
 }
 
 static int is_narrow(const task *t, const bracket *b) {
@@ -201,14 +192,16 @@ COMPILER_NOINLINE static int find_guess(const task *t, ovoid_manifold *out) {
     manifold_axis axis;
     vec3 n;
     if (!guess_facets(&t->frame, &axis, &n)) return 0;
-    build(t, &axis, n, s);
-    axis.b = OVOID_MANIFOLD_VERTEX | s->frame.low_b;
-    double width = min2(t->terms.tolerance, 1e-9 * t->frame.size);
-    bracket b = measure(t, s, &axis, &(demand){width, NULL});
+    gap_along along = gap_measure_along(&t->frame, n);
+    bracket b = {compute_lower(&t->frame, &along), INFINITY, OVOID_MANIFOLD_PROOF_NONE};
     if (b.lower > t->terms.margin) {
         write_apart(b.lower, frame_direction_to_world(&t->frame, n), out);
         return 1;
     }
+    axis.b = OVOID_MANIFOLD_VERTEX | along.low_b;
+    build(t, &axis, &along, s);
+    double width = min2(t->terms.tolerance, 1e-9 * t->frame.size);
+    measure(t, s, &axis, &(demand){width, NULL, -INFINITY}, &b);
     if (!(b.upper - b.lower <= width + frame_get_allowance(&t->frame))) return 0;
     write_points(t, s, &axis, n, out);
     write_bracket(t, &b, OVOID_LIMIT_NONE, out);
@@ -224,10 +217,8 @@ static int find_apart(const task *t, ovoid_manifold *out) {
     const ovoid_manifold *e = t->earlier;
     const pair_frame *f = &t->frame;
     if (!e || e->axis != OVOID_MANIFOLD_NONE || e->status != OVOID_SEPARATED || !is_unit(e->normal)) return 0;
-    vec3 n = vec3_unit(frame_direction_from_world(f, e->normal)), in_b = mat3_mul_transposed_vec3(f->rotation, n);
-    simd_pair ends = frame_find_pair(f, n, vec3_neg(in_b));
-    double gap = (vec3_dot(n, f->translation) - ends.low.value) - ends.high.value;
-    double lower = compute_lower_along(f, &(gap_along){n, in_b, gap});
+    gap_along along = gap_measure_along(f, vec3_unit(frame_direction_from_world(f, e->normal)));
+    double lower = compute_lower(f, &along);
     if (!(lower > t->terms.margin)) return 0;
     write_apart(lower, e->normal, out);
     return 1;
@@ -246,12 +237,14 @@ COMPILER_NOINLINE static int find_warm(const task *t, ovoid_manifold *out) {
         n = vec3_unit(frame_direction_from_world(f, given));
     }
     if (!axis_compute_normal(f, &axis, &n) || !(fabs(vec3_norm_squared(n) - 1) < 1e-9)) return 0;
-    build(t, &axis, n, s);
-    bracket b = measure(t, s, &axis, &(demand){t->terms.tolerance, &e->memory});
+    gap_along along = gap_measure_along(f, n);
+    bracket b = {compute_lower(f, &along), INFINITY, OVOID_MANIFOLD_PROOF_NONE};
     if (b.lower > t->terms.margin) {
         write_apart(b.lower, frame_direction_to_world(f, n), out);
         return 1;
     }
+    build(t, &axis, &along, s);
+    measure(t, s, &axis, &(demand){t->terms.tolerance, &e->memory, -INFINITY}, &b);
     if (!is_narrow(t, &b)) return 0;
     write_points(t, s, &axis, given, out);
     write_bracket(t, &b, OVOID_LIMIT_NONE, out);
@@ -261,52 +254,70 @@ COMPILER_NOINLINE static int find_warm(const task *t, ovoid_manifold *out) {
 
 // ---- a search ----
 
-// A state is as large as a search: neither is on the stack while the other is.
-COMPILER_NOINLINE static ovoid_answer search_pair(const task *t) {
-    const ovoid_options options = {.relative_tolerance =
-                                       0.5 * min2(1e-9, max2(t->terms.tolerance / t->frame.size, 1e-15)),
-                                   .iterations = cover_get_iterations(t->terms.cover, 0)};
+// What a contact needs of a search for the depth or the distance.
+typedef struct search_end {
+    double lower, upper;
+    vec3 normal; ///< world
+    ovoid_limit limit;
+    int has_cover; ///< a surface around the origin proves `upper`
+} search_end;
+
+// The query of ovoid_depth, in the frame that is there. A state is as large as a search: neither is on the stack while
+// the other is.
+COMPILER_NOINLINE static search_end search_pair(const task *t) {
+    const pair_frame *f = &t->frame;
+    const ovoid_options given = {.relative_tolerance = 0.5 * min2(1e-9, max2(t->terms.tolerance / f->size, 1e-15)),
+                                 .iterations = cover_get_iterations(t->terms.cover, 0)};
+    ovoid_options options;
     query_goal goal = query_goal_make_depth(NULL);
-    goal.far = t->terms.margin;
+    rejection found;
+    small_end small;
     ovoid_answer answer;
-    answer_find_internal(&t->pair, &(query_request){.options = &options, .goal = &goal, .cover = t->terms.cover},
-                         &answer);
-    return answer;
+    (void)options_make(&given, &options);
+    goal.far = t->terms.margin;
+    set_numbers(&goal, &options, f);
+    cover_clear(t->terms.cover);
+    if (reject_by_spheres(f, goal.far, &found))
+        return (search_end){found.lower, INFINITY, found.normal, OVOID_LIMIT_CAP, 0};
+    const open_query open = {
+        .pair = &t->pair, .placed = {f, &goal, NULL, found.lower, 1}, .cover = t->terms.cover, .is_bare = 1};
+    if (begin_after_spheres(&open.placed, &found, &small) == BEGIN_SMALL)
+        return (search_end){small.lower, small.upper, small.normal, answer_make_small_verdict(&small, &goal).limit,
+                            small.kind == OVOID_PROOF_COVER};
+    answer_run_search(&open, &answer);
+    return (search_end){answer.lower, answer.upper, answer.normal, answer.limit,
+                        answer.proof.kind == OVOID_PROOF_COVER};
 }
 
-COMPILER_NOINLINE static void take_answer(const task *t, const ovoid_answer *answer, ovoid_manifold *out) {
+COMPILER_NOINLINE static void take_search(const task *t, const search_end *end, ovoid_manifold *out) {
     const pair_frame *f = &t->frame;
     manifold_state state, *s = &state;
-    vec3 n = vec3_unit(frame_direction_from_world(f, answer->normal));
-    // A search in pairs of doubles may show more than its normal in doubles.
-    if (answer->lower > t->terms.margin) {
-        manifold_frame_make(f, n, &s->frame);
-        double lower = min2(answer->lower, manifold_compute_lower(&s->frame));
-        if (lower > t->terms.margin) {
-            write_apart(lower, answer->normal, out);
-            return;
-        }
-    }
-    vec3 given = answer->normal;
+    vec3 given = end->normal, n = vec3_unit(frame_direction_from_world(f, given));
     if (!(vec3_norm_squared(n) > 0.5)) {
         given = (vec3){0, 0, 1};
         n = vec3_unit(frame_direction_from_world(f, given));
     }
-    ovoid_manifold_memory memory = {0};
-    if (answer->proof.kind == OVOID_PROOF_COVER) memory_set_search(&memory, &t->pair, f, answer->upper);
-    manifold_axis axis = axis_choose(f, 0.25 * min2(1e-9 * f->size, t->terms.tolerance), &n);
-    build(t, &axis, n, s);
-    bracket b = measure(t, s, &axis, &(demand){t->terms.tolerance, &memory});
-    if (!is_narrow(t, &b) && answer->proof.kind == OVOID_PROOF_COVER)
-        take_upper(&b, answer->upper, OVOID_MANIFOLD_PROOF_SEARCH);
+    gap_along along = gap_measure_along(f, n);
+    // A search in pairs of doubles may show more than its normal in doubles.
+    double lower = min2(end->lower, compute_lower(f, &along));
+    if (lower > t->terms.margin) {
+        write_apart(lower, given, out);
+        return;
+    }
+    if (end->has_cover) memory_set_search(&out->memory, &t->pair, f, end->upper);
+    manifold_axis axis = axis_choose(f, 0.25 * min2(1e-9 * f->size, t->terms.tolerance), &along);
+    build(t, &axis, &along, s);
+    bracket b = {compute_lower(f, &along), INFINITY, OVOID_MANIFOLD_PROOF_NONE};
+    double searched = end->has_cover ? end->upper : INFINITY;
+    measure(t, s, &axis, &(demand){t->terms.tolerance, NULL, searched}, &b);
+    if (!is_narrow(t, &b)) take_upper(&b, searched, OVOID_MANIFOLD_PROOF_SEARCH);
     write_points(t, s, &axis, given, out);
-    write_bracket(t, &b, answer->limit, out);
-    out->memory = memory;
+    write_bracket(t, &b, end->limit, out);
 }
 
 static void find_cold(const task *t, ovoid_manifold *out) {
-    ovoid_answer answer = search_pair(t);
-    take_answer(t, &answer, out);
+    search_end end = search_pair(t);
+    take_search(t, &end, out);
 }
 
 static ovoid_manifold make_refused(ovoid_limit limit) {

@@ -42,6 +42,15 @@ typedef struct manifold_axis {
     uint32_t a, b; ///< features
 } manifold_axis;
 
+/// The gap of the cores along a unit direction.
+typedef struct gap_along {
+    vec3 n, n_in_b;        ///< in the axes of A, and of B
+    double tn;             ///< B's translation along it
+    double gap;            ///< measured: off by at most the pair's check
+    uint32_t low_a, low_b; ///< the vertices that are extreme toward the other body
+} gap_along;
+gap_along gap_measure_along(const pair_frame *frame, vec3 n);
+
 /// A unit normal with the directions across it; n, u and v are right-handed.
 typedef struct manifold_frame {
     const pair_frame *pair;
@@ -121,20 +130,20 @@ static inline vec3 frame_place_b(const manifold_frame *m, uint32_t vertex) {
     return (vec3){vec3_dot(m->u_in_b, x) + m->tu, vec3_dot(m->v_in_b, x) + m->tv, vec3_dot(m->n_in_b, x) + m->tn};
 }
 
-/// The frame of a unit normal, with the gap along it.
-void manifold_frame_make(const pair_frame *pair, vec3 n, manifold_frame *m);
+/// The frame of the unit normal along which a gap was measured.
+void manifold_frame_make(const pair_frame *pair, const gap_along *along, manifold_frame *m);
 
 /// The nearest points of two features, vertices or edges, in the frame of A; a facet counts as its first corner.
-typedef struct nearest_points {
+typedef struct feature_points {
     vec3 a, b;
-} nearest_points;
-nearest_points features_find_nearest(const pair_frame *frame, uint32_t feature_a, uint32_t feature_b);
+} feature_points;
+feature_points features_find_nearest(const pair_frame *frame, uint32_t feature_a, uint32_t feature_b);
 
 // ---- choose.c: features after a search, and the facets that are clipped ----
 
-/// The features that make a normal that a search found, to the tolerance in the gap; *n: that normal in the axes of A,
-/// and then that of the features.
-manifold_axis axis_choose(const pair_frame *frame, double tolerance, vec3 *n);
+/// The features that make a normal that a search found, to the tolerance in the gap; *along: measured along that
+/// normal, and then along that of the features.
+manifold_axis axis_choose(const pair_frame *frame, double tolerance, gap_along *along);
 
 /// What is clipped of a body.
 typedef struct facet_choice {
@@ -221,16 +230,19 @@ double polygon_compute_share(const manifold_polygon *polygon, const corner_choic
 
 // ---- bounds.c: the upper bound ----
 
-/// A proven lower bound of the cores' depth from the patches alone; at most 0 if there is none.
-double patches_prove_depth(const manifold_frame *frame, const manifold_patch *a, const manifold_patch *b);
-
 /// Stores the upper bound of a search and the pose it was found in.
 void memory_set_search(ovoid_manifold_memory *memory, const ovoid_pair *pair, const pair_frame *frame, double upper);
 /// The upper bound that an earlier search leaves at the present pose; infinity if there is none.
 double memory_compute_upper(const ovoid_manifold_memory *memory, const pair_frame *frame);
 
-/// The depth that the state's patches prove, or if that is less than `enough`, the features of the axis.
-double manifold_prove_depth(const manifold_state *state, const manifold_axis *axis, double enough);
+/// Which depths are of use: from `enough` on none is better than another; those below `least` are of no use.
+typedef struct depth_demand {
+    double least, enough;
+} depth_demand;
+
+/// The depth of the cores that the features of the axis or the state's patches prove. Where that is less than the
+/// least one demanded, it is some number below that: most contacts of corners and edges prove none, and end sooner.
+double manifold_prove_depth(const manifold_state *state, const manifold_axis *axis, const depth_demand *demand);
 
 // ---- points.c: corners as points of the bodies ----
 
@@ -294,8 +306,7 @@ int manifold_terms_make(const ovoid_manifold_options *given, const pair_frame *f
 void manifold_clip(const manifold_terms *terms, const manifold_axis *axis, const ovoid_manifold *earlier,
                    manifold_state *state);
 
-/// Bounds of the signed distance by a state whose polygon is there.
-double manifold_compute_lower(const manifold_frame *m);
+/// An upper bound of the signed distance by a state whose polygon is there.
 double manifold_compute_points_upper(const manifold_state *state);
 
 /// ovoid_manifold_find for callers inside a public function.

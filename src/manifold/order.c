@@ -11,14 +11,18 @@ static int compare_numbers(const double *p, const double *q, size_t count) {
     return 0;
 }
 
+// Most shapes differ in their number of vertices or their sphere; copies of one shape have the same bytes.
 static int compare_shapes(const ovoid_shape *a, const ovoid_shape *b) {
     if (a == b) return 0;
     if (a->vertex_count != b->vertex_count) return a->vertex_count < b->vertex_count ? -1 : 1;
-    const double p[] = {a->reach, a->radius, a->lower_radius, a->upper_radius, a->origin.x, a->origin.y, a->origin.z};
-    const double q[] = {b->reach, b->radius, b->lower_radius, b->upper_radius, b->origin.x, b->origin.y, b->origin.z};
+    if (a->reach != b->reach) return a->reach < b->reach ? -1 : 1;
+    const double p[] = {a->radius, a->lower_radius, a->upper_radius, a->origin.x, a->origin.y, a->origin.z};
+    const double q[] = {b->radius, b->lower_radius, b->upper_radius, b->origin.x, b->origin.y, b->origin.z};
     int order = compare_numbers(p, q, sizeof p / sizeof *p);
     if (order) return order;
-    return compare_numbers(shape_vertices(a), shape_vertices(b), 3 * (size_t)a->vertex_count);
+    const double *of_a = shape_vertices(a), *of_b = shape_vertices(b);
+    size_t count = 3 * (size_t)a->vertex_count;
+    return memcmp(of_a, of_b, count * sizeof *of_a) ? compare_numbers(of_a, of_b, count) : 0;
 }
 
 static int compare_poses(const ovoid_pose *a, const ovoid_pose *b) {

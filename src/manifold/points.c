@@ -61,7 +61,7 @@ manifold_corner manifold_make_nearest(const manifold_state *s, const manifold_ax
     else if (axis->kind == OVOID_MANIFOLD_FACE_A)
         c = make_vertex_b(s, m->low_b);
     else {
-        nearest_points p = features_find_nearest(m->pair, axis->a, axis->b);
+        feature_points p = features_find_nearest(m->pair, axis->a, axis->b);
         vec3 middle = vec3_scale(vec3_add(p.a, p.b), 0.5);
         c = (manifold_corner){.x = vec3_dot(m->u, middle), .y = vec3_dot(m->v, middle)};
     }
@@ -76,7 +76,8 @@ int manifold_open(const pair_frame *f, const ovoid_manifold *c, manifold_state *
     vec3 n = vec3_unit(frame_direction_from_world(f, c->normal));
     manifold_axis axis = {c->axis, c->feature_a, c->feature_b};
     if (!axis_compute_normal(f, &axis, &n) || !(vec3_norm_squared(n) > 0.5)) return 0;
-    manifold_frame_make(f, n, &s->frame);
+    gap_along along = gap_measure_along(f, n);
+    manifold_frame_make(f, &along, &s->frame);
     s->facet_a = c->facet_a;
     s->facet_b = c->facet_b;
     patch_make_a(&s->frame, s->facet_a, &s->a);

@@ -34,7 +34,7 @@ static ovoid_code verify_upper(const checker *c) {
     case OVOID_MANIFOLD_PROOF_NONE: break;
     case OVOID_MANIFOLD_PROOF_POINTS: found = manifold_compute_points_upper(&c->state); break;
     case OVOID_MANIFOLD_PROOF_FACETS: {
-        double depth = manifold_prove_depth(&c->state, &c->axis, INFINITY);
+        double depth = manifold_prove_depth(&c->state, &c->axis, &(depth_demand){-INFINITY, INFINITY});
         if (depth > 0) found = -depth - f->upper_radii;
         break;
     }

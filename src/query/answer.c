@@ -20,13 +20,14 @@
 #include "query/begin.h"
 #include "query/spheres.h"
 
+#include <string.h>
+
 ovoid_answer answer_make_refused(ovoid_limit limit) {
     return (ovoid_answer){.limit = limit, .lower = -INFINITY, .upper = INFINITY};
 }
 
 // The part of the proof that shows the upper bound.
 static void set_upper_proof(ovoid_proof *p, const search *s) {
-    p->kind = s->kind;
     if (s->kind == OVOID_PROOF_INNER || s->kind == OVOID_PROOF_INNER_POINTS) {
         p->inner_a = s->inner_a;
         p->inner_b = s->inner_b;
@@ -127,20 +128,37 @@ ovoid_verdict answer_make_verdict(search *s) {
     return (ovoid_verdict){status, s->stage, find_limit(s, status), s->iterations, s->lower, s->upper};
 }
 
-void answer_write(search *s, ovoid_answer *out) {
-    const pair_frame *f = s->frame;
+// The bracket with its normal; all else stays as it is.
+static void write_bare(search *s, ovoid_answer *out) {
     ovoid_verdict verdict = answer_make_verdict(s);
-    *out = (ovoid_answer){
-        .status = verdict.status, .stage = verdict.stage, .limit = verdict.limit, .iterations = verdict.iterations};
+    out->status = verdict.status;
+    out->stage = verdict.stage;
+    out->limit = verdict.limit;
+    out->iterations = verdict.iterations;
     out->lower = verdict.lower;
     out->upper = verdict.upper;
     int refined = vec3_norm_squared(s->world) > 0;
-    out->normal = out->proof.normal = refined ? s->world : frame_direction_to_world(f, s->normal);
+    out->normal = refined ? s->world : frame_direction_to_world(s->frame, s->normal);
+    out->proof.kind = s->kind;
+}
+
+void answer_write(search *s, ovoid_answer *out) {
+    const pair_frame *f = s->frame;
+    memset(out, 0, sizeof *out);
+    write_bare(s, out);
+    out->proof.normal = out->normal;
     out->proof.normal_low = s->world_low;
     set_upper_proof(&out->proof, s);
     witness_points w = witness_compute_points(f, &out->proof);
     out->point_a = frame_point_to_world(f, w.a);
     out->point_b = frame_point_to_world(f, w.b);
+}
+
+static void write_wanted(const open_query *q, search *s, ovoid_answer *out) {
+    if (q->is_bare)
+        write_bare(s, out);
+    else
+        answer_write(s, out);
 }
 
 // A weighted vertex.
@@ -351,7 +369,7 @@ static void search_afresh(const open_query *q, ovoid_answer *out) {
     }
     search_in_doubles(q, NULL, &s);
     search_on(&s, q->pair);
-    answer_write(&s, out);
+    write_wanted(q, &s, out);
 }
 
 // Few iterations are all that was allowed: the next call goes on where this one ended.
@@ -365,7 +383,7 @@ static int is_better(const ovoid_answer *warm, const ovoid_answer *cold) {
 // holds, makes an answer worse. What the proof decided and the query alone does not is kept, with its cover.
 COMPILER_NOINLINE static void search_again(const open_query *q, search *s, ovoid_answer *out) {
     ovoid_answer warm;
-    answer_write(s, &warm);
+    write_wanted(q, s, &warm);
     cover_clear(q->cover);
     search_afresh(q, out);
     if (!is_better(&warm, out)) return;
@@ -385,7 +403,7 @@ static void run_search(const open_query *q, ovoid_answer *out) {
     const ovoid_proof *earlier = q->placed.earlier;
     search s;
     if (q->kept && run_kept(q, &s)) {
-        answer_write(&s, out);
+        write_wanted(q, &s, out);
         return;
     }
     search_in_doubles(q, earlier, &s);
@@ -394,7 +412,7 @@ static void run_search(const open_query *q, ovoid_answer *out) {
         return;
     }
     search_on(&s, q->pair);
-    answer_write(&s, out);
+    write_wanted(q, &s, out);
     // Another normal of the same gap may decide what this one leaves to the allowances.
     if (earlier && q->placed.goal->has_axis && out->status == OVOID_UNDECIDED) search_again(q, &s, out);
 }
@@ -423,7 +441,7 @@ void answer_run_search(const open_query *q, ovoid_answer *out) {
 
 static open_query make_open(const ovoid_pair *pair, const query_request *request, query_start *s) {
     frame_relate(&s->frame);
-    return (open_query){pair, s->placed, request->cover, request->kept};
+    return (open_query){pair, s->placed, request->cover, request->kept, 0};
 }
 
 void answer_find_internal(const ovoid_pair *pair, const query_request *request, ovoid_answer *out) {

@@ -93,6 +93,7 @@ typedef struct open_query {
     placed_query placed;
     ovoid_cover *cover;      ///< room for a cover, or NULL
     const ovoid_cover *kept; ///< of a depth's earlier call, or NULL
+    int is_bare; ///< of the answer only verdict, normal and the kind of the proof are wanted; the rest is not set
 } open_query;
 
 /// The rest of the pipeline. The frame is related (frame_relate).

@@ -142,7 +142,7 @@ COMPILER_NOINLINE static ovoid_verdict find_afresh(ovoid_prepared_pair both, con
 COMPILER_NOINLINE static ovoid_verdict search_on(ovoid_prepared_pair both, const placed_query *query,
                                                  const ovoid_evidence *out) {
     ovoid_pair pair = get_pair(both);
-    const open_query open = {&pair, *query, NULL, NULL};
+    const open_query open = {&pair, *query, NULL, NULL, !out};
     ovoid_answer answer;
     answer_run_search(&open, &answer);
     if (out) write_evidence(out, &answer);

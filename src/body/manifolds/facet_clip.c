@@ -272,7 +272,8 @@ static int set_feature(const solid_pair *p, uint32_t feature, manifold_state *s)
 
 int facet_contact_open(solid_pair *p, const facet_contact *c, manifold_state *s) {
     if (!shape_has_feature(p->part.shape, c->facet_a)) return 0;
-    manifold_frame_make(&p->frame, c->n, &s->frame);
+    gap_along along = gap_measure_along(&p->frame, c->n);
+    manifold_frame_make(&p->frame, &along, &s->frame);
     // Of the solid the frame has one point: it does not show the gap.
     s->frame.gap = -INFINITY;
     s->facet_a = c->facet_a;
