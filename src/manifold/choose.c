@@ -10,44 +10,53 @@ static edge_range get_edges(const ovoid_shape *s, uint32_t vertex) {
     return (edge_range){starts[vertex], starts[vertex + 1]};
 }
 
-// The facet that faces n most; `kept` has 1e-6 in advance.
+// The facet that faces n most.
 typedef struct facing {
-    uint32_t facet;
+    uint32_t facet; ///< or UINT32_MAX
     double cosine;
 } facing;
 
-static void take_facing(const ovoid_shape *s, uint32_t edge, const facet_choice *c, facing *best) {
-    uint32_t facet = shape_edge_facets(s)[edge];
-    double cosine = vec3_dot(shape_get_facet_normal(s, facet), c->n);
-    if (c->has_kept && c->kept == (OVOID_MANIFOLD_FACET | facet)) cosine += 1e-6;
-    if (cosine > best->cosine) *best = (facing){facet, cosine};
+// The facet that is kept has an advantage.
+static double get_cosine(const ovoid_shape *s, uint32_t facet, const facet_choice *c) {
+    double cosine = vec3_dot(shape_planes(s)[facet].normal, c->n);
+    return c->has_kept && c->kept == (OVOID_MANIFOLD_FACET | facet) ? cosine + 1e-6 : cosine;
+}
+
+// Of a flat body: it has a facet on each side.
+static facing find_side(const ovoid_shape *s, vec3 n) {
+    double cosine = vec3_dot(shape_get_facet_normal(s, 0), n);
+    return (facing){cosine < 0, fabs(cosine)};
 }
 
 // Of the facets around a vertex.
 static facing find_facing(const ovoid_shape *s, uint32_t vertex, const facet_choice *c) {
     facing best = {UINT32_MAX, -2};
+    if (s->rank < 3) return s->rank == 2 ? find_side(s, c->n) : best;
     edge_range r = get_edges(s, vertex);
-    for (uint32_t i = r.first; i < r.end && s->rank >= 2; i++) take_facing(s, i, c, &best);
+    for (uint32_t i = r.first; i < r.end; i++) {
+        uint32_t facet = shape_edge_facets(s)[i];
+        double cosine = get_cosine(s, facet, c);
+        if (cosine > best.cosine) best = (facing){facet, cosine};
+    }
     return best;
 }
 
-// Of the two facets beside an edge, in the order in which they are around its first end. An edge inside of a facet is
-// beside that facet alone.
+// 1 if of two facets beside an edge the first one comes first around a vertex, too.
+static int comes_first(const ovoid_shape *s, uint32_t vertex, uint32_t facet, uint32_t other) {
+    uint32_t i = get_edges(s, vertex).first;
+    while (shape_edge_facets(s)[i] != facet && shape_edge_facets(s)[i] != other) i++;
+    return shape_edge_facets(s)[i] == facet;
+}
+
+// Of the two facets beside an edge; of two that face n alike, as of round bodies, the one that comes first around the
+// edge's beginning. An edge inside of a facet is beside that facet alone.
 static facing find_beside(const ovoid_shape *s, uint32_t edge, const facet_choice *c) {
-    facing best = {UINT32_MAX, -2};
+    if (s->rank < 3) return s->rank == 2 ? find_side(s, c->n) : (facing){UINT32_MAX, -2};
     edge_ends e = shape_get_ends(s, edge);
-    edge_range r = get_edges(s, e.from);
-    const uint32_t *facets = shape_edge_facets(s);
-    uint32_t left = facets[edge], right = facets[shape_find_edge(s, e.to, e.from)];
-    for (uint32_t i = r.first; i < r.end && s->rank >= 2; i++)
-        if (facets[i] == left || facets[i] == right) take_facing(s, i, c, &best);
-    return best;
-}
-
-// Of a flat body a vertex may be no corner of its polygon.
-static facing find_side(const ovoid_shape *s, vec3 n) {
-    double cosine = vec3_dot(shape_get_facet_normal(s, 0), n);
-    return (facing){cosine < 0, fabs(cosine)};
+    uint32_t left = shape_edge_facets(s)[edge], right = shape_edge_facets(s)[shape_find_edge(s, e.to, e.from)];
+    facing a = {left, get_cosine(s, left, c)}, b = {right, get_cosine(s, right, c)};
+    if (a.cosine != b.cosine) return a.cosine > b.cosine ? a : b;
+    return comes_first(s, e.from, left, right) ? a : b;
 }
 
 // The sine of the angle between an edge and the plane across n.
@@ -76,7 +85,6 @@ uint32_t facet_choose(const ovoid_shape *s, const facet_choice *c) {
     int is_edge = feature_get_kind(c->axis) == OVOID_MANIFOLD_EDGE;
     if (s->rank == 1) is_edge = 1, index = shape_loop_edges(s)[0];
     facing best = is_edge ? find_beside(s, index, c) : find_facing(s, c->low, c);
-    if (best.facet == UINT32_MAX && s->rank == 2) best = find_side(s, c->n);
     if (best.facet != UINT32_MAX && best.cosine >= c->least) return OVOID_MANIFOLD_FACET | best.facet;
     if (is_edge && get_slant(s, index, c->n) <= sqrt(1 - c->least * c->least)) return OVOID_MANIFOLD_EDGE | index;
     return OVOID_MANIFOLD_VERTEX | c->low;
@@ -115,7 +123,6 @@ uint32_t shape_find_low_edge(const ovoid_shape *s, vec3 n, uint32_t low, double 
 static side make_side(const ovoid_shape *shape, vec3 n, uint32_t low) {
     side s = {shape, n, low, UINT32_MAX, -2, UINT32_MAX};
     facing best = find_facing(shape, low, &(facet_choice){.n = n});
-    if (best.facet == UINT32_MAX && shape->rank == 2) best = find_side(shape, n);
     if (best.facet != UINT32_MAX) s.facet = OVOID_MANIFOLD_FACET | best.facet, s.cosine = best.cosine;
     return s;
 }

@@ -32,6 +32,7 @@ typedef struct clipper {
 
 static uint32_t is_kept_id(const clipper *c, uint32_t id) {
     const uint32_t *kept = c->kept_ids;
+    if (!c->rules->kept_count) return 0;
     return (uint32_t)((kept[0] == id) | (kept[1] == id) | (kept[2] == id) | (kept[3] == id));
 }
 

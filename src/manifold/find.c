@@ -158,32 +158,46 @@ static void write_points(const task *t, const manifold_state *s, const manifold_
 
 // ---- a guess ----
 
-// Of the facets around a vertex the one that a ray along d from the inner centre meets first.
+// How soon a ray along d from the inner centre meets a facet's plane: one over the length of d up to it.
+static double get_rate(const ovoid_shape *s, uint32_t facet, vec3 d) {
+    const ovoid_plane *plane = shape_planes(s) + facet;
+    return vec3_dot(plane->normal, d) / (plane->offset - vec3_dot(plane->normal, s->inner.center));
+}
+
+// Of the facets around a vertex the one that the ray meets first.
 static uint32_t find_exit(const ovoid_shape *s, uint32_t vertex, vec3 d) {
     const uint32_t *starts = shape_neighbor_starts(s);
     uint32_t best = UINT32_MAX;
     double most = 0;
     for (uint32_t i = starts[vertex]; i < starts[vertex + 1]; i++) {
         uint32_t facet = shape_edge_facets(s)[i];
-        const ovoid_plane *plane = shape_planes(s) + facet;
-        double rate = vec3_dot(plane->normal, d) / (plane->offset - vec3_dot(plane->normal, s->inner.center));
+        double rate = get_rate(s, facet, d);
         if (rate > most) most = rate, best = facet;
     }
     return best;
 }
 
-// The facets that the line of centres meets, if they are on one another.
+// 1 if one of the facets around a vertex has that normal, and none of them is met sooner.
+static int is_exit(const ovoid_shape *s, uint32_t vertex, vec3 d, vec3 normal) {
+    const uint32_t *starts = shape_neighbor_starts(s), *facets = shape_edge_facets(s);
+    for (uint32_t i = starts[vertex]; i < starts[vertex + 1]; i++)
+        if (vec3_dot(shape_planes(s)[facets[i]].normal, normal) >= 1 - 1e-12)
+            return facets[i] == find_exit(s, vertex, d);
+    return 0;
+}
+
+// The facets that the line of centres meets, if they are on one another. Of most pairs no facet of B is opposite that
+// of A.
 static int guess_facets(const pair_frame *f, manifold_axis *axis, vec3 *n) {
     if (f->a->rank < 3 || f->b->rank < 3) return 0;
     vec3 d = vec3_sub(frame_b(f, f->b->inner.center), f->a->inner.center);
     vec3 in_b = vec3_neg(mat3_mul_transposed_vec3(f->rotation, d));
     simd_pair ends = frame_find_pair(f, d, in_b);
-    uint32_t a = find_exit(f->a, ends.high.index, d), b = find_exit(f->b, ends.low.index, in_b);
-    if (a == UINT32_MAX || b == UINT32_MAX) return 0;
+    uint32_t a = find_exit(f->a, ends.high.index, d);
+    if (a == UINT32_MAX) return 0;
     *n = shape_get_facet_normal(f->a, a);
-    vec3 other = mat3_mul_vec3(f->rotation, shape_get_facet_normal(f->b, b));
     *axis = (manifold_axis){OVOID_MANIFOLD_FACE_A, OVOID_MANIFOLD_FACET | a, OVOID_MANIFOLD_VERTEX | ends.low.index};
-    return vec3_dot(*n, other) <= -1 + 1e-12;
+    return is_exit(f->b, ends.low.index, in_b, vec3_neg(mat3_mul_transposed_vec3(f->rotation, *n)));
 }
 
 // 1 if facets that are on one another show the contact as exactly as a search would.
