@@ -137,12 +137,28 @@ static double prove_by_facet(const manifold_state *state, double sign, double le
 // An edge across the normal.
 typedef struct segment {
     vec3 p, q;
-    double out_x, out_y; ///< unit, orthogonal to it; zero if it has no length
+    double dx, dy, square; ///< from p to q, and the square of its length
+    double out_x, out_y;   ///< unit, orthogonal to it; zero if it has no length
 } segment;
 
 static segment make_segment(vec3 p, vec3 q) {
-    double dx = q.x - p.x, dy = q.y - p.y, square = dx * dx + dy * dy, scale = square > 0 ? 1 / sqrt(square) : 0;
-    return (segment){p, q, -dy * scale, dx * scale};
+    double dx = q.x - p.x, dy = q.y - p.y;
+    return (segment){p, q, dx, dy, dx * dx + dy * dy, 0, 0};
+}
+
+static void set_out(segment *s) {
+    double scale = s->square > 0 ? 1 / sqrt(s->square) : 0;
+    s->out_x = -s->dy * scale;
+    s->out_y = s->dx * scale;
+}
+
+// 1 if the parallelogram of two edges is too narrow for the least depth. Of opposite sides o and -o let p and p' be the
+// distances of the foot. Both bounds of the theorem are at least r only if (p + p') (n.c + s h) >= 2 r (n.c + h), which
+// their sum shows, as the root is at least n.c + h; so only if the width p + p' is at least 2 r. The widths are the
+// area over the length of one edge and over that of the other.
+static int is_narrow(const segment *a, const segment *b, double least) {
+    double area = a->dx * b->dy - a->dy * b->dx, width = 2 * max2(least, 0);
+    return area * area < width * width * max2(a->square, b->square) * (1 - 1e-9);
 }
 
 // Both sides of a segment, with the distances to them of what is opposite.
@@ -166,7 +182,9 @@ static double prove_by_edges(const manifold_frame *m, const manifold_axis *axis,
     segment a = make_segment(frame_place_a(m, i.from), frame_place_a(m, i.to)),
             b = make_segment(frame_place_b(m, j.from), frame_place_b(m, j.to));
     const slab s = {min2(a.p.z, a.q.z) - max2(b.p.z, b.q.z), max2(a.p.z, a.q.z) - min2(b.p.z, b.q.z)};
-    if (!is_deep(&s, least)) return 0;
+    if (!is_deep(&s, least) || is_narrow(&a, &b, least)) return 0;
+    set_out(&a);
+    set_out(&b);
     double reach = get_distance(a.q, a.p) + max2(get_distance(b.p, a.p), get_distance(b.q, a.p));
     if (!start(&f, m, &s, reach)) return 0;
     add_segment(&f, &a, &b, 1);

@@ -36,7 +36,9 @@ static facing find_facing(const ovoid_shape *s, uint32_t vertex, const facet_cho
     for (uint32_t i = r.first; i < r.end; i++) {
         uint32_t facet = shape_edge_facets(s)[i];
         double cosine = get_cosine(s, facet, c);
-        if (cosine > best.cosine) best = (facing){facet, cosine};
+        // Selected, not branched to: no processor would foresee it.
+        best.facet = cosine > best.cosine ? facet : best.facet;
+        best.cosine = max2(best.cosine, cosine);
     }
     return best;
 }
@@ -141,9 +143,10 @@ static int take(const pair_frame *f, const manifold_axis *axis, double least, ga
 
 manifold_axis axis_choose(const pair_frame *f, double tolerance, gap_along *along) {
     double least = along->gap - tolerance, within = 1e-8 * f->size;
-    side a = make_side(f->a, along->n, along->low_a), b = make_side(f->b, vec3_neg(along->n_in_b), along->low_b);
-    manifold_axis axis = {OVOID_MANIFOLD_FACE_A, a.facet, b.low};
+    side a = make_side(f->a, along->n, along->low_a), b;
+    manifold_axis axis = {OVOID_MANIFOLD_FACE_A, a.facet, along->low_b};
     if (a.cosine >= NEARLY_FLAT && take(f, &axis, least, along)) return axis;
+    b = make_side(f->b, vec3_neg(along->n_in_b), along->low_b);
     axis = (manifold_axis){OVOID_MANIFOLD_FACE_B, a.low, b.facet};
     if (b.cosine >= NEARLY_FLAT && take(f, &axis, least, along)) return axis;
     a.edge = shape_find_low_edge(a.shape, a.n, a.low, within);
@@ -156,5 +159,6 @@ manifold_axis axis_choose(const pair_frame *f, double tolerance, gap_along *alon
     if (b.edge != UINT32_MAX && take(f, &axis, least, along)) return axis;
     axis = (manifold_axis){OVOID_MANIFOLD_FREE, a.low, b.low};
     if (take(f, &axis, least, along)) return axis;
+    *along = gap_measure_along(f, along->n);
     return (manifold_axis){OVOID_MANIFOLD_FREE, OVOID_MANIFOLD_DIRECTION, OVOID_MANIFOLD_DIRECTION};
 }

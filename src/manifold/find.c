@@ -172,7 +172,8 @@ static uint32_t find_exit(const ovoid_shape *s, uint32_t vertex, vec3 d) {
     for (uint32_t i = starts[vertex]; i < starts[vertex + 1]; i++) {
         uint32_t facet = shape_edge_facets(s)[i];
         double rate = get_rate(s, facet, d);
-        if (rate > most) most = rate, best = facet;
+        best = rate > most ? facet : best; // selected, not branched to
+        most = max2(most, rate);
     }
     return best;
 }
@@ -273,7 +274,8 @@ typedef struct search_end {
     double lower, upper;
     vec3 normal; ///< world
     ovoid_limit limit;
-    int has_cover; ///< a surface around the origin proves `upper`
+    int has_cover;         ///< a surface around the origin proves `upper`
+    uint32_t low_a, low_b; ///< vertices of the surface's nearest face; UINT32_MAX where there are none
 } search_end;
 
 // The query of ovoid_depth, in the frame that is there. A state is as large as a search: neither is on the stack while
@@ -292,15 +294,37 @@ COMPILER_NOINLINE static search_end search_pair(const task *t) {
     set_numbers(&goal, &options, f);
     cover_clear(t->terms.cover);
     if (reject_by_spheres(f, goal.far, &found))
-        return (search_end){found.lower, INFINITY, found.normal, OVOID_LIMIT_CAP, 0};
+        return (search_end){found.lower, INFINITY, found.normal, OVOID_LIMIT_CAP, 0, UINT32_MAX, UINT32_MAX};
     const open_query open = {
         .pair = &t->pair, .placed = {f, &goal, NULL, found.lower, 1}, .cover = t->terms.cover, .is_bare = 1};
     if (begin_after_spheres(&open.placed, &found, &small) == BEGIN_SMALL)
-        return (search_end){small.lower, small.upper, small.normal, answer_make_small_verdict(&small, &goal).limit,
-                            small.kind == OVOID_PROOF_COVER};
+        return (search_end){.lower = small.lower,
+                            .upper = small.upper,
+                            .normal = small.normal,
+                            .limit = answer_make_small_verdict(&small, &goal).limit,
+                            .has_cover = small.kind == OVOID_PROOF_COVER,
+                            .low_a = UINT32_MAX,
+                            .low_b = UINT32_MAX};
     answer_run_search(&open, &answer);
-    return (search_end){answer.lower, answer.upper, answer.normal, answer.limit,
-                        answer.proof.kind == OVOID_PROOF_COVER};
+    return (search_end){.lower = answer.lower,
+                        .upper = answer.upper,
+                        .normal = answer.normal,
+                        .limit = answer.limit,
+                        .has_cover = answer.proof.kind == OVOID_PROOF_COVER,
+                        .low_a = answer.proof.a[0],
+                        .low_b = answer.proof.b[0]};
+}
+
+// The gap along the direction of a search. A face's vertices are extreme along its normal: where their gap is the one
+// that the search measured, to rounding, they need not be found again.
+static gap_along measure_search(const pair_frame *f, const search_end *end, vec3 n) {
+    if (!end->has_cover || end->low_a >= f->a->vertex_count || end->low_b >= f->b->vertex_count)
+        return gap_measure_along(f, n);
+    gap_along g = {n, mat3_mul_transposed_vec3(f->rotation, n), vec3_dot(n, f->translation), 0, end->low_a, end->low_b};
+    double high = vec3_dot(n, frame_vertex_a(f, g.low_a)),
+           low = vec3_dot(g.n_in_b, vec3_at(shape_vertices(f->b), g.low_b));
+    g.gap = (g.tn + low) - high;
+    return g.gap <= end->lower + f->lower_radii + 2 * f->claim ? g : gap_measure_along(f, n);
 }
 
 COMPILER_NOINLINE static void take_search(const task *t, const search_end *end, ovoid_manifold *out) {
@@ -311,7 +335,7 @@ COMPILER_NOINLINE static void take_search(const task *t, const search_end *end, 
         given = (vec3){0, 0, 1};
         n = vec3_unit(frame_direction_from_world(f, given));
     }
-    gap_along along = gap_measure_along(f, n);
+    gap_along along = measure_search(f, end, n);
     // A search in pairs of doubles may show more than its normal in doubles.
     double lower = min2(end->lower, compute_lower(f, &along));
     if (lower > t->terms.margin) {

@@ -128,7 +128,7 @@ ovoid_verdict answer_make_verdict(search *s) {
     return (ovoid_verdict){status, s->stage, find_limit(s, status), s->iterations, s->lower, s->upper};
 }
 
-// The bracket with its normal; all else stays as it is.
+// The bracket with its normal, and the kind of the proof; all else stays as it is.
 static void write_bare(search *s, ovoid_answer *out) {
     ovoid_verdict verdict = answer_make_verdict(s);
     out->status = verdict.status;
@@ -155,10 +155,13 @@ void answer_write(search *s, ovoid_answer *out) {
 }
 
 static void write_wanted(const open_query *q, search *s, ovoid_answer *out) {
-    if (q->is_bare)
-        write_bare(s, out);
-    else
+    if (!q->is_bare) {
         answer_write(s, out);
+        return;
+    }
+    write_bare(s, out);
+    out->proof.a[0] = s->witness.count ? s->witness.p[0].a : UINT32_MAX;
+    out->proof.b[0] = s->witness.count ? s->witness.p[0].b : UINT32_MAX;
 }
 
 // A weighted vertex.

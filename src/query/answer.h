@@ -93,7 +93,8 @@ typedef struct open_query {
     placed_query placed;
     ovoid_cover *cover;      ///< room for a cover, or NULL
     const ovoid_cover *kept; ///< of a depth's earlier call, or NULL
-    int is_bare; ///< of the answer only verdict, normal and the kind of the proof are wanted; the rest is not set
+    int is_bare; ///< of the answer only these are wanted, and the rest is not set: verdict, normal, the proof's kind,
+                 ///< and as its first vertices a pair of the last simplex, UINT32_MAX where there is none
 } open_query;
 
 /// The rest of the pipeline. The frame is related (frame_relate).
