@@ -241,7 +241,7 @@ template <class S> bool collide_bodies(contact_list<S> &to, const posed<S> &a, c
         swept_parts<S> parts_a(*couple.a, a.self(), a.pose), parts_b(*couple.b, b.self(), b.pose);
         collide_meshes(to, couple, parts_a, parts_b);
     } else {
-        collide_shapes(to, couple);
+        collide_shapes(to, couple, balls < 0);
     }
     return true;
 }

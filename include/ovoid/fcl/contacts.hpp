@@ -140,7 +140,8 @@ template <class S> void add_contacts(contact_list<S> &to, int i, int j, const ov
 inline bool is_thin(const ovoid_shape *shape) { return ovoid_shape_get_polytope(shape).vertex_count <= 2; }
 
 /// The contacts of two shapes: one, as FCL has of round bodies, or of others with room for more those of the polyhedra.
-template <class S> void collide_shapes(contact_list<S> &to, const body_couple &of) {
+/// has_met: their inner balls show that they meet, and details are wanted.
+template <class S> void collide_shapes(contact_list<S> &to, const body_couple &of, bool has_met) {
     const ovoid_prepared_pair pair = of.prepared();
     if (!to.is_detailed()) {
         if (is_hit(ovoid_prepared_collide(pair, nullptr, nullptr))) to.add(-1, -1);
@@ -152,7 +153,7 @@ template <class S> void collide_shapes(contact_list<S> &to, const body_couple &o
         if (is_hit(depth.bracket)) add_deepest(to, -1, -1, depth);
         return;
     }
-    if (!is_hit(ovoid_prepared_collide(pair, nullptr, nullptr))) return;
+    if (!has_met && !is_hit(ovoid_prepared_collide(pair, nullptr, nullptr))) return;
     if (is_single)
         add_deepest(to, -1, -1, ask_depth(pair));
     else
