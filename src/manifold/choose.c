@@ -36,9 +36,7 @@ static facing find_facing(const ovoid_shape *s, uint32_t vertex, const facet_cho
     for (uint32_t i = r.first; i < r.end; i++) {
         uint32_t facet = shape_edge_facets(s)[i];
         double cosine = get_cosine(s, facet, c);
-        // Selected, not branched to: no processor would foresee it.
-        best.facet = cosine > best.cosine ? facet : best.facet;
-        best.cosine = max2(best.cosine, cosine);
+        if (cosine > best.cosine) best = (facing){facet, cosine};
     }
     return best;
 }

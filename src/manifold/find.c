@@ -172,8 +172,7 @@ static uint32_t find_exit(const ovoid_shape *s, uint32_t vertex, vec3 d) {
     for (uint32_t i = starts[vertex]; i < starts[vertex + 1]; i++) {
         uint32_t facet = shape_edge_facets(s)[i];
         double rate = get_rate(s, facet, d);
-        best = rate > most ? facet : best; // selected, not branched to
-        most = max2(most, rate);
+        if (rate > most) most = rate, best = facet;
     }
     return best;
 }
