@@ -119,16 +119,29 @@ static double prove_by_patches(const manifold_state *state, double least) {
     return f.depth - get_pad(m);
 }
 
+// 1 if a polygon is too small for the least depth. The theorem's bounds are at least r only if p (n.c + s h) + h o.c >=
+// r (n.c + h) for each edge. The sum over the edges, each times its length, has no o.c, as a polygon is closed: twice
+// the area is at least r times the perimeter, which is at least the circle's of that area. So the area is at least pi
+// r^2.
+static int is_small(const manifold_patch *p, double least) {
+    const double *x = p->at.x, *y = p->at.y, most = max2(least, 0);
+    double area = 0;
+    for (uint32_t i = 1; i + 1 < p->at.count; i++)
+        area += (x[i] - *x) * (y[i + 1] - *y) - (y[i] - *y) * (x[i + 1] - *x);
+    return fabs(area) < 6.28 * most * most;
+}
+
 // A facet of one body that makes the axis, and the other's vertex that is extreme. sign: -1 for a facet of B.
 static double prove_by_facet(const manifold_state *state, double sign, double least) {
     const manifold_frame *m = &state->frame;
     const manifold_patch *p = sign > 0 ? &state->a : &state->b;
+    if (p->at.count < 3 || is_small(p, least)) return 0;
     vec3 vertex = sign > 0 ? frame_place_b(m, m->low_b) : frame_place_a(m, m->low_a);
     frustum f = {.least = least};
     range z = get_range(p);
     const slab s = {sign > 0 ? z.low - vertex.z : vertex.z - z.high, sign > 0 ? z.high - vertex.z : vertex.z - z.low};
     double distance[PATCH_CORNERS];
-    if (p->at.count < 3 || !is_deep(&s, least) || !start(&f, m, &s, get_reach(p, vertex.x, vertex.y))) return 0;
+    if (!is_deep(&s, least) || !start(&f, m, &s, get_reach(p, vertex.x, vertex.y))) return 0;
     for (uint32_t i = 0; i < p->at.count; i++) distance[i] = patch_get_side(p, i, vertex.x, vertex.y);
     add_sides(&f, p, distance, sign);
     return f.depth - get_pad(m);

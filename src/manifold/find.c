@@ -186,10 +186,20 @@ static int is_exit(const ovoid_shape *s, uint32_t vertex, vec3 d, vec3 normal) {
     return 0;
 }
 
+static double get_largest(const mat3 *m) {
+    return max2(vec3_max_abs(m->r0), max2(vec3_max_abs(m->r1), vec3_max_abs(m->r2)));
+}
+
+// 0 if no facets of the bodies can be on one another: of boxes, an axis of one would be one of the other.
+static int may_be_opposite(const pair_frame *f) {
+    if (f->a->rank < 3 || f->b->rank < 3) return 0;
+    return !(f->a->box.is_upright && f->b->box.is_upright) || get_largest(&f->rotation) >= 1 - 2e-12;
+}
+
 // The facets that the line of centres meets, if they are on one another. Of most pairs no facet of B is opposite that
 // of A.
 static int guess_facets(const pair_frame *f, manifold_axis *axis, vec3 *n) {
-    if (f->a->rank < 3 || f->b->rank < 3) return 0;
+    if (!may_be_opposite(f)) return 0;
     vec3 d = vec3_sub(frame_b(f, f->b->inner.center), f->a->inner.center);
     vec3 in_b = vec3_neg(mat3_mul_transposed_vec3(f->rotation, d));
     simd_pair ends = frame_find_pair(f, d, in_b);
