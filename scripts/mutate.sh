@@ -53,7 +53,7 @@ tests_of() {
     motion) echo "test_motion_gap test_motion_pose test_judge_motion test_motion test_impact test_impact_rod test_impact_altered test_judge_impact test_impact_trials test_compound_impact" ;;
     smooth) echo "test_smooth test_smooth_bounds test_gradient test_gradient_round test_gradient_bounds" ;;
     paper) echo "test_paper test_area" ;;
-    manifold) echo "test_manifold test_simd_patch test_manifold_altered test_manifold_hard test_judge_manifold" ;;
+    manifold) echo "test_manifold test_manifold_demand test_simd_patch test_manifold_altered test_manifold_hard test_judge_manifold" ;;
     table) echo "test_lookup test_shape test_simd test_query" ;;
     lanes) echo "test_simd_areas test_simd_octet test_simd_gjk8 test_simd_solid8 test_query_batch test_judge_batch" ;;
     batch) echo "test_simd_nearest test_query_floats test_query_batch test_judge_batch" ;;

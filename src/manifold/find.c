@@ -158,26 +158,21 @@ static void write_points(const task *t, const manifold_state *s, const manifold_
 
 // ---- a guess ----
 
-// How soon a ray along d from the inner centre meets a facet's plane: one over the length of d up to it.
-static double get_rate(const ovoid_shape *s, uint32_t facet, vec3 d) {
-    const ovoid_plane *plane = shape_planes(s) + facet;
-    return vec3_dot(plane->normal, d) / (plane->offset - vec3_dot(plane->normal, s->inner.center));
-}
-
-// Of the facets around a vertex the one that the ray meets first.
+// Of the facets around a vertex the one that a ray along d from the inner centre meets first.
 static uint32_t find_exit(const ovoid_shape *s, uint32_t vertex, vec3 d) {
     const uint32_t *starts = shape_neighbor_starts(s);
     uint32_t best = UINT32_MAX;
     double most = 0;
     for (uint32_t i = starts[vertex]; i < starts[vertex + 1]; i++) {
         uint32_t facet = shape_edge_facets(s)[i];
-        double rate = get_rate(s, facet, d);
+        const ovoid_plane *plane = shape_planes(s) + facet;
+        double rate = vec3_dot(plane->normal, d) / (plane->offset - vec3_dot(plane->normal, s->inner.center));
         if (rate > most) most = rate, best = facet;
     }
     return best;
 }
 
-// 1 if one of the facets around a vertex has that normal, and none of them is met sooner.
+// 1 if one of the facets around a vertex has that normal, and the ray meets none of them sooner.
 static int is_exit(const ovoid_shape *s, uint32_t vertex, vec3 d, vec3 normal) {
     const uint32_t *starts = shape_neighbor_starts(s), *facets = shape_edge_facets(s);
     for (uint32_t i = starts[vertex]; i < starts[vertex + 1]; i++)
