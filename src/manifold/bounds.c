@@ -29,18 +29,22 @@ typedef struct frustum {
     double inset;      ///< each p_e is less by this
     double depth;      ///< the bound so far; negative: there is none
     double least;      ///< a bound below it is of no use
+    double far_square; ///< a side whose distance has a smaller square is nearer than that
 } frustum;
+
+// Squares are off by a few roundings.
+static frustum make_frustum(double least) {
+    return (frustum){.least = least, .far_square = least > 0 ? least * least * (1 - 1e-9) : 0};
+}
 
 static int is_of_use(const frustum *f) { return !(f->depth < f->least); }
 
-// A side that is nearer than the least depth is seen by squares, which are off by a few roundings.
 static void add_side(frustum *f, double ox, double oy, double p) {
     p -= f->inset;
     double q = (ox * f->cx + oy * f->cy) + f->s * p, rise = f->cz + f->h;
     double above = p * f->cz + q * f->h, square = (q - p) * (q - p) + rise * rise;
-    int is_near = f->least > 0 && (above < 0 || above * above < f->least * f->least * square * (1 - 1e-9));
     double distance = -1;
-    if (p >= 0 && !is_near) distance = above / sqrt(square) * (1 - 16 * ROUNDING);
+    if (p >= 0 && above * above >= f->far_square * square) distance = above / sqrt(square) * (1 - 16 * ROUNDING);
     f->depth = min2(f->depth, distance);
 }
 
@@ -108,7 +112,7 @@ static int start(frustum *f, const manifold_frame *m, const slab *s, double reac
 static double prove_by_patches(const manifold_state *state, double least) {
     const manifold_frame *m = &state->frame;
     const manifold_patch *a = &state->a, *b = &state->b;
-    frustum f = {.least = least};
+    frustum f = make_frustum(least);
     range za = get_range(a), zb = get_range(b);
     const slab s = {za.low - zb.high, za.high - zb.low};
     if (!is_deep(&s, least) || (a->at.count < 3 && b->at.count < 3 && a->at.count + b->at.count < 4)) return 0;
@@ -137,7 +141,7 @@ static double prove_by_facet(const manifold_state *state, double sign, double le
     const manifold_patch *p = sign > 0 ? &state->a : &state->b;
     if (p->at.count < 3 || is_small(p, least)) return 0;
     vec3 vertex = sign > 0 ? frame_place_b(m, m->low_b) : frame_place_a(m, m->low_a);
-    frustum f = {.least = least};
+    frustum f = make_frustum(least);
     range z = get_range(p);
     const slab s = {sign > 0 ? z.low - vertex.z : vertex.z - z.high, sign > 0 ? z.high - vertex.z : vertex.z - z.low};
     double distance[PATCH_CORNERS];
@@ -189,7 +193,7 @@ static double get_distance(vec3 p, vec3 from) {
 }
 
 static double prove_by_edges(const manifold_frame *m, const manifold_axis *axis, double least) {
-    frustum f = {.least = least};
+    frustum f = make_frustum(least);
     edge_ends i = shape_get_ends(m->pair->a, feature_get_index(axis->a)),
               j = shape_get_ends(m->pair->b, feature_get_index(axis->b));
     segment a = make_segment(frame_place_a(m, i.from), frame_place_a(m, i.to)),
