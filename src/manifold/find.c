@@ -300,7 +300,7 @@ COMPILER_NOINLINE static search_end search_pair(const task *t) {
     if (reject_by_spheres(f, goal.far, &found))
         return (search_end){found.lower, INFINITY, found.normal, OVOID_LIMIT_CAP, 0, UINT32_MAX, UINT32_MAX};
     const open_query open = {
-        .pair = &t->pair, .placed = {f, &goal, NULL, found.lower, 1}, .cover = t->terms.cover, .is_bare = 1};
+        .pair = &t->pair, .placed = {f, &goal, NULL, found.lower, BARE_ANSWER}, .cover = t->terms.cover};
     if (begin_after_spheres(&open.placed, &found, &small) == BEGIN_SMALL)
         return (search_end){.lower = small.lower,
                             .upper = small.upper,

@@ -154,8 +154,8 @@ void answer_write(search *s, ovoid_answer *out) {
     out->point_b = frame_point_to_world(f, w.b);
 }
 
-static void write_wanted(const open_query *q, search *s, ovoid_answer *out) {
-    if (!q->is_bare) {
+COMPILER_NOINLINE static void write_wanted(const open_query *q, search *s, ovoid_answer *out) {
+    if (q->placed.is_bare != BARE_ANSWER) {
         answer_write(s, out);
         return;
     }
@@ -444,7 +444,7 @@ void answer_run_search(const open_query *q, ovoid_answer *out) {
 
 static open_query make_open(const ovoid_pair *pair, const query_request *request, query_start *s) {
     frame_relate(&s->frame);
-    return (open_query){pair, s->placed, request->cover, request->kept, 0};
+    return (open_query){pair, s->placed, request->cover, request->kept};
 }
 
 void answer_find_internal(const ovoid_pair *pair, const query_request *request, ovoid_answer *out) {

@@ -87,14 +87,16 @@ ovoid_answer answer_find(const ovoid_pair *pair, const query_request *request);
 /// made in the caller's place.
 COMPILER_NOINLINE ovoid_answer answer_find_by_value(const ovoid_pair *pair, const query_request *request);
 
+/// placed.is_bare of a query whose answer is not wanted beyond the verdict, the normal, the proof's kind, and as the
+/// proof's first vertices a pair of the last simplex, UINT32_MAX where there is none. A search sets no more than these.
+enum { BARE_ANSWER = 2 };
+
 /// A query that its beginning left to the search.
 typedef struct open_query {
     const ovoid_pair *pair;
     placed_query placed;
     ovoid_cover *cover;      ///< room for a cover, or NULL
     const ovoid_cover *kept; ///< of a depth's earlier call, or NULL
-    int is_bare; ///< of the answer only these are wanted, and the rest is not set: verdict, normal, the proof's kind,
-                 ///< and as its first vertices a pair of the last simplex, UINT32_MAX where there is none
 } open_query;
 
 /// The rest of the pipeline. The frame is related (frame_relate).

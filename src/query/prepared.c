@@ -142,7 +142,7 @@ COMPILER_NOINLINE static ovoid_verdict find_afresh(ovoid_prepared_pair both, con
 COMPILER_NOINLINE static ovoid_verdict search_on(ovoid_prepared_pair both, const placed_query *query,
                                                  const ovoid_evidence *out) {
     ovoid_pair pair = get_pair(both);
-    const open_query open = {&pair, *query, NULL, NULL, !out};
+    const open_query open = {&pair, *query, NULL, NULL};
     ovoid_answer answer;
     answer_run_search(&open, &answer);
     if (out) write_evidence(out, &answer);
@@ -196,7 +196,7 @@ COMPILER_NOINLINE static ovoid_verdict find_near(ovoid_prepared_pair pair, const
     frame_place_rotations(pair.a, pair.b, &frame);
     set_numbers(&goal, &options, &frame);
     if (reject_by_spheres(&frame, goal.far, &found)) return end_at_rejection(&frame, &found, &goal, out);
-    const placed_query query = {&frame, &goal, earlier, found.lower, !wants_proof(out)};
+    const placed_query query = {&frame, &goal, earlier, found.lower, out ? !wants_proof(out) : BARE_ANSWER};
     switch (begin_after_spheres(&query, &found, &end)) {
     case BEGIN_REJECTED: return end_at_rejection(&frame, &found, &goal, out);
     case BEGIN_SMALL: return end_at_small(&frame, &end, &goal, out);
