@@ -17,7 +17,7 @@ cd "$(dirname "$0")/.." || exit 1
 jobs=${JOBS:-2}
 copy=build/mutate
 tree=$copy/tree
-groups="allowance query prepared depth_memory growth boxes closed swept exact hull shape ellipsoid simd environment tools world world_manifolds solid_manifolds compound solid solid_body solid_files decompose motion smooth paper manifold table lanes floats batch io robot robot_read robot_solid robot_spheres robot_cover robot_table robot_compare ompl fcl adapters robot_cli robot_spheres_cli shard verify page report python python_solid decompose_watch robot_watch hostile hostile_cli packed contact_faces contact_python python_fcl python_swept"
+groups="allowance query prepared depth_memory growth gauss boxes closed swept exact hull shape ellipsoid simd environment tools world world_manifolds solid_manifolds compound solid solid_body solid_files decompose motion smooth paper manifold table lanes floats batch io robot robot_read robot_solid robot_spheres robot_cover robot_table robot_compare ompl fcl adapters robot_cli robot_spheres_cli shard verify page report python python_solid decompose_watch robot_watch hostile hostile_cli packed contact_faces contact_python python_fcl python_swept"
 
 # The tests of a group, fastest first; arguments after a colon.
 tests_of() {
@@ -29,6 +29,7 @@ tests_of() {
     prepared) echo "test_prepared test_environment" ;;
     depth_memory) echo "test_query_memory test_query_surface" ;;
     growth) echo "test_simd_epa8 test_judge_capacity $query" ;;
+    gauss) echo "test_query_gauss test_solid_contacts $query" ;;
     boxes) echo "test_simd_box_axes test_simd_box_separation test_query_boxes $query" ;;
     closed) echo "test_query_closed test_judge_closed test_query_batch test_prepared test_allowance test_query_boxes $query" ;;
     swept) echo "test_query_swept_minima test_query_swept" ;;

@@ -9,6 +9,7 @@
 #include "exact/cover_memory.h"
 #include "exact/epa.h"
 #include "exact/epa_lanes.h"
+#include "exact/gauss/gauss.h"
 #include "exact/gjk.h"
 #include "exact/inside.h"
 #include "exact/refine.h"
@@ -255,14 +256,35 @@ static int take_closed_depth(search *s, ovoid_cover *cover) {
     return !s->frame->is_true && (boxes_take_depth(s, cover) || inside_take_depth(s, cover));
 }
 
+// The depth of small polyhedra by their planes; where a cover is wanted, EPA grows it. So a depth has the same bits
+// with a cover and without, unless that surface shows less: then EPA's own bracket is taken.
+static int take_planes(search *s, ovoid_cover *cover) {
+    if (s->frame->is_true) return 0;
+    search before;
+    if (cover) before = *s;
+    if (!gauss_take_depth(s)) return 0;
+    if (!search_wants_cover(s, cover, s->upper) && !search_wants_start(s, cover)) return 1;
+    search grown = before;
+    // It begins with the face that is known to be the nearest.
+    simplex points = {.count = s->witness.count};
+    for (int i = 0; i < points.count; i++) points.p[i] = s->witness.p[i], points.weight[i] = s->witness.weight[i];
+    (void)epa_run(&grown, &points, 1, cover);
+    if (grown.kind == OVOID_PROOF_COVER && grown.upper <= s->upper) return 1;
+    *s = before;
+    return 0;
+}
+
 // GJK, then EPA where the cores touch or overlap and GJK cannot narrow the bracket. A depth query tries EPA first,
-// unless the cores are known to be apart.
-static void run_exact(search *s, simplex *start, ovoid_cover *cover) {
+// unless the cores are known to be apart. kept: a surface that a depth was to start from; it has bits of its own
+// anyway, and EPA has its cover sooner.
+static void run_exact(search *s, simplex *start, ovoid_cover *cover, const ovoid_cover *kept) {
     if (s->frame->is_true && frame_has_ellipsoid(s->frame) && cores_run(s)) return;
     int cores_apart = s->lower + s->frame->lower_radii > 0;
     // A depth of overlapping spheres begins without a simplex; the ellipsoids' cores may have parted the bodies since.
     if (cores_apart && start->count == 0) stage_support(s, s->normal, start);
-    if (s->goal.wants_depth && !cores_apart && (take_closed_depth(s, cover) || epa_run(s, start, 1, cover))) return;
+    if (s->goal.wants_depth && !cores_apart &&
+        (take_closed_depth(s, cover) || (!kept && take_planes(s, cover)) || epa_run(s, start, 1, cover)))
+        return;
     gjk_end end = gjk_run(s, start);
     if (end == GJK_ANSWERED) return;
     if (end == GJK_ITERATIONS) s->limit = OVOID_LIMIT_ITERATIONS;
@@ -302,7 +324,7 @@ COMPILER_NOINLINE static void find_sign(search *s) {
         return;
     }
     run_stages(&t, found.lower, NULL, &start);
-    if (!search_is_done(&t)) run_exact(&t, &start, NULL);
+    if (!search_is_done(&t)) run_exact(&t, &start, NULL, NULL);
     s->iterations += t.iterations;
     if (!(t.upper < 0)) return;
     s->upper = t.upper;
@@ -321,7 +343,7 @@ static void search_on(search *s, const ovoid_pair *pair) {
 }
 
 void answer_search(search *s, const ovoid_pair *pair, simplex *start) {
-    if (!search_is_done(s)) run_exact(s, start, NULL);
+    if (!search_is_done(s)) run_exact(s, start, NULL, NULL);
     search_on(s, pair);
 }
 
@@ -356,7 +378,7 @@ static void search_in_doubles(const open_query *q, const ovoid_proof *earlier, s
     search_make(s, q->placed.frame, q->placed.goal);
     if (s->frame->is_true && round_take_point(s)) return;
     run_stages(s, q->placed.sphere_gap, earlier, &start);
-    if (!search_is_done(s)) run_exact(s, &start, q->cover);
+    if (!search_is_done(s)) run_exact(s, &start, q->cover, q->kept);
 }
 
 // The query as it is without an earlier proof, from the beginning that the spheres left open.

@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "polytope/sphere.h"
 #include "shape/floats.h"
+#include "shape/gauss_map.h"
 #include "shape/loops.h"
 #include "simd/support.h"
 
@@ -27,6 +28,7 @@ block_offsets block_compute_offsets(block_counts c) {
     o.y = advance(&at, lane);
     o.z = advance(&at, lane);
     o.floats = advance(&at, shape_floats_get_size(c.vertices));
+    o.gauss = advance(&at, gauss_map_get_size(&c));
     o.vertices = advance(&at, (uint64_t)c.vertices * 3 * sizeof(double));
     o.planes = advance(&at, (uint64_t)c.facets * sizeof(ovoid_plane));
     o.triangles = advance(&at, (uint64_t)c.triangles * 3 * sizeof(uint32_t));
@@ -46,14 +48,14 @@ block_offsets block_compute_offsets(block_counts c) {
 // Clears the header and the padding between arrays, less than 64 bytes before each, so that equal shapes are equal
 // blocks.
 static void clear_padding(ovoid_shape *shape, const block_offsets *at) {
-    const uint64_t ends[] = {at->y,          at->z,         at->floats,          at->vertices,
-                             at->planes,     at->triangles, at->triangle_facets, at->neighbor_starts,
-                             at->neighbors,  at->cells,     at->edge_tails,      at->edge_facets,
-                             at->loop_starts};
+    const uint64_t ends[] = {at->y,      at->z,          at->floats,          at->gauss,           at->vertices,
+                             at->planes, at->triangles,  at->triangle_facets, at->neighbor_starts, at->neighbors,
+                             at->cells,  at->edge_tails, at->edge_facets,     at->loop_starts};
     memset(shape, 0, at->x);
     for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) memset((char *)shape + ends[i] - 64, 0, 64);
     memset((char *)shape + at->loop_starts, 0, at->size - at->loop_starts);
-    if (at->vertices > at->floats) memset((char *)shape + at->floats, 0, sizeof(float_shape));
+    if (at->gauss > at->floats) memset((char *)shape + at->floats, 0, sizeof(float_shape));
+    if (at->vertices > at->gauss) memset((char *)shape + at->gauss, 0, sizeof(gauss_map));
 }
 
 ovoid_shape *block_create(block_counts counts, const ovoid_allocator *given, ovoid_error *error) {

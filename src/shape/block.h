@@ -12,6 +12,7 @@
 typedef struct block_offsets {
     uint64_t x, y, z;         ///< vertices as structure of arrays, padded_count doubles each; padding repeats vertex 0
     uint64_t floats;          ///< float_shape (floats.h); none for bodies of many vertices
+    uint64_t gauss;           ///< gauss_map (gauss_map.h); none for bodies of many vertices
     uint64_t vertices;        ///< xyz, 3 vertex_count doubles
     uint64_t planes;          ///< ovoid_plane, facet_count
     uint64_t triangles;       ///< uint32, 3 triangle_count

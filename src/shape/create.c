@@ -13,6 +13,7 @@
 #include "polytope/hull.h"
 #include "shape/block.h"
 #include "shape/floats.h"
+#include "shape/gauss_map.h"
 #include "shape/loops.h"
 
 #include <string.h>
@@ -171,6 +172,7 @@ void shape_set_fits(ovoid_shape *shape, const ovoid_fit *outer, const ovoid_fit 
     shape->inner = inner->ellipsoid;
     shape->inside = make_inside(inner->ellipsoid.q, shape->rank);
     shape_floats_fill_ellipsoids(shape);
+    shape_gauss_map_fill(shape);
 }
 
 ovoid_shape *shape_create_block(const hull *polytope, const block_making *how, ovoid_error *error) {

@@ -13,6 +13,7 @@
 #include "simd/kernels/box_separation.h"
 #include "simd/kernels/epa8/epa8.h"
 #include "simd/kernels/extents.h"
+#include "simd/kernels/gauss/gauss.h"
 #include "simd/kernels/pair8.h"
 
 #include "simd/kernels/group_gjk.h"
@@ -38,6 +39,8 @@ LANES_TARGET void move8_run_avx2(const move8_places *from, const move8_errors *e
 }
 
 LANES_TARGET epa8_end epa8_grow_avx2(epa8 *s, const epa8_query *query) { return run_grow(s, query); }
+
+LANES_TARGET int gauss_find_avx2(const gauss_query *query, gauss_plane *out) { return run_gauss(query, out); }
 
 const group_gjk_kernels group_gjk_avx2 = {run_group_begin,   run_group_support, run_group_start,
                                           run_group_advance, run_group_finish,  run_group_measure};

@@ -37,6 +37,7 @@ static const float_gjk_kernels *const float_gjk_of[SIMD_ISA_COUNT] =
     KERNELS(&float_gjk_scalar, &float_gjk_avx2, &float_gjk_avx512);
 static const float_gjk_kernels *const float_gjk_alone_of[SIMD_ISA_COUNT] =
     KERNELS(&float_gjk_scalar, &float_gjk_alone, &float_gjk_alone);
+static gauss_function *const gauss_of[SIMD_ISA_COUNT] = KERNELS(gauss_find_scalar, gauss_find_avx2, gauss_find_avx512);
 static const group_gjk_kernels *const group_gjk_of[SIMD_ISA_COUNT] =
     KERNELS(&group_gjk_scalar, &group_gjk_avx2, &group_gjk_avx512);
 static const kept8_kernels *const kept8_of[SIMD_ISA_COUNT] = KERNELS(&kept8_scalar, &kept8_avx2, &kept8_avx512);
@@ -66,6 +67,7 @@ int box_separation_find(const box_separation_query *query, box_separation *out) 
     return box_separation_of[find_widest()](query, out);
 }
 epa8_end epa8_grow(epa8 *s, const epa8_query *query) { return epa8_of[find_widest()](s, query); }
+int gauss_find_plane(const gauss_query *query, gauss_plane *out) { return gauss_of[find_widest()](query, out); }
 simd_extents simd_find_extents(const simd_points *points, const mat3 *rows) {
     return extents_of[find_widest()](points, rows);
 }
@@ -105,6 +107,7 @@ areas_function *areas_get(simd_isa isa) { return has(isa) ? areas_of[isa] : NULL
 box_separation_function *box_separation_get(simd_isa isa) { return has(isa) ? box_separation_of[isa] : NULL; }
 box_axes_function *box_axes_get(simd_isa isa) { return has(isa) ? box_axes_of[isa] : NULL; }
 epa8_function *epa8_get(simd_isa isa) { return has(isa) ? epa8_of[isa] : NULL; }
+gauss_function *gauss_get(simd_isa isa) { return has(isa) ? gauss_of[isa] : NULL; }
 simd_extents_function *simd_get_extents(simd_isa isa) { return has(isa) ? extents_of[isa] : NULL; }
 const float_gjk_kernels *float_gjk_get_kernels_of(simd_isa isa) { return has(isa) ? float_gjk_of[isa] : NULL; }
 const group_gjk_kernels *group_gjk_get_kernels_of(simd_isa isa) { return has(isa) ? group_gjk_of[isa] : NULL; }

@@ -11,6 +11,7 @@
 #include "simd/kernels/box_separation.h"
 #include "simd/kernels/epa8/epa8.h"
 #include "simd/kernels/extents.h"
+#include "simd/kernels/gauss/gauss.h"
 #include "simd/kernels/pair8.h"
 
 #include "simd/kernels/group_gjk.h"
@@ -37,6 +38,8 @@ void move8_run_scalar(const move8_places *from, const move8_errors *errors, move
 }
 
 epa8_end epa8_grow_scalar(epa8 *s, const epa8_query *query) { return run_grow(s, query); }
+
+int gauss_find_scalar(const gauss_query *query, gauss_plane *out) { return run_gauss(query, out); }
 
 const group_gjk_kernels group_gjk_scalar = {run_group_begin,   run_group_support, run_group_start,
                                             run_group_advance, run_group_finish,  run_group_measure};

@@ -7,6 +7,7 @@
 #include "simd/box_axes.h"
 #include "simd/epa8.h"
 #include "simd/float_gjk.h"
+#include "simd/gauss.h"
 #include "simd/group_gjk.h"
 #include "simd/kept8.h"
 #include "simd/move8.h"
@@ -19,6 +20,7 @@ box_axes_function box_axes_find_scalar, box_axes_find_avx2, box_axes_find_avx512
 epa8_function epa8_grow_scalar, epa8_grow_avx2, epa8_grow_avx512;
 simd_extents_function extents_find_scalar, extents_find_avx2, extents_find_avx512;
 extern const float_gjk_kernels float_gjk_scalar, float_gjk_avx2, float_gjk_avx512, float_gjk_alone;
+gauss_function gauss_find_scalar, gauss_find_avx2, gauss_find_avx512;
 extern const group_gjk_kernels group_gjk_scalar, group_gjk_avx2, group_gjk_avx512;
 extern const kept8_kernels kept8_scalar, kept8_avx2, kept8_avx512;
 move8_function move8_run_scalar, move8_run_avx2, move8_run_avx512;
