@@ -144,7 +144,14 @@ static int search_circle(const profiles *q, int k, profile_turn at, profile_spot
     return 0;
 }
 
-static profile_turn find_start(const profiles *q, int k) { return profile_unit(q->s * q->along[1 - k], q->m); }
+// The direction of the circle that looks to the other body; of one that both sides cross, where the other circle has
+// its minimum, that.
+static profile_turn find_start(const profiles *q, int k, const profile_spot *found) {
+    if (found->kind != PROFILE_CROSSING) return profile_unit(q->s * q->along[1 - k], q->m);
+    const profile *f = &q->of[k];
+    const double c = (q->of[1 - k].sine - q->c * f->sine) * q->scale / f->cosine;
+    return (profile_turn){c, sqrt(max2(0, 1 - c * c))};
+}
 
 // ---- all
 
@@ -162,10 +169,10 @@ static void take_ends(const profiles *q, profile_spot *to) {
 }
 
 int profiles_find_spot(const profiles *q, profile_spot *to) {
-    profile_spot found;
+    profile_spot found = {.kind = PROFILE_END};
     take_ends(q, to);
     for (int k = 0; k < 2; k++) {
-        if (!search_circle(q, k, find_start(q, k), &found)) continue;
+        if (!search_circle(q, k, find_start(q, k, &found), &found)) continue;
         if (found.value < to->value) *to = found;
     }
     return to->value < INFINITY;

@@ -111,7 +111,20 @@ COMPILER_INLINED double cut(const profiles *q, int k, interval *x, const end_hei
     return kept;
 }
 
-static held hold_cell(revolved_search *s, const cell *of, int halves);
+// A cell with its heights, which hold it where their least ones together are not below `wanted`.
+typedef struct measured_cell {
+    cell of;
+    end_heights height[2];
+    double wanted;
+} measured_cell;
+
+COMPILER_INLINED void measure_cell(const profiles *q, measured_cell *c) {
+    const tangent line = find_tangent_of_cell(q, &c->of);
+    for (int k = 0; k < 2; k++) c->height[k] = find_heights(q, k, &c->of.of[k], &line);
+    c->wanted = q->low + line.most;
+}
+
+static held hold_cell(revolved_search *s, measured_cell *c, int halves);
 
 // NOLINTNEXTLINE(misc-no-recursion): no cell is halved more than MOST_HALVES times
 static held halve(revolved_search *s, const cell *c, int halves) {
@@ -128,27 +141,32 @@ static held halve(revolved_search *s, const cell *c, int halves) {
     }
     if (halves == 0) return OPEN;
     const int k = c->of[0].to - c->of[0].from < c->of[1].to - c->of[1].from;
-    cell half = *c;
-    half.of[k].to = middle[k], half.of[k].last = part[k];
-    const held of_first = hold_cell(s, &half, halves - 1);
-    if (of_first != HELD) return of_first;
-    half.of[k] = (interval){middle[k], c->of[k].to, part[k], c->of[k].last};
-    return hold_cell(s, &half, halves - 1);
+    measured_cell half[2] = {{.of = *c}, {.of = *c}};
+    half[0].of.of[k].to = half[1].of.of[k].from = middle[k];
+    half[0].of.of[k].last = half[1].of.of[k].first = part[k];
+    // Both before one is asked: neither waits for the other.
+    for (int i = 0; i < 2; i++) measure_cell(q, &half[i]);
+    const held of_first = hold_cell(s, &half[0], halves - 1);
+    return of_first == HELD ? hold_cell(s, &half[1], halves - 1) : of_first;
 }
 
 // NOLINTNEXTLINE(misc-no-recursion)
-static held hold_cell(revolved_search *s, const cell *of, int halves) {
+static held hold_cell(revolved_search *s, measured_cell *c, int halves) {
     const profiles *q = &s->q;
-    cell c = *of;
-    while (s->left-- > 0) {
-        const tangent line = find_tangent_of_cell(q, &c);
-        const end_heights a = find_heights(q, 0, &c.of[0], &line), b = find_heights(q, 1, &c.of[1], &line);
-        const double wanted = q->low + line.most;
-        if (a.least + b.least >= wanted) return HELD;
-        const double kept = cut(q, 0, &c.of[0], &a, wanted - b.least) * cut(q, 1, &c.of[1], &b, wanted - a.least);
-        if (kept > KEPT) return halve(s, &c, halves);
+    for (;;) {
+        const end_heights *a = &c->height[0], *b = &c->height[1];
+        if (a->least + b->least >= c->wanted) return HELD;
+        if (s->left-- <= 0) return OPEN;
+        const double kept =
+            cut(q, 0, &c->of.of[0], a, c->wanted - b->least) * cut(q, 1, &c->of.of[1], b, c->wanted - a->least);
+        if (kept > KEPT) return halve(s, &c->of, halves);
+        measure_cell(q, c);
     }
-    return OPEN;
+}
+
+static int is_held_by(const profiles *q, const cell *c, const tangent *line) {
+    const end_heights a = find_heights(q, 0, &c->of[0], line), b = find_heights(q, 1, &c->of[1], line);
+    return a.least + b.least >= q->low + line->most;
 }
 
 // The cells of a box: the kinks divide it.
@@ -162,18 +180,20 @@ static held hold_box(revolved_search *s, double a0, double a1, double b0, double
         if (count[k] == 2) at[k][1] = kink;
         for (int i = 0; i <= count[k]; i++) part[k][i] = profile_find_part(&s->q, k, at[k][i]);
     }
+    measured_cell cells[4];
+    int open = 0;
     for (int i = 0; i < count[0] * count[1]; i++) {
         const int k = i % count[0], l = i / count[0];
-        const cell c = {{{at[0][k], at[0][k + 1], part[0][k], part[0][k + 1]},
-                         {at[1][l], at[1][l + 1], part[1][l], part[1][l + 1]}}};
-        if (s->has_line &&
-            find_heights(&s->q, 0, &c.of[0], &s->line).least + find_heights(&s->q, 1, &c.of[1], &s->line).least >=
-                s->q.low + s->line.most)
-            continue;
-        const held is = hold_cell(s, &c, MOST_HALVES);
-        if (is != HELD) return is;
+        measured_cell *c = &cells[open];
+        c->of = (cell){{{at[0][k], at[0][k + 1], part[0][k], part[0][k + 1]},
+                        {at[1][l], at[1][l + 1], part[1][l], part[1][l + 1]}}};
+        if (s->has_line && is_held_by(&s->q, &c->of, &s->line)) continue;
+        measure_cell(&s->q, c);
+        open++;
     }
-    return HELD;
+    held is = HELD;
+    for (int i = 0; i < open && is == HELD; i++) is = hold_cell(s, &cells[i], MOST_HALVES);
+    return is;
 }
 
 static held hold_around(revolved_search *s, const box *all, const box *inner) {
