@@ -56,8 +56,8 @@ int profiles_make(const cores *p, double tolerance, profiles *q) {
     return 1;
 }
 
-vec3 profiles_find_direction(const profiles *q, const double y[2]) {
-    const double t = (y[1] - q->c * y[0]) * q->scale, x = sqrt(max2(0, 1 - y[0] * y[0] - t * t));
+vec3 profiles_find_direction(const profiles *q, const double y[2], double x) {
+    const double t = (y[1] - q->c * y[0]) * q->scale;
     return vec3_unit(vec3_add_scaled(vec3_add_scaled(vec3_scale(q->u, y[0]), q->t, t), q->w, x));
 }
 
@@ -116,8 +116,8 @@ static int take_circle(const circle *o, profile_turn at, double b, int is_crossi
     const double a = q->of[o->k].sine;
     to->kind = is_crossing ? PROFILE_CROSSING : PROFILE_SIDE;
     to->k = o->k, to->is_up = o->is_up, to->at = at;
-    to->y[o->k] = a, to->y[1 - o->k] = b;
-    to->value = profile_find_part(q, o->k, a) + profile_find_part(q, 1 - o->k, b) - q->m * q->of[o->k].cosine * at.s;
+    to->y[o->k] = a, to->y[1 - o->k] = b, to->x = q->of[o->k].cosine * at.s;
+    to->value = profile_find_part(q, o->k, a) + profile_find_part(q, 1 - o->k, b) - q->m * to->x;
     return 1;
 }
 
@@ -144,14 +144,8 @@ static int search_circle(const profiles *q, int k, profile_turn at, profile_spot
     return 0;
 }
 
-// The direction of the circle that looks to the other body; of one that both sides cross, where the other circle has
-// its minimum, that.
-static profile_turn find_start(const profiles *q, int k, const profile_spot *found) {
-    if (found->kind != PROFILE_CROSSING) return profile_unit(q->s * q->along[1 - k], q->m);
-    const profile *f = &q->of[k];
-    const double c = (q->of[1 - k].sine - q->c * f->sine) * q->scale / f->cosine;
-    return (profile_turn){c, sqrt(max2(0, 1 - c * c))};
-}
+// The direction of the circle that looks to the other body.
+static profile_turn find_start(const profiles *q, int k) { return profile_unit(q->s * q->along[1 - k], q->m); }
 
 // ---- all
 
@@ -164,15 +158,15 @@ static void take_ends(const profiles *q, profile_spot *to) {
         to->k = k, to->is_up = is_up;
         to->value = q->end[k][is_up].value;
         to->y[k] = is_up ? 1 : -1;
-        to->y[1 - k] = to->y[k] * q->c;
+        to->y[1 - k] = to->y[k] * q->c, to->x = 0;
     }
 }
 
 int profiles_find_spot(const profiles *q, profile_spot *to) {
-    profile_spot found = {.kind = PROFILE_END};
+    profile_spot found;
     take_ends(q, to);
     for (int k = 0; k < 2; k++) {
-        if (!search_circle(q, k, find_start(q, k, &found), &found)) continue;
+        if (!search_circle(q, k, find_start(q, k), &found)) continue;
         if (found.value < to->value) *to = found;
     }
     return to->value < INFINITY;

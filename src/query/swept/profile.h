@@ -55,7 +55,7 @@ typedef struct profile_spot {
     int k;           ///< the body whose end or side it is
     int is_up;       ///< END: along the axis; SIDE: above the other body's kink
     profile_turn at; ///< SIDE: on the circle, from the nearest direction to the other body's axis
-    double y[2];     ///< a and b
+    double y[2], x;  ///< a and b, and x
     double value;
 } profile_spot;
 
@@ -84,8 +84,8 @@ static inline profile_turn profile_unit(double c, double s) {
 /// 0 if these coordinates do not serve: the axes are nearly parallel, or nearly in one plane.
 int profiles_make(const cores *p, double tolerance, profiles *q);
 
-/// The unit direction of a and b, on the side of B.
-vec3 profiles_find_direction(const profiles *q, const double y[2]);
+/// The unit direction of a, b and x.
+vec3 profiles_find_direction(const profiles *q, const double y[2], double x);
 
 /// The least overlap along the ends and on the circles across the sides, from where they look to the other body.
 int profiles_find_spot(const profiles *q, profile_spot *to);

@@ -34,6 +34,8 @@ enum { MOST_CELLS = 100, MOST_HALVES = 14, MOST_SPOTS = 4, EXTENTS = 6, BOWLS = 
 #define OFF_EDGE 0.1
 // A slope that is none, as a part of the size.
 #define LEVEL 1e-14
+// How far beside an end a search begins.
+#define BESIDE 0.2
 // No end is looked at nearer than that.
 #define LEAST_END 0x1p-12
 
@@ -388,6 +390,13 @@ static int set_points(const cores *p, const revolved_search *s, least_overlap *a
     return fabs(at->value - spot->value) <= doubt && !points_move_in(p->a, &at->on_a, doubt);
 }
 
+// A direction beside an end that is no minimum, on the side on which the overlap falls.
+static vec3 leave_end(const cores *p, int k, vec3 n) {
+    const overlap_ends ends = cores_find_ends(p, n);
+    const vec3 way = k == 0 ? vec3_add(ends.on_b, p->d) : vec3_sub(p->d, ends.on_a);
+    return vec3_unit(vec3_add_scaled(n, vec3_unit(vec3_add_scaled(way, n, -vec3_dot(way, n))), BESIDE));
+}
+
 static int is_revolved(const ovoid_swept_sphere *s) {
     return s->core == OVOID_SWEPT_CYLINDER || s->core == OVOID_SWEPT_CONE;
 }
@@ -407,8 +416,9 @@ int cores_search_revolved(const cores *p, double tolerance, least_overlap *at) {
         is = hold(&s);
         if (is != LOWER || !profiles_find_spot_near(q, s.y, q->low, &s.spot)) break;
     }
-    at->of.n = profiles_find_direction(q, is == LOWER ? s.y : s.spot.y);
+    at->of.n = profiles_find_direction(q, s.spot.y, s.spot.x);
     if (is == HELD && set_points(p, &s, at)) return 1;
+    if (s.spot.kind == PROFILE_END) at->of.n = leave_end(p, s.spot.k, at->of.n);
     at->value = vec3_dot(at->of.n, cores_find_ends(p, at->of.n).v);
     return 0;
 }
