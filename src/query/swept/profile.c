@@ -178,7 +178,10 @@ int profiles_find_spot_near(const profiles *q, const double y[2], double most, p
         const int k = (fabs(y[1] - q->of[1].sine) < fabs(y[0] - q->of[0].sine)) ^ i;
         const profile *f = &q->of[k];
         const double c = (y[1 - k] - q->c * f->sine) * q->scale / f->cosine, cut = max2(-0.999, min2(0.999, c));
-        if (search_circle(q, k, (profile_turn){cut, sqrt(1 - cut * cut)}, to) && to->value < most) return 1;
+        profile_spot found;
+        if (!search_circle(q, k, (profile_turn){cut, sqrt(1 - cut * cut)}, &found) || found.value >= most) continue;
+        *to = found;
+        return 1;
     }
     return 0;
 }

@@ -39,8 +39,6 @@ enum { MOST_CELLS = 100, MOST_HALVES = 14, MOST_SPOTS = 4, EXTENTS = 6, BOWLS = 
 // No end is looked at nearer than that.
 #define LEAST_END 0x1p-12
 
-typedef enum held { HELD, OPEN, LOWER } held;
-
 // From end[k][0] to end[k][1].
 typedef struct box {
     double end[2][2];
@@ -52,8 +50,7 @@ typedef struct tangent {
 } tangent;
 
 typedef struct revolved_search {
-    profiles q;
-    profile_spot spot;
+    const profiles *q;
     int left;     ///< cells that may be looked at
     double y[2];  ///< of what is lower
     tangent line; ///< at the spot
@@ -130,7 +127,7 @@ static held hold_cell(revolved_search *s, measured_cell *c, int halves);
 
 // NOLINTNEXTLINE(misc-no-recursion): no cell is halved more than MOST_HALVES times
 static held halve(revolved_search *s, const cell *c, int halves) {
-    const profiles *q = &s->q;
+    const profiles *q = s->q;
     double middle[2], part[2];
     for (int k = 0; k < 2; k++) {
         middle[k] = 0.5 * (c->of[k].from + c->of[k].to);
@@ -154,7 +151,7 @@ static held halve(revolved_search *s, const cell *c, int halves) {
 
 // NOLINTNEXTLINE(misc-no-recursion)
 static held hold_cell(revolved_search *s, measured_cell *c, int halves) {
-    const profiles *q = &s->q;
+    const profiles *q = s->q;
     for (;;) {
         const end_heights *a = &c->height[0], *b = &c->height[1];
         if (a->least + b->least >= c->wanted) return HELD;
@@ -177,10 +174,10 @@ static held hold_box(revolved_search *s, double a0, double a1, double b0, double
     double at[2][3] = {{a0, a1, a1}, {b0, b1, b1}}, part[2][3];
     int count[2];
     for (int k = 0; k < 2; k++) {
-        const double kink = s->q.of[k].sine;
+        const double kink = s->q->of[k].sine;
         count[k] = at[k][0] < kink && kink < at[k][1] ? 2 : 1;
         if (count[k] == 2) at[k][1] = kink;
-        for (int i = 0; i <= count[k]; i++) part[k][i] = profile_find_part(&s->q, k, at[k][i]);
+        for (int i = 0; i <= count[k]; i++) part[k][i] = profile_find_part(s->q, k, at[k][i]);
     }
     measured_cell cells[4];
     int open = 0;
@@ -189,8 +186,8 @@ static held hold_box(revolved_search *s, double a0, double a1, double b0, double
         measured_cell *c = &cells[open];
         c->of = (cell){{{at[0][k], at[0][k + 1], part[0][k], part[0][k + 1]},
                         {at[1][l], at[1][l + 1], part[1][l], part[1][l + 1]}}};
-        if (s->has_line && is_held_by(&s->q, &c->of, &s->line)) continue;
-        measure_cell(&s->q, c);
+        if (s->has_line && is_held_by(s->q, &c->of, &s->line)) continue;
+        measure_cell(s->q, c);
         open++;
     }
     held is = HELD;
@@ -348,15 +345,16 @@ static int hold_side(const profiles *q, const profile_spot *spot, const box *all
 
 // ---- all
 
-static held hold(revolved_search *s) {
-    const profiles *q = &s->q;
-    const profile_spot *spot = &s->spot;
+held revolved_hold(profiles *q, const profile_spot *spot, double lower[2]) {
+    revolved_search s = {.q = q, .left = MOST_CELLS};
+    q->value = spot->value;
+    q->low = spot->value - 0.5 * q->tolerance;
+    if (!(q->low > 0)) return OPEN;
     const box all = find_box(q);
     box inner = {{{all.end[0][1], all.end[0][1]}, {all.end[1][1], all.end[1][1]}}};
-    s->left = MOST_CELLS;
     const double t = (spot->y[1] - q->c * spot->y[0]) * q->scale;
-    s->has_line = spot->kind != PROFILE_END && 1 - (spot->y[0] * spot->y[0] + t * t) > q->least_square;
-    if (s->has_line) s->line = find_tangent(q, spot->y[0], spot->y[1], q->least_square);
+    s.has_line = spot->kind != PROFILE_END && 1 - (spot->y[0] * spot->y[0] + t * t) > q->least_square;
+    if (s.has_line) s.line = find_tangent(q, spot->y[0], spot->y[1], q->least_square);
     switch (spot->kind) {
     case PROFILE_END:
         if (fabs(all.end[spot->k][spot->is_up]) >= 1) return OPEN;
@@ -365,15 +363,16 @@ static held hold(revolved_search *s) {
         if (!hold_side(q, spot, &all, &inner)) return OPEN;
         break;
     case PROFILE_CROSSING:
-        if (!s->has_line || !hold_crossing(q, &s->line, &all, &inner)) return OPEN;
+        if (!s.has_line || !hold_crossing(q, &s.line, &all, &inner)) return OPEN;
         break;
     }
-    return hold_around(s, &all, &inner);
+    const held is = hold_around(&s, &all, &inner);
+    lower[0] = s.y[0], lower[1] = s.y[1];
+    return is;
 }
 
 // The points, of which those are chosen that are one above the other.
-static int set_points(const cores *p, const revolved_search *s, least_overlap *at) {
-    const profile_spot *spot = &s->spot;
+static int set_points(const cores *p, const profile_spot *spot, least_overlap *at) {
     const vec3 n = at->of.n;
     const overlap_ends ends = cores_find_ends(p, n);
     const double doubt = FRAME_REJECT * p->size;
@@ -404,21 +403,19 @@ static int is_revolved(const ovoid_swept_sphere *s) {
 int cores_are_revolved(const cores *p) { return is_revolved(p->a) && is_revolved(p->b); }
 
 int cores_search_revolved(const cores *p, double tolerance, least_overlap *at) {
-    revolved_search s;
-    profiles *q = &s.q;
+    profiles q;
+    profile_spot spot;
     held is = OPEN;
     at->value = INFINITY;
-    if (!profiles_make(p, tolerance, q) || !profiles_find_spot(q, &s.spot)) return 0;
+    if (!profiles_make(p, tolerance, &q) || !profiles_find_spot(&q, &spot)) return 0;
     for (int i = 0; i < MOST_SPOTS; i++) {
-        q->value = s.spot.value;
-        q->low = q->value - 0.5 * tolerance;
-        if (!(q->low > 0)) return 0;
-        is = hold(&s);
-        if (is != LOWER || !profiles_find_spot_near(q, s.y, q->low, &s.spot)) break;
+        double lower[2];
+        is = revolved_hold(&q, &spot, lower);
+        if (is != LOWER || !profiles_find_spot_near(&q, lower, q.low, &spot)) break;
     }
-    at->of.n = profiles_find_direction(q, s.spot.y, s.spot.x);
-    if (is == HELD && set_points(p, &s, at)) return 1;
-    if (s.spot.kind == PROFILE_END) at->of.n = leave_end(p, s.spot.k, at->of.n);
+    at->of.n = profiles_find_direction(&q, spot.y, spot.x);
+    if (is == HELD && set_points(p, &spot, at)) return 1;
+    if (spot.kind == PROFILE_END) at->of.n = leave_end(p, spot.k, at->of.n);
     at->value = vec3_dot(at->of.n, cores_find_ends(p, at->of.n).v);
     return 0;
 }

@@ -116,6 +116,23 @@ static double sample_minima(const cores *p, uint64_t *r) {
     return least;
 }
 
+/// A local minimum that is shown to be the least of all is that, whatever it is: a search would not take most of these.
+static void check_spots(const cores *p, double least, uint64_t *r, int count[2]) {
+    profiles q;
+    if (!profiles_make(p, 1e-13 * p->size, &q)) return;
+    for (int i = 0; i < 8; i++) {
+        const int k = i >> 1 & 1, is_up = i & 1;
+        const double sign = is_up ? 1 : -1;
+        profile_spot spot = {PROFILE_END, k, is_up, {0, 0}, {sign, sign}, 0, q.end[k][is_up].value};
+        spot.y[1 - k] *= q.c;
+        double lower[2] = {random_uniform(r, -1, 1), random_uniform(r, -1, 1)};
+        if (i > 3 && !profiles_find_spot_near(&q, lower, INFINITY, &spot)) continue;
+        const int is_held = revolved_hold(&q, &spot, lower) == HELD;
+        count[is_held]++;
+        if (is_held) CHECK_LE(spot.value, least + 1e-12 * p->size);
+    }
+}
+
 /// Of a search that says that it found the least overlap of all: the cores, the tolerance, and the overlap.
 typedef int overlap_function(const cores *p, double tolerance, least_overlap *at);
 
@@ -160,7 +177,7 @@ static ovoid_swept_sphere make_revolved(uint64_t *r) {
 }
 
 static void check_revolved_pairs(uint64_t *r) {
-    int count[3] = {0, 0, 0};
+    int count[3] = {0, 0, 0}, spots[2] = {0, 0};
     for (int i = 0; i < REVOLVED_PAIRS; i++) {
         ovoid_swept_sphere a = make_revolved(r), b = make_revolved(r);
         const vec3 d = random_vec3(r, i & 1 ? 0.5 : 1);
@@ -170,10 +187,14 @@ static void check_revolved_pairs(uint64_t *r) {
         const cores p = {&a, &b, d, 4 + vec3_norm(d)};
         CHECK(cores_are_revolved(&p));
         count[1 + check_search(&p, cores_search_revolved, r)]++;
+        const double least = sample_minima(&p, r);
+        if (least > 0.01) check_spots(&p, least, r, spots);
     }
     // Most of those that overlap are found.
     CHECK_LE(REVOLVED_PAIRS / 3, count[2]);
     CHECK_LE(3 * count[0], count[2]);
+    CHECK_LE(REVOLVED_PAIRS / 3, spots[0]);
+    CHECK_LE(REVOLVED_PAIRS / 3, spots[1]);
 }
 
 int main(void) {
