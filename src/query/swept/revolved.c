@@ -281,7 +281,7 @@ static double find_bend(const profiles *q, double a, double b, double rim, doubl
 }
 
 // Is h no less than at the minimum between that and another direction of the circle? The radius of curvature is
-// monotone there, so that h - r is convex from the minimum on, and then concave.
+// monotone there, so that h - r is convex from the minimum on, as it is at that, and then concave.
 static int is_bowl(const arc *r, profile_turn at) {
     const profiles *q = r->q;
     const profile_spot *spot = r->spot;
@@ -291,7 +291,6 @@ static int is_bowl(const arc *r, profile_turn at) {
     const double rim = profile_find_rim(&q->of[other], spot->is_up), part = profile_find_part(q, k, a),
                  height = profile_find_height(&q->of[other], spot->is_up) - q->along[other],
                  left = q->value - part - height * (a * c);
-    if (find_bend(q, a, b, rim, left) < 0) return 0;
     return find_bend(q, a, end, rim, left) >= 0 ||
            part + profile_find_part(q, other, end) - q->m * q->of[k].cosine * at.s >= q->value;
 }
