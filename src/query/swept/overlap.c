@@ -5,6 +5,8 @@
 // - two such balls are larger together than the overlap;
 // - a polytope in the difference body holds a ball of that radius (query/swept/enclose.c); where its faces become
 //   slivers, directions are divided until none is open (query/swept/divide.c).
+// A cylinder or a cone with a box (query/swept/circles.c) or with another one (query/swept/revolved.c) has a proof of
+// its own, which comes before these.
 #include "query/swept/overlap.h"
 
 #include "query/swept/circles.h"
