@@ -1,11 +1,17 @@
 // Minima of the overlap of two bodies of revolution (query/swept/profile.h) along the axes of their ends, and on the
 // circles of directions across their sides: in closed form, and by Newton's method for the angle around the axis.
+//
+// Where the axes are parallel and D is how far apart they are, h(n) is at least A(a) + B(a) - d.u a - D rho, which it
+// is where n is in the plane of the axes. By the angle of n with the axis each piece of that is a sine, which bends
+// down where it is above 0: the least h of bodies that overlap is at an end or at a kink.
 #include "query/swept/profile.h"
 
 enum { MOST_STEPS = 14 };
 // The least sine of the axes, and how far the centres are to be apart across both axes, as a part of the size.
 #define LEAST_SINE 0x1p-4
 #define LEAST_ACROSS 0x1p-20
+// Axes that are that near to one another are parallel.
+#define PARALLEL 0x1p-44
 // A slope that is none, as a part of the size, and the longest step.
 #define LEVEL 1e-14
 #define LONGEST 0.7
@@ -54,6 +60,30 @@ int profiles_make(const cores *p, double tolerance, profiles *q) {
     q->of[0] = make_profile(p->a), q->of[1] = make_profile(p->b);
     for (int i = 0; i < 4; i++) q->end[i >> 1][i & 1] = make_end(q, i >> 1, i & 1);
     return 1;
+}
+
+int profiles_search_parallel(const cores *p, profile_spot *to, vec3 *n) {
+    const vec3 u = p->a->axis[0], v = vec3_neg(p->b->axis[0]);
+    const double sign = copysign(1, vec3_dot(u, v)), along = vec3_dot(p->d, u);
+    if (!(vec3_norm(vec3_add_scaled(v, u, -sign)) <= PARALLEL)) return 0;
+    const profile of[2] = {make_profile(p->a), make_profile(p->b)};
+    const vec3 off = patch_find_across(u, p->d, along, vec3_norm_squared(p->d));
+    const double apart = vec3_norm(off), at[4] = {-1, 1, of[0].sine, sign * of[1].sine},
+                 rho[4] = {0, 0, of[0].cosine, of[1].cosine};
+    int least = 0;
+    to->value = INFINITY;
+    for (int i = 0; i < 4; i++) {
+        const double reach =
+                         profile_find_reach(&of[0], at[i], rho[i]) + profile_find_reach(&of[1], sign * at[i], rho[i]),
+                     value = reach - along * at[i] - apart * rho[i];
+        if (value < to->value) to->value = value, least = i;
+    }
+    // What has an end there, or a side; A has no end at the apex of a cone.
+    to->kind = least < 2 ? PROFILE_END : PROFILE_SIDE;
+    to->k = least == 3 || (least == 1 && of[0].is_cone);
+    *n = vec3_unit(vec3_add_scaled(vec3_scale(apart > 0 ? vec3_scale(off, 1 / apart) : vec3_orthogonal(u), rho[least]),
+                                   u, at[least]));
+    return to->value > 0;
 }
 
 vec3 profiles_find_direction(const profiles *q, const double y[2], double x) {

@@ -61,10 +61,14 @@ typedef struct profile_spot {
 
 static inline double profile_find_rho(double a) { return sqrt(max2(0, (1 - a) * (1 + a))); }
 
+/// How far a body reaches along a unit direction, which has those parts along its axis and across it.
+COMPILER_INLINED double profile_find_reach(const profile *f, double a, double rho) {
+    const double rim = f->radius * rho, along = f->height * a;
+    return f->is_cone ? max2(along, rim - along) : fabs(along) + rim;
+}
+
 COMPILER_INLINED double profile_find_part(const profiles *q, int k, double a) {
-    const profile *f = &q->of[k];
-    const double rim = f->radius * profile_find_rho(a), along = f->height * a;
-    return (f->is_cone ? max2(along, rim - along) : fabs(along) + rim) - q->along[k] * a;
+    return profile_find_reach(&q->of[k], a, profile_find_rho(a)) - q->along[k] * a;
 }
 
 /// The radius of a piece's rim, 0 of an apex, and how far it is along the axis.
@@ -83,6 +87,10 @@ static inline profile_turn profile_unit(double c, double s) {
 
 /// 0 if these coordinates do not serve: the axes are nearly parallel, or nearly in one plane.
 int profiles_make(const cores *p, double tolerance, profiles *q);
+
+/// The least overlap of bodies whose axes are parallel, to 512 u of the size, and its direction; 0 if they are not, or
+/// the bodies are apart.
+int profiles_search_parallel(const cores *p, profile_spot *to, vec3 *n);
 
 /// The unit direction of a, b and x.
 vec3 profiles_find_direction(const profiles *q, const double y[2], double x);

@@ -406,7 +406,12 @@ int cores_search_revolved(const cores *p, double tolerance, least_overlap *at) {
     profile_spot spot;
     held is = OPEN;
     at->value = INFINITY;
-    if (!profiles_make(p, tolerance, &q) || !profiles_find_spot(&q, &spot)) return 0;
+    if (!profiles_make(p, tolerance, &q)) {
+        if (profiles_search_parallel(p, &spot, &at->of.n) && set_points(p, &spot, at)) return 1;
+        at->value = INFINITY;
+        return 0;
+    }
+    if (!profiles_find_spot(&q, &spot)) return 0;
     for (int i = 0; i < MOST_SPOTS; i++) {
         double lower[2];
         is = revolved_hold(&q, &spot, lower);

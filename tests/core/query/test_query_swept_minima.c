@@ -180,9 +180,10 @@ static void check_revolved_pairs(uint64_t *r) {
     int count[3] = {0, 0, 0}, spots[2] = {0, 0};
     for (int i = 0; i < REVOLVED_PAIRS; i++) {
         ovoid_swept_sphere a = make_revolved(r), b = make_revolved(r);
-        const vec3 d = random_vec3(r, i & 1 ? 0.5 : 1);
-        // Of some the axes are nearly parallel, or the centres nearly in one plane with both.
+        const vec3 d = i % 32 == 29 ? vec3_scale(a.axis[0], random_uniform(r, -1, 1)) : random_vec3(r, i & 1 ? 0.5 : 1);
+        // Of some the axes are parallel, or one, or nearly parallel; or the centres are nearly in one plane with both.
         if (i % 8 == 1) b.axis[0] = vec3_unit(vec3_add_scaled(a.axis[0], b.axis[0], 0.1));
+        if (i % 8 == 5) b.axis[0] = i & 8 ? a.axis[0] : vec3_neg(a.axis[0]);
         if (i % 8 == 3) b.axis[0] = vec3_unit(vec3_add_scaled(vec3_add_scaled(d, a.axis[0], 0.5), b.axis[0], 1e-3));
         const cores p = {&a, &b, d, 4 + vec3_norm(d)};
         CHECK(cores_are_revolved(&p));
