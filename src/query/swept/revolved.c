@@ -4,7 +4,8 @@
 //   as it is at the other body's deepest point alone: up to an angle in closed form. What is left is a box of a and b.
 // - A cell, a box of a and b with a piece of each body. For any z = t n_0, t = m / x_0, m x <= t - t (n_0 - x_0 w).n,
 //   which is linear in a and b. The P are concave there, so that the sum is least at corners of the cell: 4 products.
-//   Where one end of each alone leaves it open, the chord cuts off what is closed; else the cell is halved.
+//   To that comes as much of the square below as leaves the P concave, R / 2 da^2 of a rim of radius R at most. Where
+//   one end of each alone leaves it open, the chord cuts off what is closed; else the cell is halved.
 // - Around a crossing, where both sides have a line of farthest points: to the line above comes (t / 2) |n - n_0|^2,
 //   which is no less than t / (2 (1 + |c|)) (da^2 + db^2). Each P with that and its line bends up to an |a|, and down
 //   beyond, so that it is least in the middle or at an end.
@@ -36,7 +37,8 @@ enum { MOST_CELLS = 100, MOST_HALVES = 14, MOST_SPOTS = 4, EXTENTS = 6, BOWLS = 
 #define LEVEL 1e-14
 // How far beside an end a search begins.
 #define BESIDE 0.2
-// No end is looked at nearer than that.
+// An end shows nothing up to an angle whose cosine is nearer to 1: its sine is at least 0.02, so that a rounded cosine
+// is one of an angle where h is off by 200 u s at most.
 #define LEAST_END 0x1p-12
 
 // From end[k][0] to end[k][1].
