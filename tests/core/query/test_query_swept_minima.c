@@ -176,6 +176,14 @@ static ovoid_swept_sphere make_revolved(uint64_t *r) {
     return s;
 }
 
+/// Of parallel axes nothing is left open: the cores are apart along the direction that is found.
+static void check_apart(const cores *p) {
+    profile_spot spot;
+    vec3 n;
+    CHECK(!profiles_search_parallel(p, &spot, &n));
+    CHECK_LE(measure(p, n), 0);
+}
+
 static void check_revolved_pairs(uint64_t *r) {
     int count[3] = {0, 0, 0}, spots[2] = {0, 0};
     for (int i = 0; i < REVOLVED_PAIRS; i++) {
@@ -187,7 +195,9 @@ static void check_revolved_pairs(uint64_t *r) {
         if (i % 8 == 3) b.axis[0] = vec3_unit(vec3_add_scaled(vec3_add_scaled(d, a.axis[0], 0.5), b.axis[0], 1e-3));
         const cores p = {&a, &b, d, 4 + vec3_norm(d)};
         CHECK(cores_are_revolved(&p));
-        count[1 + check_search(&p, cores_search_revolved, r)]++;
+        const int is_found = check_search(&p, cores_search_revolved, r);
+        count[1 + is_found]++;
+        if (i % 8 == 5 && is_found < 0) check_apart(&p);
         const double least = sample_minima(&p, r);
         if (least > 0.01) check_spots(&p, least, r, spots);
     }
