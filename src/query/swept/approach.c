@@ -131,6 +131,8 @@ ovoid_verdict swept_approach(const swept_placed *p, swept_question asked, ovoid_
         if (asked & OF_CONTACT) return swept_measure_overlap(p, witness);
         return answer_overlap(p, vec3_add(p->a->center, found.point_a), found.normal, witness);
     case SWEPT_NEAREST: return swept_answer(p, asked, &found, tolerance, witness);
-    default: return swept_undecided;
+    // Of bodies that lie in a plane with their centres no simplex is around the origin, though they may overlap. That
+    // has no common point, which a distance wants, and a depth has an answer only where a distance has one.
+    default: return asked == OF_CONTACT ? swept_measure_overlap(p, witness) : swept_undecided;
     }
 }

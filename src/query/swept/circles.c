@@ -25,7 +25,7 @@
 // arcs' proofs add the slope that is left.
 #include "query/swept/circles.h"
 
-#include "query/swept/pair.h"
+#include "query/swept/points.h"
 
 // Halves of an arc, and steps to a minimum.
 enum { MOST_HALVES = 12, MOST_STEPS = 24 };
@@ -320,27 +320,6 @@ static int search_circles(box_and_round *q) {
 
 // ---- the points
 
-// Where an edge of the box crosses the side of the round body: that body's point, of a point on the same line of the
-// side and one of the edge, both from its centre.
-static vec3 find_crossing(const ovoid_swept_sphere *round, vec3 edge, vec3 n, vec3 on_round, vec3 on_edge) {
-    const vec3 axis = round->axis[0], back = vec3_neg(n);
-    vec3 along = axis;
-    if (round->core == OVOID_SWEPT_CONE) {
-        const vec3 out = vec3_unit(vec3_add_scaled(back, axis, -vec3_dot(axis, back)));
-        along = vec3_add_scaled(vec3_scale(axis, 2 * round->half[0]), out, -round->half[1]);
-    }
-    const vec3 across = vec3_cross(edge, n);
-    return vec3_add_scaled(on_round, along, vec3_dot(across, vec3_sub(on_edge, on_round)) / vec3_dot(across, along));
-}
-
-// Moves a point beside a core to the nearest one of it. 0 if it is in it.
-static int move_in(const ovoid_swept_sphere *core, vec3 *y, double doubt) {
-    const swept_way_out out = swept_leave_core(core, *y);
-    if (out.is_inside || out.depth > 0 || out.distance <= doubt) return 0;
-    *y = vec3_sub(*y, out.off);
-    return 1;
-}
-
 // The direction in the world, the overlap along it and its points. 0 if these are not found.
 static int set_points(const cores *p, const box_and_round *q, least_overlap *at) {
     const int is_box_b = p->b->core == OVOID_SWEPT_BOX;
@@ -354,16 +333,18 @@ static int set_points(const cores *p, const box_and_round *q, least_overlap *at)
     at->value = vec3_dot(at->of.n, ends.v);
     const vec3 opposite = vec3_sub(vec3_add_scaled(on_edge, n, -at->value), center);
     if (q->free == FREE_ROUND) on_round = opposite;
-    if (q->free == FREE_BOTH) on_round = find_crossing(round, box->axis[q->edge], n, on_round, opposite);
+    if (q->free == FREE_BOTH)
+        on_round =
+            points_find_crossing(on_round, points_find_line(round, vec3_neg(n)), opposite, box->axis[q->edge], n);
     const vec3 between = vec3_add_scaled(center, n, at->value);
     vec3 on_box = q->free == FREE_ROUND ? on_edge : vec3_add(between, on_round);
     // Of an edge along a face, or of two faces, the farthest points are many.
     const double doubt = FRAME_REJECT * p->size;
-    if (move_in(box, &on_box, doubt)) on_round = vec3_sub(on_box, between);
-    if (move_in(round, &on_round, doubt)) on_box = vec3_add(between, on_round);
+    if (points_move_in(box, &on_box, doubt)) on_round = vec3_sub(on_box, between);
+    if (points_move_in(round, &on_round, doubt)) on_box = vec3_add(between, on_round);
     at->on_a = is_box_b ? on_round : on_box;
     at->on_b = is_box_b ? on_box : on_round;
-    return fabs(at->value - q->value) <= doubt && !move_in(box, &on_box, doubt);
+    return fabs(at->value - q->value) <= doubt && !points_move_in(box, &on_box, doubt);
 }
 
 int cores_have_circles(const cores *p) {

@@ -5,11 +5,13 @@
 // - two such balls are larger together than the overlap;
 // - a polytope in the difference body holds a ball of that radius (query/swept/enclose.c); where its faces become
 //   slivers, directions are divided until none is open (query/swept/divide.c).
+// A cylinder or a cone with a box (query/swept/circles.c) or with another one (query/swept/revolved.c) has a proof of
+// its own, which comes before these.
 #include "query/swept/overlap.h"
 
 #include "query/swept/circles.h"
 #include "query/swept/enclose.h"
-#include "query/swept/sides.h"
+#include "query/swept/revolved.h"
 
 enum { EXCHANGES = 1 };
 
@@ -113,10 +115,12 @@ ovoid_verdict swept_measure_overlap(const swept_placed *p, ovoid_witness *witnes
     if (cores_have_circles(&s.of) && cores_search_circles(&s.of, s.tolerance, &least))
         return answer(p, &least, least.value - s.tolerance - 4 * p->claim, witness);
     s.value = INFINITY;
-    if (cores_have_sides(&s.of))
-        s.value = cores_try_sides(&s.of, &s.n);
-    else
-        try_middles(&s);
+    if (cores_are_revolved(&s.of)) {
+        if (cores_search_revolved(&s.of, s.tolerance, &least))
+            return answer(p, &least, least.value - s.tolerance - 4 * p->claim, witness);
+        s.value = least.value, s.n = least.of.n;
+    }
+    if (!(s.value < INFINITY)) try_middles(&s);
     if (!(s.value > 4 * p->claim && s.value < INFINITY)) return swept_undecided;
     double lower;
     if (s.is_proven) {
