@@ -256,24 +256,6 @@ static int take_closed_depth(search *s, ovoid_cover *cover) {
     return !s->frame->is_true && (boxes_take_depth(s, cover) || inside_take_depth(s, cover));
 }
 
-// The depth of small polyhedra by their planes; where a cover is wanted, EPA grows it. So a depth has the same bits
-// with a cover and without, unless that surface shows less: then EPA's own bracket is taken.
-static int take_planes(search *s, ovoid_cover *cover) {
-    if (s->frame->is_true) return 0;
-    search before;
-    if (cover) before = *s;
-    if (!gauss_take_depth(s)) return 0;
-    if (!search_wants_cover(s, cover, s->upper) && !search_wants_start(s, cover)) return 1;
-    search grown = before;
-    // It begins with the face that is known to be the nearest.
-    simplex points = {.count = s->witness.count};
-    for (int i = 0; i < points.count; i++) points.p[i] = s->witness.p[i], points.weight[i] = s->witness.weight[i];
-    (void)epa_run(&grown, &points, 1, cover);
-    if (grown.kind == OVOID_PROOF_COVER && grown.upper <= s->upper) return 1;
-    *s = before;
-    return 0;
-}
-
 // GJK, then EPA where the cores touch or overlap and GJK cannot narrow the bracket. A depth query tries EPA first,
 // unless the cores are known to be apart. kept: a surface that a depth was to start from; it has bits of its own
 // anyway, and EPA has its cover sooner.
@@ -283,7 +265,7 @@ static void run_exact(search *s, simplex *start, ovoid_cover *cover, const ovoid
     // A depth of overlapping spheres begins without a simplex; the ellipsoids' cores may have parted the bodies since.
     if (cores_apart && start->count == 0) stage_support(s, s->normal, start);
     if (s->goal.wants_depth && !cores_apart &&
-        (take_closed_depth(s, cover) || (!kept && take_planes(s, cover)) || epa_run(s, start, 1, cover)))
+        (take_closed_depth(s, cover) || (!kept && gauss_take_depth(s, cover)) || epa_run(s, start, 1, cover)))
         return;
     gjk_end end = gjk_run(s, start);
     if (end == GJK_ANSWERED) return;

@@ -36,6 +36,7 @@
 // m2|), and 1.6 times that along the sphere.
 #include "exact/gauss/gauss.h"
 
+#include "exact/epa.h"
 #include "exact/epa_lanes.h"
 #include "shape/gauss_map.h"
 #include "shape/loops.h"
@@ -193,11 +194,11 @@ static int find_witness(const foot_search *of, const gauss_plane *plane, const f
 
 // ---- the depth
 
-int gauss_take_depth(search *s) {
+static int take_depth(search *s) {
     const pair_frame *f = s->frame;
     gauss_query q;
     gauss_plane plane;
-    if (!is_for_here(f)) return 0;
+    if (f->is_true || !is_for_here(f)) return 0;
     double doubt = compute_doubt(f, f->a) + compute_doubt(f, f->b) + 2 * f->claim;
     make_side(f->a, &q.a);
     make_side(f->b, &q.b);
@@ -220,4 +221,19 @@ int gauss_take_depth(search *s) {
     s->kind = OVOID_PROOF_COVER;
     s->witness = foot;
     return 1;
+}
+
+int gauss_take_depth(search *s, ovoid_cover *cover) {
+    search before;
+    if (cover) before = *s;
+    if (!take_depth(s)) return 0;
+    if (!search_wants_cover(s, cover, s->upper) && !search_wants_start(s, cover)) return 1;
+    search grown = before;
+    // EPA begins with the face that is known to be the nearest.
+    simplex points = {.count = s->witness.count};
+    for (int i = 0; i < points.count; i++) points.p[i] = s->witness.p[i], points.weight[i] = s->witness.weight[i];
+    (void)epa_run(&grown, &points, 1, cover);
+    if (grown.kind == OVOID_PROOF_COVER && grown.upper <= s->upper) return 1;
+    *s = before;
+    return 0;
 }
