@@ -4,10 +4,10 @@
 
 #include "pair/search.h"
 
-/// Takes the depth of two polyhedra that have Gauss maps (shape/gauss_map.h), to rounding, with its witness. Where a cover
-/// is wanted, EPA grows it: so a depth has the same bits with a cover and without, unless that surface shows less. Two
-/// boxes are left to exact/boxes.h. 0 if a shape has no map, or if the depth or the cover is not beyond rounding: then
-/// nothing is taken. frame_relate is done. Cost: two thirds of EPA's without a cover.
+/// Takes the depth of two polyhedra that have Gauss maps (shape/gauss_map.h), to rounding, with its witness. Where a
+/// cover is wanted, EPA grows it: so a depth has the same bits with a cover and without, unless that surface shows
+/// less. Two boxes are left to exact/boxes.h. 0 if a shape has no map, or if the depth or the cover is not beyond
+/// rounding: then nothing is taken. frame_relate is done. Cost: two thirds of EPA's without a cover.
 int gauss_take_depth(search *s, ovoid_cover *cover);
 
 #endif
