@@ -13,6 +13,7 @@
 #include "base/message.h"
 #include "base/pipeline.h"
 #include "pairs/answers.h"
+#include "pairs/balls.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -116,24 +117,20 @@ static int create_world(cli_near *near, unsigned threads) {
     return message_error("%s", error.message), EXIT_INPUT;
 }
 
-/// How far from the origin of its own frame the body reaches, at most.
-static double find_reach(const ovoid_body *body) {
-    const ovoid_moving_body still = {.shape = body->shape,
-                                     .compound = body->compound,
-                                     .solid = body->solid,
-                                     .motion = ovoid_motion_make_still(ovoid_pose_make_identity())};
-    ovoid_box b = ovoid_moving_body_compute_box(&still, 0, 0);
-    return fmax(fabs(b.min.x), fabs(b.max.x)) + fmax(fabs(b.min.y), fabs(b.max.y)) + fmax(fabs(b.min.z), fabs(b.max.z));
-}
-
-/// How much farther than the margin the world of a scene that moves is asked.
+/// How much farther than the margin the world of a scene that moves is asked; negative after a message.
 static double find_room(const near_request *request) {
     double reach = 0, width = 0;
-    for (size_t i = 0; i < ovoid_scene_get_count(request->scene); i++) {
+    size_t count = ovoid_scene_get_count(request->scene);
+    cli_balls balls = balls_create(count);
+    if (!balls.slots) return message_error("out of memory"), -1;
+    for (size_t i = 0; i < count; i++) {
         ovoid_body body = answers_get_body(request->scene, i, &request->poses[i]);
-        reach = fmax(reach, find_reach(&body));
+        const cli_ball *ball = balls_find(&balls, &body);
+        const ovoid_vec3 c = ball->center;
+        reach = fmax(reach, ball->radius + fabs(c.x) + fabs(c.y) + fabs(c.z));
         width = fmax(width, answers_find_width(&body));
     }
+    balls_destroy(&balls);
     // The size of a pair has the reach of both bodies, and the distance of their frames.
     return 2 * width + ROOM * (4 * reach + request->margin);
 }
@@ -145,6 +142,7 @@ int near_open(cli_near *near, const near_request *request) {
                        .object_count = ovoid_scene_get_count(request->scene)};
     if (request->margin < 0) return 0;
     double room = request->is_still ? 0 : find_room(request);
+    if (room < 0) return EXIT_INPUT;
     near->query = (ovoid_contact_query){.kind = OVOID_QUERY_WITHIN, .margin = request->margin + room};
     const near_scene of = {request->scene, request->poses, request->margin};
     int code = request->is_still ? cut_open(&near->cut, &of, request->part) : 0;
