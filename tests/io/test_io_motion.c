@@ -57,6 +57,135 @@ static void check_velocities(void) {
     ovoid_motion_reader_close(reader);
 }
 
+// ---- frames that are skipped; truth: all lines, read one by one
+
+enum { BODIES = 4, FRAMES = 12, LINES_MAX = BODIES * FRAMES };
+
+// A motion in which bodies come in different orders, not all in each frame; one time is written in several ways.
+static const char *write_random(uint64_t *s) {
+    static const char *const names[] = {"a", "\"b, c\"", "\"say \"\"so\"\"\"", "\" d\""};
+    static const char *const halves[] = {".5", "5e-1", ".500", ".5 "};
+    static char text[20000];
+    size_t n = (size_t)snprintf(text, sizeof text, POSES);
+    for (int f = 0; f < FRAMES; f++) {
+        int first = (int)(random_next(s) % BODIES), step = random_next(s) % 2 ? 1 : 3;
+        for (int i = 0; i < BODIES; i++) {
+            int body = (first + i * step) % BODIES;
+            if (i && random_next(s) % 3 == 0) continue;
+            n += (size_t)snprintf(text + n, sizeof text - n, "%d%s,%s,%d,%d,-0.25,1,0,0,%d%s\n", f,
+                                  f % 2 ? "" : halves[i], names[body], f, body, i, random_next(s) % 5 ? "" : "\r\n");
+        }
+    }
+    return file_write_text("skip.csv", text);
+}
+
+// The lines, and the number of each one's frame.
+static size_t read_lines(const char *path, ovoid_motion_line *lines, uint64_t *frames) {
+    ovoid_motion_reader *reader = ovoid_motion_reader_open(path, scene, NULL);
+    size_t count = 0;
+    while (count < LINES_MAX && ovoid_motion_reader_read(reader, &lines[count], NULL) == 1)
+        frames[count++] = ovoid_motion_reader_get_frame_count(reader) - 1;
+    ovoid_motion_reader_close(reader);
+    return count;
+}
+
+static int is_same_pose(const ovoid_motion_line *a, const ovoid_motion_line *b) {
+    return a->body == b->body && memcmp(&a->pose, &b->pose, sizeof a->pose) == 0;
+}
+
+// Reads `begin` lines, goes on at a frame, and then, where `second` is later, at that one.
+static void check_frames(const char *path, size_t begin, uint64_t frame, uint64_t second) {
+    static ovoid_motion_line lines[LINES_MAX];
+    uint64_t frames[LINES_MAX];
+    size_t count = read_lines(path, lines, frames), at = begin;
+    ovoid_motion_reader *reader = ovoid_motion_reader_open(path, scene, NULL);
+    ovoid_motion_line l;
+    for (size_t i = 0; i < begin; i++) CHECK_EQ(ovoid_motion_reader_read(reader, &l, NULL), 1);
+    CHECK_EQ(ovoid_motion_reader_skip(reader, frame, NULL), OVOID_OK);
+    if (second > frame) CHECK_EQ(ovoid_motion_reader_skip(reader, second, NULL), OVOID_OK);
+    if (second > frame) frame = second;
+    int does_skip = !begin || frames[begin - 1] < frame;
+    // The line read last is skipped too.
+    if (does_skip && begin) at--;
+    const ovoid_motion_line *last[BODIES] = {NULL};
+    double time = 0;
+    for (; does_skip && at < count && frames[at] < frame; at++)
+        last[lines[at].body] = &lines[at], time = lines[at].time;
+    CHECK_EQ(ovoid_motion_reader_get_frame_count(reader), at ? frames[at - 1] + 1 : 0);
+    for (int b = 0; b < BODIES; b++) {
+        if (!last[b]) continue;
+        CHECK(ovoid_motion_reader_read(reader, &l, NULL) == 1 && is_same_pose(&l, last[b]) && l.time == time);
+        CHECK(ovoid_motion_reader_get_line(reader) >= 2);
+    }
+    for (; at < count; at++)
+        CHECK(ovoid_motion_reader_read(reader, &l, NULL) == 1 && is_same_pose(&l, &lines[at]) &&
+              l.time == lines[at].time);
+    CHECK_EQ(ovoid_motion_reader_read(reader, &l, NULL), 0);
+    ovoid_motion_reader_close(reader);
+}
+
+static void check_all_frames(void) {
+    uint64_t s = 5;
+    for (int i = 0; i < 20; i++) {
+        check_seed = s;
+        const char *path = write_random(&s);
+        for (size_t begin = 0; begin < 9; begin++)
+            for (uint64_t frame = 0; frame <= FRAMES + 1; frame++) {
+                check_frames(path, begin, frame, 0);
+                check_frames(path, begin, frame, frame + 2);
+            }
+        check_frames(path, 2, UINT64_MAX, 0);
+    }
+    check_seed = 0;
+    // Velocities are skipped alike.
+    ovoid_motion_reader *reader = ovoid_motion_reader_open(
+        file_write_text("skip_speeds.csv", VELOCITIES "0,a,1,0,0,0,0,0\n1,a,2,0,0,0,0,0\n2,a,3,0,0,0,0,0\n"), scene,
+        NULL);
+    ovoid_motion_line l;
+    CHECK_EQ(ovoid_motion_reader_skip(reader, 2, NULL), OVOID_OK);
+    CHECK(ovoid_motion_reader_read(reader, &l, NULL) == 1 && l.time == 1 && l.linear.x == 2);
+    CHECK_EQ(ovoid_motion_reader_get_line(reader), 3);
+    ovoid_motion_reader_close(reader);
+}
+
+// What skipping refuses; what it leaves to reading: 0 there.
+static const struct {
+    const char *text;
+    int64_t skipping, reading; ///< the line of the error; 0: none
+    const char *what;
+} bad_skips[] = {
+    {POSES GOOD "0,b\n1,a,0,0,0,1,0,0,0\n", 3, 0, "fewer"},
+    {POSES GOOD "0,nobody,1\n1,a,0,0,0,1,0,0,0\n", 3, 0, "no object \"nobody\""},
+    {POSES GOOD GOOD "1,a,0,0,0,1,0,0,0\n", 3, 0, "a line at this time already"},
+    {POSES GOOD "0.0,a,4,4,4,1,0,0,0\n", 3, 0, "a line at this time already"},
+    {POSES GOOD "-1,a,4,4,4,1,0,0,0\n", 3, 0, "sort them"},
+    {POSES GOOD "nan,a,4,4,4,1,0,0,0\n", 3, 0, "not finite"},
+    {POSES GOOD "\n0,\"b, c\",1,2,three,1,0,0,0\n1,a,4,4,4,1,0,0,0\n", 0, 4, "\"three\""},
+    {POSES GOOD "0,\"b, c\",1,2,3\n1,a,4,4,4,1,0,0,0\n", 0, 3, "fewer"},
+    {POSES GOOD "1,a,4,4,4,0,0,0,0\n2,a,4,4,4,1,0,0,0\n", 0, 3, "quaternion of four zeros"},
+    {POSES "0,a,no,2,3,1,0,0,0\n1,a,4,4,4,1,0,0,0\n2,a,4,4,4,1,0,0,0\n", 0, 0, ""},
+};
+
+static void check_bad_skips(void) {
+    for (size_t i = 0; i < sizeof bad_skips / sizeof *bad_skips; i++) {
+        ovoid_error error = {OVOID_OK, -1, ""};
+        ovoid_motion_line l;
+        ovoid_motion_reader *reader =
+            ovoid_motion_reader_open(file_write_text("bad_skip.csv", bad_skips[i].text), scene, &error);
+        ovoid_code code = ovoid_motion_reader_skip(reader, 2, &error);
+        if (!CHECK(code == (bad_skips[i].skipping ? error.code : OVOID_OK) &&
+                   (code != OVOID_OK) == (bad_skips[i].skipping > 0)))
+            printf("  case %zu\n", i);
+        int got = 1;
+        while (!code && got == 1) got = ovoid_motion_reader_read(reader, &l, &error);
+        CHECK_EQ(got<0, bad_skips[i].reading> 0);
+        int64_t line = bad_skips[i].skipping + bad_skips[i].reading;
+        if (line && !CHECK(error.place == line && strstr(error.message, bad_skips[i].what)))
+            printf("  %s\n", error.message);
+        ovoid_motion_reader_close(reader);
+    }
+}
+
 static const bad_input bad_files[] = {
     {"m_empty.csv", "", 1, "the file is empty", OVOID_ERROR_EMPTY},
     {"m_header.csv", "time,body\n", 1, "the first line must be time,body,x,y,z,qw,qx,qy,qz, or"},
@@ -114,6 +243,8 @@ int main(void) {
     if (!CHECK(scene != NULL)) return check_end();
     check_poses();
     check_velocities();
+    check_all_frames();
+    check_bad_skips();
     check_bad();
     check_damaged_lines(POSES, GOOD "0,\"b, c\",1,2,3,1,0,0,0\n1,a,1,2,3,1,0,0,0\n", read_all);
     ovoid_scene_destroy(scene);
