@@ -101,7 +101,7 @@ awk 'BEGIN { srand(5)
     print "time,body,vx,vy,vz,wx,wy,wz" >"speeds.csv"
     for (f = 0; f < 150; f++) {
         printf "%g,over,%.6f,0,0.9,1,0,0,0\n%g,beside,0.1,%.6f,0,1,0,0,0\n", f / 10, f * 0.005, f / 10, 1.3 + 0.2 * rand() >"long.csv"
-        if (f % 40 == 17) printf "%g,rare,0.2,%.6f,0,1,0,0,%.4f\n", f / 10, -1.1 - 0.1 * rand(), rand() >"long.csv"
+        if (f % 40 == 17) printf "%g,rare,0.2,%.6f,0,1,0,0,%.4f\n", f / 10, -1.1 - (f == 17 ? 1.5 : 0.1 * rand()), rand() >"long.csv"
         printf "%g,over,0.05,%.6f,0,0,0,1\n", f / 10, 0.01 * rand() >"speeds.csv"
         if (f % 40 == 17) printf "%g,rare,0.01,%.6f,0,0.1,0,0\n", f / 10, 0.1 - 0.2 * rand() >"speeds.csv"
     } }'

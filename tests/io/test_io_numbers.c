@@ -109,11 +109,26 @@ static void check_ends(void) {
         const char *text;
         int length; ///< of the number; -1: none
         double value;
-    } cases[] = {{"1,2", 1, 1}, {"1e", 1, 1},      {"1e+", 1, 1},         {"1.5.2", 3, 1.5},
-                 {"-", -1, 0},  {"+.", -1, 0},     {".", -1, 0},          {"e5", -1, 0},
-                 {"", -1, 0},   {"x", -1, 0},      {"0x10", 1, 0},        {"- 1", -1, 0},
-                 {"5.", 2, 5},  {"1e5e5", 3, 1e5}, {"infx", 3, INFINITY}, {"-Infinity", 9, -INFINITY},
-                 {"in", -1, 0}};
+    } cases[] = {{"1,2", 1, 1},
+                 {"1e", 1, 1},
+                 {"1e+", 1, 1},
+                 {"1.5.2", 3, 1.5},
+                 {"-", -1, 0},
+                 {"+.", -1, 0},
+                 {".", -1, 0},
+                 {"e5", -1, 0},
+                 {"", -1, 0},
+                 {"x", -1, 0},
+                 {"0x10", 1, 0},
+                 {"- 1", -1, 0},
+                 {"5.", 2, 5},
+                 {"1e5e5", 3, 1e5},
+                 {"infx", 3, INFINITY},
+                 {"-Infinity", 9, -INFINITY},
+                 {"in", -1, 0},
+                 {"12345678:9", 8, 12345678},
+                 {"1.234567?9", 8, 1.234567},
+                 {"12345/789", 5, 12345}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         double value = 0;
         const char *end = cases[i].text + strlen(cases[i].text), *after = number_read(cases[i].text, end, &value);

@@ -211,7 +211,8 @@ static ovoid_code find_time(ovoid_motion_reader *r, csv_line *c, line_head *head
 // Finds the body of a line; the same text as that of the body that came next the last time is the same body.
 static ovoid_code find_name(ovoid_motion_reader *r, csv_line *c, line_head *head, const char *begin) {
     size_t guess = head->body == NO_BODY ? NO_BODY : r->skipped[head->body].next;
-    const skipped_line *s = guess == NO_BODY ? NULL : &r->skipped[guess];
+    // A body whose line came first behind skipped frames may have none yet.
+    const skipped_line *s = guess == NO_BODY || !r->skipped[guess].text ? NULL : &r->skipped[guess];
     size_t size = s ? s->name_end - s->name_at : 0;
     head->name_at = (size_t)(c->at - begin);
     if (s && size <= (size_t)(c->end - c->at) && memcmp(c->at, s->text + s->name_at, size) == 0) {
@@ -229,10 +230,10 @@ static ovoid_code find_name(ovoid_motion_reader *r, csv_line *c, line_head *head
 }
 
 // Reads time and name of a line that is skipped, head: those of the line before it.
-static ovoid_code find_head(ovoid_motion_reader *r, raw_line raw, line_head *head, ovoid_error *error) {
-    csv_line c = make_csv_line(r, raw, r->source.line, error);
-    ovoid_code code = find_time(r, &c, head);
-    return code ? code : find_name(r, &c, head, raw.text);
+static ovoid_code find_head(ovoid_motion_reader *r, csv_line *c, line_head *head) {
+    const char *begin = c->at;
+    ovoid_code code = find_time(r, c, head);
+    return code ? code : find_name(r, c, head, begin);
 }
 
 // Keeps a line as the last one of its body.
@@ -265,7 +266,8 @@ static ovoid_code begin_skipping(ovoid_motion_reader *r, line_head *head, ovoid_
     raw_line last = r->last;
     r->last.text = NULL;
     if (!last.text) return OVOID_OK;
-    ovoid_code code = find_head(r, last, head, error);
+    csv_line c = make_csv_line(r, last, r->line, error);
+    ovoid_code code = find_head(r, &c, head);
     return code ? code : keep(r, last, head, error);
 }
 
@@ -279,12 +281,12 @@ ovoid_code ovoid_motion_reader_skip(ovoid_motion_reader *reader, uint64_t frame,
     int got = 0;
     ovoid_code code = begin_skipping(r, &head, error);
     while (!code && (got = take_line(r, &raw, error)) > 0) {
-        code = find_head(r, raw, &head, error);
+        csv_line c = make_csv_line(r, raw, r->source.line, error);
+        code = find_head(r, &c, &head);
         if (!code && r->frames == frame && head.time != r->time) {
             r->ahead = raw;
             break;
         }
-        csv_line c = make_csv_line(r, raw, r->source.line, error);
         if (!code) code = take_time(r, &c, head.time, head.body);
         if (!code) code = keep(r, raw, &head, error);
     }
