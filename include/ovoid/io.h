@@ -329,7 +329,8 @@ OVOID_API int ovoid_motion_reader_read(ovoid_motion_reader *reader, ovoid_motion
  * last is one of them. What they change is not lost: the lines that are read next are the last line of each body in
  * the skipped frames, by the bodies, each with the time of the last of these frames; then those of frame `frame`. Does
  * nothing where a line of that frame or of a later one was read. Of skipped lines only times and names are checked;
- * their numbers are if they are read. Where the file has fewer frames, all are skipped. Errors: as of reading, MEMORY.
+ * their numbers are if they are read. Where the file has fewer frames, all are skipped. UINT64_MAX: the rest of the
+ * file is left out, and its frames are counted by the times alone, which are checked. Errors: as of reading, MEMORY.
  * Memory: a line for each body. Cost: a tenth of reading.
  */
 OVOID_API ovoid_code ovoid_motion_reader_skip(ovoid_motion_reader *reader, uint64_t frame, ovoid_error *error);

@@ -109,6 +109,12 @@ typedef struct model {
 } model;
 
 static void skip_frames(model *m, uint64_t frame) {
+    if (frame == UINT64_MAX) {
+        m->last = NULL;
+        memset(m->waiting, 0, sizeof m->waiting);
+        m->at = m->count;
+        return;
+    }
     if (m->at && m->frames[m->at - 1] >= frame) return;
     if (m->last) m->waiting[m->last->body] = m->last;
     m->last = NULL;
@@ -195,6 +201,17 @@ static const struct {
 };
 
 static void check_bad_skips(void) {
+    // Counting reads the times alone.
+    ovoid_error wrong;
+    ovoid_motion_reader *counting = ovoid_motion_reader_open(
+        file_write_text("count.csv", POSES GOOD "0,nobody\n1,a,x\n1.0,a,y\n2,b\n"), scene, NULL);
+    CHECK_EQ(ovoid_motion_reader_skip(counting, UINT64_MAX, NULL), OVOID_OK);
+    CHECK_EQ(ovoid_motion_reader_get_frame_count(counting), 3);
+    ovoid_motion_reader_close(counting);
+    counting = ovoid_motion_reader_open(file_write_text("count.csv", POSES GOOD "1,a\n0,a\n"), scene, NULL);
+    CHECK_EQ(ovoid_motion_reader_skip(counting, UINT64_MAX, &wrong), OVOID_ERROR_FORMAT);
+    CHECK(wrong.place == 4 && strstr(wrong.message, "sort them"));
+    ovoid_motion_reader_close(counting);
     for (size_t i = 0; i < sizeof bad_skips / sizeof *bad_skips; i++) {
         ovoid_error error = {OVOID_OK, -1, ""};
         ovoid_motion_line l;

@@ -271,10 +271,29 @@ static ovoid_code begin_skipping(ovoid_motion_reader *r, line_head *head, ovoid_
     return code ? code : keep(r, last, head, error);
 }
 
+// Counts the frames up to the end of the file, of which nothing is left to read.
+static ovoid_code count_frames(ovoid_motion_reader *r, ovoid_error *error) {
+    line_head head = {.body = NO_BODY};
+    raw_line raw;
+    int got = 0;
+    ovoid_code code = OVOID_OK;
+    for (size_t i = 0; r->skipped && i < ovoid_scene_get_count(r->scene); i++) r->skipped[i].is_waiting = 0;
+    r->last.text = NULL;
+    while (!code && (got = take_line(r, &raw, error)) > 0) {
+        csv_line c = make_csv_line(r, raw, r->source.line, error);
+        code = find_time(r, &c, &head);
+        if (code) break;
+        r->frames += head.time != r->time;
+        r->time = head.time;
+    }
+    return got < 0 ? error->code : code;
+}
+
 ovoid_code ovoid_motion_reader_skip(ovoid_motion_reader *reader, uint64_t frame, ovoid_error *error) {
     ovoid_motion_reader *r = reader;
     ovoid_error own;
     if (!error) error = &own;
+    if (frame == UINT64_MAX) return count_frames(r, error);
     if (r->frames > frame) return OVOID_OK;
     line_head head = {.body = NO_BODY};
     raw_line raw;
