@@ -1,4 +1,4 @@
-# What ovoid stands on. The core: libm. libovoid_io: jansson and Assimp. libovoid_robot, where it reads: expat and libyaml. The exact judge: GMP. One test: Qhull, as a peer.
+# What ovoid stands on. The core: libm. libovoid_io: jansson, and Assimp, which it loads. libovoid_robot, where it reads: expat and libyaml. The exact judge: GMP. One test: Qhull, as a peer.
 # <ovoid/ompl.hpp>, which is a header alone, is tested, and `ovoid robot plan` and Python's `Cell.plan` are built, where OMPL and a C++ compiler are.
 # <ovoid/fcl.hpp> is tested and libovoid_fcl is built where FCL and a C++ compiler are.
 
