@@ -33,7 +33,12 @@ if(OVOID_IO)
     if(headers MATCHES "SONAME +([^ \n]+)")
       set(OVOID_ASSIMP_NAME ${CMAKE_MATCH_1})
     endif()
-    set_target_properties(ovoid_assimp PROPERTIES INTERFACE_LINK_LIBRARIES "${CMAKE_DL_LIBS}")
+    set(OVOID_ASSIMP_NEEDS ${CMAKE_DL_LIBS})
+    # AddressSanitizer looks for the functions of the C++ library when a program starts.
+    if(OVOID_SANITIZE)
+      list(APPEND OVOID_ASSIMP_NEEDS -Wl,--no-as-needed stdc++)
+    endif()
+    set_target_properties(ovoid_assimp PROPERTIES INTERFACE_LINK_LIBRARIES "${OVOID_ASSIMP_NEEDS}")
     target_compile_definitions(ovoid_assimp INTERFACE OVOID_WITH_ASSIMP OVOID_ASSIMP_NAME="${OVOID_ASSIMP_NAME}"
       OVOID_ASSIMP_PATH="${OVOID_ASSIMP_LIBRARY}")
   endif()

@@ -38,6 +38,7 @@ typedef struct raw_line {
 struct ovoid_motion_reader {
     line_source source;
     const ovoid_scene *scene;
+    size_t body_count; ///< of the scene, which may be gone when the reader is closed
     ovoid_motion_columns kind;
     double time;           ///< of the last line; -infinity before it
     double *last_time;     ///< of each body's last line; -infinity: none yet
@@ -62,6 +63,7 @@ ovoid_motion_reader *ovoid_motion_reader_open(const char *path, const ovoid_scen
     }
     for (size_t i = 0; i < count; i++) last_time[i] = -INFINITY;
     reader->scene = scene;
+    reader->body_count = count;
     reader->time = -INFINITY;
     reader->last_time = last_time;
     if (!line_source_open(&reader->source, path, error)) {
@@ -82,7 +84,7 @@ uint64_t ovoid_motion_reader_get_frame_count(const ovoid_motion_reader *reader) 
 void ovoid_motion_reader_close(ovoid_motion_reader *reader) {
     if (!reader) return;
     line_source_close(&reader->source);
-    for (size_t i = 0; reader->skipped && i < ovoid_scene_get_count(reader->scene); i++) free(reader->skipped[i].text);
+    for (size_t i = 0; reader->skipped && i < reader->body_count; i++) free(reader->skipped[i].text);
     free(reader->skipped);
     free(reader->last_time);
     free(reader);
@@ -177,7 +179,7 @@ static ovoid_code read_skipped(ovoid_motion_reader *r, skipped_line *skipped, ov
 
 // The first body with a line that waits, or NULL.
 static skipped_line *find_waiting(ovoid_motion_reader *r) {
-    size_t count = r->skipped ? ovoid_scene_get_count(r->scene) : 0;
+    size_t count = r->skipped ? r->body_count : 0;
     for (; r->next_skipped < count; r->next_skipped++)
         if (r->skipped[r->next_skipped].is_waiting) return &r->skipped[r->next_skipped];
     return NULL;
@@ -256,11 +258,10 @@ static ovoid_code keep(ovoid_motion_reader *r, raw_line raw, const line_head *he
 
 // Makes room for skipped lines, and keeps the line that was read last.
 static ovoid_code begin_skipping(ovoid_motion_reader *r, line_head *head, ovoid_error *error) {
-    size_t count = ovoid_scene_get_count(r->scene);
     if (!r->skipped) {
-        r->skipped = calloc(count + 1, sizeof *r->skipped);
+        r->skipped = calloc(r->body_count + 1, sizeof *r->skipped);
         if (!r->skipped) return io_fail_memory(error, r->source.path);
-        for (size_t i = 0; i < count; i++) r->skipped[i].next = NO_BODY;
+        for (size_t i = 0; i < r->body_count; i++) r->skipped[i].next = NO_BODY;
     }
     r->next_skipped = 0;
     raw_line last = r->last;
@@ -277,7 +278,7 @@ static ovoid_code count_frames(ovoid_motion_reader *r, ovoid_error *error) {
     raw_line raw;
     int got = 0;
     ovoid_code code = OVOID_OK;
-    for (size_t i = 0; r->skipped && i < ovoid_scene_get_count(r->scene); i++) r->skipped[i].is_waiting = 0;
+    for (size_t i = 0; r->skipped && i < r->body_count; i++) r->skipped[i].is_waiting = 0;
     r->last.text = NULL;
     while (!code && (got = take_line(r, &raw, error)) > 0) {
         csv_line c = make_csv_line(r, raw, r->source.line, error);
