@@ -258,6 +258,9 @@ static ovoid_code read_mesh(unpacker *u, scene_body *body) {
     }
     if (code) return code;
     body->is_asked = (flags & PACKED_ASKED) != 0;
+    // Parts are hulls.
+    if (body->read.parts && flags & (PACKED_ASKED | PACKED_TRIANGLES))
+        return refuse(u, "a mesh has not the triangles it says");
     if (body->read.parts) return join_parts(u, body);
     body->shape = body->hulls[0].shape;
     body->solid = flags & PACKED_TRIANGLES ? body->hulls[0].solid : NULL;
