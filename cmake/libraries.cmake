@@ -1,4 +1,4 @@
-# What ovoid stands on. The core: libm. libovoid_io: jansson and Assimp. libovoid_robot, where it reads: expat and libyaml. The exact judge: GMP. One test: Qhull, as a peer.
+# What ovoid stands on. The core: libm. libovoid_io: jansson, and Assimp, which it loads. libovoid_robot, where it reads: expat and libyaml. The exact judge: GMP. One test: Qhull, as a peer.
 # <ovoid/ompl.hpp>, which is a header alone, is tested, and `ovoid robot plan` and Python's `Cell.plan` are built, where OMPL and a C++ compiler are.
 # <ovoid/fcl.hpp> is tested and libovoid_fcl is built where FCL and a C++ compiler are.
 
@@ -25,6 +25,22 @@ if(OVOID_IO)
   # Without it, STL, OBJ, OFF and PLY are still read.
   if(OVOID_ASSIMP)
     ovoid_find(assimp assimp/cimport.h assimp libassimp-dev FALSE)
+  endif()
+  # It is not linked but loaded where a file needs it (src/io/mesh/assimp_load.h), by the name that a program would be linked to.
+  if(TARGET ovoid_assimp)
+    execute_process(COMMAND ${CMAKE_OBJDUMP} -p ${OVOID_ASSIMP_LIBRARY} OUTPUT_VARIABLE headers ERROR_QUIET)
+    get_filename_component(OVOID_ASSIMP_NAME ${OVOID_ASSIMP_LIBRARY} NAME)
+    if(headers MATCHES "SONAME +([^ \n]+)")
+      set(OVOID_ASSIMP_NAME ${CMAKE_MATCH_1})
+    endif()
+    set(OVOID_ASSIMP_NEEDS ${CMAKE_DL_LIBS})
+    # AddressSanitizer looks for the functions of the C++ library when a program starts.
+    if(OVOID_SANITIZE)
+      list(APPEND OVOID_ASSIMP_NEEDS -Wl,--no-as-needed stdc++)
+    endif()
+    set_target_properties(ovoid_assimp PROPERTIES INTERFACE_LINK_LIBRARIES "${OVOID_ASSIMP_NEEDS}")
+    target_compile_definitions(ovoid_assimp INTERFACE OVOID_WITH_ASSIMP OVOID_ASSIMP_NAME="${OVOID_ASSIMP_NAME}"
+      OVOID_ASSIMP_PATH="${OVOID_ASSIMP_LIBRARY}")
   endif()
 endif()
 if(OVOID_IO AND OVOID_ROBOT)

@@ -19,7 +19,6 @@ endmacro()
 # What libovoid_io's archive needs.
 if(EXISTS ${CMAKE_CURRENT_LIST_DIR}/ovoid_io-targets.cmake)
   ovoid_import(jansson)
-  ovoid_import(assimp)
   include(${CMAKE_CURRENT_LIST_DIR}/ovoid_io-targets.cmake)
 endif()
 

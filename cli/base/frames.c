@@ -107,6 +107,32 @@ static int integrate(cli_frames *f) {
     return 1;
 }
 
+int frames_skip(cli_frames *f, uint64_t frame) {
+    ovoid_error error;
+    int got = 1;
+    if (f->speed) {
+        while (f->count < frame && got > 0) got = frames_next(f);
+        return got;
+    }
+    if (ovoid_motion_reader_skip(f->reader, frame, &error)) return message_error("%s", error.message), -1;
+    if (read_ahead(f) < 0) return -1;
+    // The lines that were kept are those of one frame, which frames_next counts.
+    f->count = (size_t)frame - 1;
+    return frames_next(f);
+}
+
+int frames_count(const char *path, const ovoid_scene *scene, uint64_t *count) {
+    ovoid_error error;
+    ovoid_motion_reader *reader = ovoid_motion_reader_open(path, scene, &error);
+    ovoid_code code = reader ? ovoid_motion_reader_skip(reader, UINT64_MAX, &error) : error.code;
+    if (code)
+        message_error("%s", error.message);
+    else
+        *count = ovoid_motion_reader_get_frame_count(reader);
+    ovoid_motion_reader_close(reader);
+    return code ? EXIT_INPUT : 0;
+}
+
 int frames_next(cli_frames *f) {
     if (!f->has_line) return 0;
     // The present frame becomes the previous one.

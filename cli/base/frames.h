@@ -29,6 +29,14 @@ int frames_open(cli_frames *frames, const char *path, const ovoid_scene *scene);
 /// Reads the next frame. 1, 0 at the end, or -1 after a message.
 int frames_next(cli_frames *frames);
 
+/// Goes on to the frame before number `frame`, counted from 0, from an earlier one. As frames_next, but `starts` are
+/// not those of the frame before. Poses that are not needed are not read; velocities are integrated from frame to
+/// frame.
+int frames_skip(cli_frames *frames, uint64_t frame);
+
+/// Counts the frames of a file, which is read once. 0, or EXIT_INPUT after a message.
+int frames_count(const char *path, const ovoid_scene *scene, uint64_t *count);
+
 /// The motion of an object from the frame before (time 0) to this one (time: the difference of both).
 ovoid_motion frames_get_motion(const cli_frames *frames, size_t object);
 

@@ -57,8 +57,7 @@ static double get_width(const ovoid_shape *shape) {
     return allowance.outside + allowance.inside;
 }
 
-/// The largest width that the allowance of the body, or of one of its parts, adds to a bracket.
-static double find_width(const ovoid_body *body) {
+double answers_find_width(const ovoid_body *body) {
     double width = body->shape ? get_width(body->shape) : 0;
     for (size_t i = 0; body->compound && i < ovoid_compound_get_part_count(body->compound); i++)
         width = fmax(width, get_width(ovoid_compound_get_part(body->compound, i).shape));
@@ -69,7 +68,8 @@ void answers_settle_limit(ovoid_answer *answer, const ovoid_body_pair *pair, dou
     double width = answer->upper - answer->lower;
     if (!(margin >= 0) || answer->limit != OVOID_LIMIT_NONE || answer->status == OVOID_TOUCHING) return;
     if (ovoid_answer_is_within(answer, margin) >= 0 || width <= tolerance) return;
-    if (2 * (find_width(&pair->a) + find_width(&pair->b)) > width) answer->limit = OVOID_LIMIT_ALLOWANCE;
+    if (2 * (answers_find_width(&pair->a) + answers_find_width(&pair->b)) > width)
+        answer->limit = OVOID_LIMIT_ALLOWANCE;
 }
 
 int answers_find(answer_room *room, const ovoid_body_pair *pair, const answers_query *query, ovoid_record *record) {
@@ -120,7 +120,16 @@ static ovoid_couple get_couple(const answers_job *job, size_t i) {
     return *(const ovoid_couple *)(const void *)((const char *)job->couples + i * job->stride);
 }
 
-/// Record i of the chunk; 0 if memory runs out.
+/// 1 if the pair is proven farther apart than job->reach. Nothing but the pair and its poses decides.
+static int is_beyond(const answers_job *job, const ovoid_body_pair *pair, const ovoid_body_answer *answer) {
+    int within = ovoid_body_answer_is_within(answer, job->reach);
+    if (within >= 0 || job->query != QUERY_DISTANCE) return within == 0;
+    // The bracket is as wide as the tolerance or the allowances leave it.
+    ovoid_body_answer own = ovoid_body_within(pair, job->reach, NULL, NULL);
+    return ovoid_body_answer_is_within(&own, job->reach) == 0;
+}
+
+/// Record i of the chunk, which has no names where the pair is left out; 0 if memory runs out.
 static int make_record(const answers_job *job, chunk *k, size_t i, int wants_proof) {
     ovoid_couple c = get_couple(job, k->first + i);
     ovoid_body_pair pair = {answers_get_body(job->scene, c.a, &job->poses[c.a]),
@@ -133,7 +142,9 @@ static int make_record(const answers_job *job, chunk *k, size_t i, int wants_pro
                                    .frame = NAN};
     const answers_query query = {job->query, job->margin, job->tolerance, wants_proof, NULL, job->contacts};
     answers_describe(job->scene, c, &k->records[i]);
-    return answers_find(&k->room, &pair, &query, &k->records[i]);
+    int done = answers_find(&k->room, &pair, &query, &k->records[i]);
+    if (done && job->is_near_only && is_beyond(job, &pair, &k->room.body)) k->records[i].a = NULL;
+    return done;
 }
 
 static void work(void *context, void *slot) {
@@ -146,7 +157,8 @@ static void work(void *context, void *slot) {
     k->failed = !k->records || (lines && !file);
     for (size_t i = 0; i < k->count && !k->failed; i++) {
         k->failed = !make_record(job, k, i, proofs);
-        if (lines && !k->failed && !results_write_line(file, job->results->settings, &k->records[i])) {
+        if (lines && !k->failed && k->records[i].a &&
+            !results_write_line(file, job->results->settings, &k->records[i])) {
             k->long_pair[0] = k->records[i].a;
             k->long_pair[1] = k->records[i].b;
         }
@@ -173,8 +185,9 @@ static int drain(void *context, void *slot) {
     }
     if (lines) code = results_add_text(job->results, k->text, k->size);
     for (size_t i = 0; i < k->count && !code; i++) {
-        if (job->results && !lines) code = results_add(job->results, &k->records[i]);
-        if (job->take) job->take(job->context, k->first + i, &k->records[i]);
+        int is_listed = k->records[i].a != NULL;
+        if (is_listed && job->results && !lines) code = results_add(job->results, &k->records[i]);
+        if (is_listed && job->take) job->take(job->context, k->first + i, &k->records[i]);
         contacts_clear(&k->records[i]);
     }
     free(k->text);

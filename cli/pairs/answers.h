@@ -38,6 +38,9 @@ void answer_room_clear(answer_room *room);
 /// the bodies' allowances make most of its width, as in ovoid_within. tolerance: the absolute tolerance of the query.
 void answers_settle_limit(ovoid_answer *answer, const ovoid_body_pair *pair, double margin, double tolerance);
 
+/// The largest width that the allowance of the body, or of one of its parts, adds to a bracket.
+double answers_find_width(const ovoid_body *body);
+
 /// Sets the kinds of two objects of a scene in a record.
 void answers_describe(const ovoid_scene *scene, ovoid_couple couple, ovoid_record *record);
 
@@ -50,6 +53,9 @@ typedef struct answers_job {
     const ovoid_pose *poses; ///< of its objects
     int query;
     double margin, tolerance; ///< margin: that of the records; negative if there is none
+    int is_near_only; ///< 1: pairs that are proven farther apart than `reach`, by the answer or by a query of that
+                      ///< alone, are left out
+    double reach;
     unsigned threads;
     const void *couples; ///< ovoid_couple, `stride` bytes apart
     size_t stride, count;
@@ -58,7 +64,8 @@ typedef struct answers_job {
     cli_results *results; ///< where records are written; NULL: nowhere
     int wants_proof;      ///< 1: each is the answer that is written with its proof, whose memory takes a search farther
     int are_units;        ///< 1: each pair is a unit of a shard's work
-    /// Receives each record in order (without cover and exclusions); i: of the couple. May be NULL.
+    /// Receives each record that is not left out, in order (without cover and exclusions); i: of the couple. May be
+    /// NULL.
     void (*take)(void *context, size_t i, const ovoid_record *record);
     void *context;
 } answers_job;

@@ -70,7 +70,7 @@ static int find_rows(check *c) {
     cli_near near;
     const near_request request = {.scene = c->scene,
                                   .poses = c->poses,
-                                  .query = {.kind = OVOID_QUERY_WITHIN, .margin = c->settings->margin},
+                                  .margin = c->settings->margin,
                                   .part = c->settings->part,
                                   .threads = c->settings->threads,
                                   .is_still = 1};

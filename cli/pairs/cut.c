@@ -13,8 +13,8 @@
 
 #include "base/args.h"
 #include "base/message.h"
+#include "pairs/balls.h"
 #include "pairs/cells.h"
-#include "tools/hash.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -31,18 +31,6 @@
 
 /// What an object costs without any pair, in pairs.
 #define ALONE 0.1
-
-/// The enclosing ball of a body in its own frame, found once for all objects that share it.
-typedef struct ball {
-    const void *body; ///< its shape, compound or solid; NULL: a free slot
-    ovoid_vec3 center;
-    double radius;
-} ball;
-
-typedef struct balls {
-    ball *slots;
-    size_t count; ///< of the slots, a power of two
-} balls;
 
 typedef struct bounds {
     double low[3], high[3];
@@ -80,57 +68,12 @@ static int is_overlapping(const bounds *a, const bounds *b) {
     return 1;
 }
 
-/* ---- enclosing balls */
-
-/// The radius around a point of the local frame that holds a shape that is the hull of its vertices, rounded; infinite
-/// of others.
-static double find_reach(const ovoid_shape *shape, ovoid_vec3 center) {
-    ovoid_allowance allowance = ovoid_shape_get_allowance(shape);
-    if (ovoid_shape_get_round(shape).kind != OVOID_ROUND_NONE || allowance.outside > 0 || allowance.inside > 0)
-        return HUGE_VAL;
-    ovoid_polytope p = ovoid_shape_get_polytope(shape);
-    double reach = 0;
-    for (size_t i = 0; i < p.vertex_count; i++) {
-        const double *v = &p.vertices[3 * i];
-        double d[3] = {v[0] + p.origin.x - center.x, v[1] + p.origin.y - center.y, v[2] + p.origin.z - center.z};
-        reach = fmax(reach, d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
-    }
-    return sqrt(reach) + ovoid_shape_get_radius(shape);
-}
-
-static ball make_ball(const ovoid_body *body, const void *name) {
-    const ovoid_moving_body still = {.shape = body->shape,
-                                     .compound = body->compound,
-                                     .solid = body->solid,
-                                     .motion = ovoid_motion_make_still(ovoid_pose_make_identity())};
-    ovoid_box b = ovoid_moving_body_compute_box(&still, 0, 0);
-    ovoid_vec3 center = {(b.min.x + b.max.x) / 2, (b.min.y + b.max.y) / 2, (b.min.z + b.max.z) / 2};
-    ovoid_vec3 half = {b.max.x - center.x, b.max.y - center.y, b.max.z - center.z};
-    double radius = sqrt(half.x * half.x + half.y * half.y + half.z * half.z);
-    if (body->shape) radius = fmin(radius, find_reach(body->shape, center));
-    return (ball){name, center, radius};
-}
-
-static int is_end(const void *table, size_t slot, const void *key) {
-    const balls *b = table;
-    return !b->slots[slot].body || b->slots[slot].body == key;
-}
-
-static const ball *find_ball(balls *b, const ovoid_body *body) {
-    const void *name = body->shape      ? (const void *)body->shape
-                       : body->compound ? (const void *)body->compound
-                                        : (const void *)body->solid;
-    ball *slot = &b->slots[hash_find(hash_number((uintptr_t)name), b->count, b, name, is_end)];
-    if (!slot->body) *slot = make_ball(body, name);
-    return slot;
-}
-
 static double sum_abs(ovoid_vec3 v) { return fabs(v.x) + fabs(v.y) + fabs(v.z); }
 
-static void set_object(cutter *c, balls *b, const near_scene *of, size_t i) {
+static void set_object(cutter *c, cli_balls *b, const near_scene *of, size_t i) {
     const ovoid_pose *pose = &of->poses[i];
     const ovoid_body body = ovoid_scene_get_body(of->scene, i, pose);
-    const ball *local = find_ball(b, &body);
+    const cli_ball *local = balls_find(b, &body);
     ovoid_vec3 at = ovoid_pose_compute_point(pose, local->center);
     double half = (local->radius * (1 + ROOM) + of->margin / 2) * (1 + SLACK) +
                   SLACK_PLACE * (sum_abs(at) + sum_abs(local->center) + local->radius);
@@ -237,11 +180,10 @@ static void cut_objects(cutter *c, shard_part part) {
 /* ---- the cut */
 
 int cut_open(cli_cut *cut, const near_scene *of, shard_part part) {
-    size_t count = ovoid_scene_get_count(of->scene), slots = 64;
+    size_t count = ovoid_scene_get_count(of->scene);
     *cut = (cli_cut){.roles = NULL};
     if (part.count < 2) return 0;
-    while (slots < 2 * count) slots *= 2;
-    balls b = {calloc(slots, sizeof *b.slots), slots};
+    cli_balls b = balls_create(count);
     cutter c = {.cut = cut, .count = count};
     c.points = calloc(count + 1, sizeof *c.points);
     c.small_points = calloc(count + 1, sizeof *c.small_points);
@@ -254,7 +196,7 @@ int cut_open(cli_cut *cut, const near_scene *of, shard_part part) {
         b.slots && c.points && c.small_points && c.cubes && c.cumulated && c.small_cells && cut->roles && cut->radii;
     for (size_t i = 0; i < count && done; i++) set_object(&c, &b, of, i);
     if (done) cut_objects(&c, part);
-    free(b.slots);
+    balls_destroy(&b);
     free(c.points);
     free(c.small_points);
     free(c.cubes);

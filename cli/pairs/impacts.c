@@ -109,7 +109,6 @@ static int has_couple(const ovoid_couple *couples, size_t count, ovoid_couple c)
 /// margin.
 static int is_candidate(const cli_impacts *impacts, ovoid_couple c) {
     if (!impacts->frames->is_moved[c.a] && !impacts->frames->is_moved[c.b]) return 0;
-    if (!shard_part_has_pair(impacts->part, c.a, c.b)) return 0;
     if (ovoid_scene_is_ignored(impacts->scene, c.a, c.b)) return 0;
     return !has_couple(impacts->held, impacts->held_count, c);
 }

@@ -12,7 +12,6 @@ typedef struct cli_impacts {
     double margin; ///< >= 0
     unsigned threads;
     cli_results *results;
-    shard_part part;         ///< of the pairs
     ovoid_box *boxes;        ///< of each object, from the frame before to this one
     unsigned char *is_fresh; ///< of each object: its box is that of its present resting place
     ovoid_couple *held;      ///< pairs within the margin in the frame before, ascending

@@ -1,13 +1,25 @@
 // Near pairs come from a world (broad phase and cached proofs, see <ovoid/world.h>); their answers come from new
 // queries, so that they do not depend on earlier ones.
+//
+// Which pairs a world leaves out depends on the steps before: a cached proof may show that a pair is farther than the
+// margin where a new query does not. What a query of its own may leave open is 1e-9 of the pair's size, and what the
+// allowances of both bodies take from the distance of their polytopes, which no proof exceeds. So the world of a scene
+// that moves is asked for a margin that is larger by that: every pair that it leaves out is proven farther than the
+// margin by a query of its own too, whatever the steps before. The caller leaves out the rest by such queries
+// (answers_job.reach).
 #include "pairs/near.h"
 
 #include "base/args.h"
 #include "base/message.h"
 #include "base/pipeline.h"
 #include "pairs/answers.h"
+#include "pairs/balls.h"
 
+#include <math.h>
 #include <stdlib.h>
+
+/// Of a pair's size: what a query may leave open, ten times.
+#define ROOM 1e-8
 
 /// The largest number of pairs.
 #define COUPLES_MAX 50000000
@@ -24,16 +36,11 @@ static uint32_t get_object(const cli_near *near, ovoid_id id) {
     return near->objects ? near->objects[i] : i;
 }
 
-/// 1 if the pair of objects a < b is the part's.
-static int is_of_part(const cli_near *near, uint32_t a, uint32_t b) {
-    return near->cut.roles ? cut_has_pair(&near->cut, a, b) : shard_part_has_pair(near->part, a, b);
-}
-
 /// Called for each pair that comes near.
 static int is_wanted(void *context, ovoid_id a, ovoid_id b) {
     cli_near *near = context;
     uint32_t p = get_object(near, a), q = get_object(near, b);
-    if (!is_of_part(near, p < q ? p : q, p < q ? q : p)) return 0;
+    if (!cut_has_pair(&near->cut, p < q ? p : q, p < q ? q : p)) return 0;
     if (ovoid_scene_is_ignored(near->scene, p, q)) return 0;
     atomic_fetch_add(&near->candidates, 1);
     return 1;
@@ -110,13 +117,34 @@ static int create_world(cli_near *near, unsigned threads) {
     return message_error("%s", error.message), EXIT_INPUT;
 }
 
+/// How much farther than the margin the world of a scene that moves is asked; negative after a message.
+static double find_room(const near_request *request) {
+    double reach = 0, width = 0;
+    size_t count = ovoid_scene_get_count(request->scene);
+    cli_balls balls = balls_create(count);
+    if (!balls.slots) return message_error("out of memory"), -1;
+    for (size_t i = 0; i < count; i++) {
+        ovoid_body body = answers_get_body(request->scene, i, &request->poses[i]);
+        const cli_ball *ball = balls_find(&balls, &body);
+        const ovoid_vec3 c = ball->center;
+        reach = fmax(reach, ball->radius + fabs(c.x) + fabs(c.y) + fabs(c.z));
+        width = fmax(width, answers_find_width(&body));
+    }
+    balls_destroy(&balls);
+    // The size of a pair has the reach of both bodies, and the distance of their frames.
+    return 2 * width + ROOM * (4 * reach + request->margin);
+}
+
 int near_open(cli_near *near, const near_request *request) {
     *near = (cli_near){.scene = request->scene,
-                       .query = request->query,
                        .part = request->part,
+                       .is_still = request->is_still,
                        .object_count = ovoid_scene_get_count(request->scene)};
-    if (request->query.margin < 0) return 0;
-    const near_scene of = {request->scene, request->poses, request->query.margin};
+    if (request->margin < 0) return 0;
+    double room = request->is_still ? 0 : find_room(request);
+    if (room < 0) return EXIT_INPUT;
+    near->query = (ovoid_contact_query){.kind = OVOID_QUERY_WITHIN, .margin = request->margin + room};
+    const near_scene of = {request->scene, request->poses, request->margin};
     int code = request->is_still ? cut_open(&near->cut, &of, request->part) : 0;
     if (!code) code = list_objects(near);
     if (!code) code = create_world(near, request->threads);
@@ -167,7 +195,9 @@ static int reserve(cli_near *near, size_t count) {
         message_error("out of memory for %zu pairs", capacity);
     else
         message_error("too many pairs: above %d; %s", COUPLES_MAX,
-                      near->world ? "give a smaller --margin" : "give --margin to leave out far pairs, or --shard");
+                      near->world      ? "give a smaller --margin"
+                      : near->is_still ? "give --margin to leave out far pairs, or --shard"
+                                       : "give --margin to leave out far pairs");
     return EXIT_INPUT;
 }
 

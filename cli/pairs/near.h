@@ -1,4 +1,5 @@
-// The pairs of a scene's objects that are answered: all, or those that are not proven farther apart than a margin.
+// The pairs of a scene's objects that are answered: all, or those that are not proven farther apart than a margin; of a
+// scene that moves also some that are a little farther.
 #ifndef OVOID_CLI_PAIRS_NEAR_H
 #define OVOID_CLI_PAIRS_NEAR_H
 
@@ -19,19 +20,21 @@ typedef struct cli_near {
     ovoid_couple *couples; ///< a < b, ascending
     size_t count, capacity;
     ovoid_contact_query query;
-    shard_part part;          ///< of the pairs
-    cli_cut cut;              ///< of a scene at rest; else pairs are dealt out one by one
+    shard_part part; ///< of the pairs of a scene at rest
+    int is_still;
+    cli_cut cut;
     atomic_size_t candidates; ///< pairs that the world keeps: those found last, and new ones
 } cli_near;
 
 /// Which pairs are wanted.
 typedef struct near_request {
     const ovoid_scene *scene;
-    const ovoid_pose *poses;   ///< of its objects
-    ovoid_contact_query query; ///< collide, or within a margin, which is negative for all pairs
-    shard_part part;           ///< only pairs of that shard are found
+    const ovoid_pose *poses; ///< of its objects
+    double margin;           ///< negative: all pairs are wanted
+    shard_part part;         ///< of a scene at rest: only pairs of that shard are found
     unsigned threads;
-    int is_still; ///< no object will be moved: a shard then has only the objects that may be near its own
+    int is_still; ///< no object will be moved. Else which pairs that are not proven farther than the margin by a query
+                  ///< of their own are found does not depend on earlier poses: all are
 } near_request;
 
 /// Adds the objects to a world. 0, or EXIT_INPUT after a message.

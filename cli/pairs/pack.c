@@ -26,6 +26,9 @@ static int run(const cli_command *command, int argc, char **argv) {
     int code = command_parse(command, argc, argv, &s, &paths);
     if (code >= 0) return code;
     if (!s.output) return args_complain(command, "pack: --output FILE.ovoids is missing");
+    // Other commands tell a scene by its name.
+    if (!outputs_has_extension(s.output, "ovoids"))
+        return args_complain(command, "pack: --output %s: the output is ovoids; choose a name that says so", s.output);
     ovoid_scene *scene = inputs_read_scene(paths.items[0], s.hull);
     if (!scene) return EXIT_INPUT;
     inputs_warn_scene(scene);

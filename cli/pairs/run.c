@@ -1,7 +1,7 @@
-// ovoid run: a scene that moves. In each frame a world finds the pairs that are not proven farther apart than the
-// margin; each is answered by a new query, so that its line does not depend on earlier frames, and can be checked
-// alone. With --continuous the times of impact between frames are bracketed. Memory does not grow with the number of
-// frames, except for the points of a plot.
+// ovoid run: a scene that moves. In each frame a world finds the pairs that may be within the margin; each is answered
+// by a new query, and listed if that does not prove it farther apart. So the lines of a frame do not depend on the
+// frames before it, can be checked alone, and parts of the frames are shards. With --continuous the times of impact
+// between frames are bracketed. Memory does not grow with the number of frames, except for the points of a plot.
 #include "commands.h"
 
 #include "base/frames.h"
@@ -69,8 +69,10 @@ typedef struct run_state {
     ovoid_manifold_options contacts; ///< of the records of frames, if they are wanted
     size_t counts[4];                ///< of the records of frames, by ovoid_status
     exit_code worst;
-    int code;      ///< the exit code of a failed callback, or 0
-    uint64_t kept; ///< frames of a shard that an earlier run wrote
+    int code;             ///< the exit code of a failed callback, or 0
+    uint64_t kept;        ///< frames of a shard that an earlier run wrote
+    uint64_t frame_count; ///< of the motion, if this is a shard
+    int is_begun;         ///< the frame before, and the pairs in it, are those of the motion
 } run_state;
 
 /// The margin of impacts: 0, touching, if none was given.
@@ -113,23 +115,25 @@ static void take_impact(void *context, ovoid_couple couple, const ovoid_record *
 
 /* ---- the frames */
 
-/// Answers the pairs of a frame. is_kept: their lines are in the shard already, and only the data for the next frame
+/// Answers the pairs of a frame. is_before: it is the one before those of a part, and only the data for the next frame
 /// are kept.
-static int answer_frame(run_state *r, int is_kept) {
+static int answer_frame(run_state *r, int is_before) {
     const settings *s = r->settings;
     answers_job job = {.scene = r->scene,
                        .poses = r->frames.poses,
                        .query = s->query,
                        .margin = s->margin,
                        .tolerance = s->tolerance,
+                       .is_near_only = r->near.world != NULL,
+                       .reach = get_margin(s),
                        .threads = s->threads,
                        .couples = r->near.couples,
                        .stride = sizeof *r->near.couples,
                        .count = r->near.count,
-                       .contacts = s->contacts.wanted && !is_kept ? &r->contacts : NULL,
+                       .contacts = s->contacts.wanted && !is_before ? &r->contacts : NULL,
                        .time = r->frames.time,
-                       .results = is_kept ? NULL : &r->results,
-                       .take = is_kept ? take_held : take_record,
+                       .results = is_before ? NULL : &r->results,
+                       .take = is_before ? take_held : take_record,
                        .context = r};
     int code = answers_run(&job);
     if (!code && r->track.failed) message_error("out of memory"), code = EXIT_INPUT;
@@ -137,54 +141,68 @@ static int answer_frame(run_state *r, int is_kept) {
 }
 
 static int run_frame(run_state *r) {
-    int code = 0, is_kept = r->frames.count <= r->kept;
-    if (r->settings->continuous && r->frames.count > 1 && !is_kept) code = impacts_find(&r->impacts);
-    // The world goes through all frames, since it keeps the proofs of pairs from one to the next.
+    int code = 0;
+    if (r->settings->continuous && r->frames.count > 1) code = impacts_find(&r->impacts);
     if (!code) code = near_move(&r->near, r->frames.moved, r->frames.moved_count, r->frames.poses);
     if (!code) code = near_find(&r->near);
     track_add_frame(&r->track, r->frames.time);
     if (r->page.path) page_motion_add_frame(&r->motion, r->frames.time, r->frames.poses);
-    if (!code && !is_kept) code = answer_frame(r, 0);
-    if (!code && r->settings->continuous && r->frames.count == r->kept) code = answer_frame(r, 1);
-    if (!code && !is_kept) code = results_end_units(&r->results, 1);
+    if (!code) code = answer_frame(r, 0);
+    if (!code) code = results_end_units(&r->results, 1);
     progress_set(r->frames.count);
     return code;
+}
+
+/// Begins with the present poses: of the first frame, or of the frame before consecutive ones of a part.
+static int begin(run_state *r) {
+    const settings *s = r->settings;
+    near_close(&r->near);
+    impacts_close(&r->impacts);
+    const near_request request = {.scene = r->scene,
+                                  .poses = r->frames.poses,
+                                  .margin = s->query == QUERY_COLLIDE ? 0 : s->margin,
+                                  .threads = s->threads};
+    int code = near_open(&r->near, &request);
+    if (code || !s->continuous) return code;
+    r->impacts = (cli_impacts){.scene = r->scene,
+                               .frames = &r->frames,
+                               .margin = get_margin(s),
+                               .threads = s->threads,
+                               .results = &r->results,
+                               .take = take_impact,
+                               .context = r};
+    code = impacts_open(&r->impacts);
+    if (!code && r->frames.count) code = near_find(&r->near);
+    return code || !r->frames.count ? code : answer_frame(r, 1);
+}
+
+/// Reads the next frame of the part that no earlier run has written, and begins anew behind frames that are left out.
+/// 1, 0 at the end, -1 after a message.
+static int next_frame(run_state *r) {
+    const shard_part part = r->settings->part;
+    uint64_t next = r->frames.count;
+    for (; part.count && next < r->frame_count; next++) {
+        int is_own = shard_part_has_frame(part, next, r->frame_count);
+        if (is_own && !r->kept) break;
+        r->kept -= (uint64_t)is_own;
+    }
+    if (part.count && next == r->frame_count) return 0;
+    int is_next = next == r->frames.count;
+    if (!is_next && frames_skip(&r->frames, next) <= 0) return -1;
+    if (!(is_next && r->is_begun) && begin(r)) return -1;
+    r->is_begun = 1;
+    return frames_next(&r->frames);
 }
 
 static int run_frames(run_state *r) {
     int code = 0, got = 0;
     progress_start("frames", 0);
-    while (!code && (got = frames_next(&r->frames)) > 0) code = run_frame(r);
+    while (!code && (got = next_frame(r)) > 0) code = run_frame(r);
     progress_end();
     return code || got >= 0 ? code : EXIT_INPUT;
 }
 
 /* ---- the run */
-
-static int open_all(run_state *r) {
-    const settings *s = r->settings;
-    int is_collide = s->query == QUERY_COLLIDE;
-    int code = frames_open(&r->frames, s->motion, r->scene);
-    const near_request request = {
-        .scene = r->scene,
-        .poses = r->frames.poses,
-        .query = {.kind = is_collide ? OVOID_QUERY_COLLIDE : OVOID_QUERY_WITHIN, .margin = is_collide ? 0 : s->margin},
-        .part = s->part,
-        .threads = s->threads};
-    if (!code) code = near_open(&r->near, &request);
-    if (!code && s->continuous) {
-        r->impacts = (cli_impacts){.scene = r->scene,
-                                   .frames = &r->frames,
-                                   .margin = get_margin(s),
-                                   .threads = s->threads,
-                                   .results = &r->results,
-                                   .part = s->part,
-                                   .take = take_impact,
-                                   .context = r};
-        code = impacts_open(&r->impacts);
-    }
-    return code;
-}
 
 static unsigned get_fields(const run_state *r) {
     const settings *s = r->settings;
@@ -193,8 +211,7 @@ static unsigned get_fields(const run_state *r) {
            (s->margin >= 0 ? OVOID_RECORD_MARGIN : 0);
 }
 
-/// Runs the motion for the pairs of a shard. Frames cannot be divided, since a world keeps the proof of a pair from
-/// frame to frame; pairs can, since it keeps each pair's proof by itself.
+/// Runs the frames of a shard.
 static int run_shard(run_state *r, const cli_command *command, const cli_operands *paths) {
     const settings *s = r->settings;
     shard_job job = {.command = command,
@@ -208,7 +225,8 @@ static int run_shard(run_state *r, const cli_command *command, const cli_operand
     int code = results_open_shard(&r->results, &s->out, get_fields(r), &job);
     if (code) return code;
     r->kept = results_get_done(&r->results);
-    if (r->kept != UINT64_MAX) code = open_all(r);
+    if (r->kept != UINT64_MAX) code = frames_count(s->motion, r->scene, &r->frame_count);
+    if (!code && r->kept != UINT64_MAX) code = frames_open(&r->frames, s->motion, r->scene);
     if (!code && r->kept != UINT64_MAX) code = run_frames(r);
     return results_close(&r->results, code);
 }
@@ -230,7 +248,7 @@ static int write_page(run_state *r, const char *title) {
 static int run_motion(run_state *r, const char *title) {
     const settings *s = r->settings;
     double start = progress_get_seconds();
-    int code = open_all(r);
+    int code = frames_open(&r->frames, s->motion, r->scene);
     if (!code && s->html) code = page_motion_open(&r->motion, ovoid_scene_get_count(r->scene));
     if (code) return code;
     const unsigned fields = get_fields(r);

@@ -26,6 +26,20 @@ static inline int shard_part_has(shard_part part, uint64_t i) {
     return !part.count || i % part.count == part.index - 1;
 }
 
+/// Blocks of frames of a part, and frames of a block at least where a part has more than one. Each begins anew, which
+/// costs about a frame.
+enum { SHARD_BLOCKS = 4, SHARD_BLOCK_FRAMES = 32 };
+
+/// 1 if frame i of `count` is one of the part: blocks of consecutive frames of the same length, within one, are dealt
+/// out in turn, from another part on in each round, so that blocks and rounds of different lengths even out.
+static inline int shard_part_has_frame(shard_part part, uint64_t i, uint64_t count) {
+    if (part.count < 2) return 1;
+    uint64_t rounds = count / part.count / SHARD_BLOCK_FRAMES;
+    rounds = rounds < 1 ? 1 : rounds > SHARD_BLOCKS ? SHARD_BLOCKS : rounds;
+    uint64_t block = ((i + 1) * (rounds * part.count) - 1) / count;
+    return shard_part_has(part, block + block / part.count);
+}
+
 /// Bodies in a row of pairs that go to one shard together.
 enum { SHARD_ROW = 16 };
 

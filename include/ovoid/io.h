@@ -324,6 +324,18 @@ OVOID_API ovoid_motion_reader *ovoid_motion_reader_open(const char *path, const 
 OVOID_API ovoid_motion_columns ovoid_motion_reader_get_columns(const ovoid_motion_reader *reader);
 /** The next line. 1: *line is filled; 0: the end; -1: *error is filled. */
 OVOID_API int ovoid_motion_reader_read(ovoid_motion_reader *reader, ovoid_motion_line *line, ovoid_error *error);
+/**
+ * Skips the frames, all lines of one time, before number `frame`, counted from 0; the frame of the line that was read
+ * last is one of them. What they change is not lost: the lines that are read next are the last line of each body in
+ * the skipped frames, by the bodies, each with the time of the last of these frames; then those of frame `frame`. Does
+ * nothing where a line of that frame or of a later one was read. Of skipped lines only times and names are checked;
+ * their numbers are if they are read. Where the file has fewer frames, all are skipped. UINT64_MAX: the rest of the
+ * file is left out, and its frames are counted by the times alone, which are checked. Errors: as of reading, MEMORY.
+ * Memory: a line for each body. Cost: a tenth of reading.
+ */
+OVOID_API ovoid_code ovoid_motion_reader_skip(ovoid_motion_reader *reader, uint64_t frame, ovoid_error *error);
+/** The number of frames of which a line was read or skipped. */
+OVOID_API uint64_t ovoid_motion_reader_get_frame_count(const ovoid_motion_reader *reader);
 /** The 1-based line of the file that was read last. */
 OVOID_API int64_t ovoid_motion_reader_get_line(const ovoid_motion_reader *reader);
 /** Frees it; NULL is allowed. */

@@ -203,6 +203,16 @@ class motion_reader
     }
     /** The number of the last line read, from 1. */
     std::int64_t line() const noexcept { return ovoid_motion_reader_get_line(get()); }
+    /**
+     * Skips the frames before number `frame`, counted from 0; the last line of each body in them is read next;
+     * UINT64_MAX: counts those of the rest of the file, which is left out. Throws as ovoid_motion_reader_skip fails.
+     */
+    void skip(std::uint64_t frame) {
+        ovoid_error e;
+        if (ovoid_motion_reader_skip(get(), frame, &e) != OVOID_OK) detail::fail(e);
+    }
+    /** The number of frames of which a line was read or skipped. */
+    std::uint64_t frame_count() const noexcept { return ovoid_motion_reader_get_frame_count(get()); }
 };
 
 /** Reads a results file of JSON lines. */

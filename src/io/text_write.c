@@ -96,12 +96,14 @@ int text_read_escape(const char *text, const char *end) {
     return (int)(16 * (high - digits) + (low - digits));
 }
 
+// 1 for letters of ASCII, in any locale.
+static int is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
 // 1 for a text of letters, digits, underscores and points that begins with a letter, as most names do.
 static int is_word(const char *text) {
-    static const char marks[] = "_.";
     const char *c = text;
-    if (!isalpha((unsigned char)*c) || (unsigned char)*c > '~') return 0;
-    while ((unsigned char)*c <= '~' && *c && (isalnum((unsigned char)*c) || strchr(marks, *c))) c++;
+    if (!is_letter(*c)) return 0;
+    while (is_letter(*c) || (*c >= '0' && *c <= '9') || *c == '_' || *c == '.') c++;
     return !*c;
 }
 

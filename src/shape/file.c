@@ -24,6 +24,7 @@
 #include "shape/block.h"
 #include "shape/create.h"
 #include "shape/round.h"
+#include "tools/checksum.h"
 
 #include <string.h>
 
@@ -47,30 +48,6 @@ static uint64_t compute_checksum_by_bytes(const uint8_t *bytes, size_t size) {
     uint64_t h = 0xcbf29ce484222325u;
     for (size_t i = 0; i < size; i++) h = (h ^ bytes[i]) * 0x100000001b3u;
     return h;
-}
-
-static uint64_t load_word(const uint8_t *b) {
-    uint64_t low = b[0] | (uint64_t)b[1] << 8 | (uint64_t)b[2] << 16 | (uint64_t)b[3] << 24;
-    uint64_t high = b[4] | (uint64_t)b[5] << 8 | (uint64_t)b[6] << 16 | (uint64_t)b[7] << 24;
-    return low | high << 32;
-}
-
-// A bijection of the sum for any word, and of the word for any sum: a product with an odd number, and a shift that
-// brings high bits down.
-static uint64_t mix(uint64_t sum, uint64_t word) {
-    uint64_t product = (sum ^ word) * 0x9e3779b97f4a7c15u;
-    return product ^ product >> 32;
-}
-
-// The words in turn go to four sums, which do not wait for each other; their sum is that of the file. size: a multiple
-// of 8.
-static uint64_t compute_checksum_by_words(const uint8_t *bytes, size_t size) {
-    uint64_t sum[4] = {1, 2, 3, 4};
-    size_t i = 0;
-    for (; i + 32 <= size; i += 32)
-        for (size_t k = 0; k < 4; k++) sum[k] = mix(sum[k], load_word(bytes + i + 8 * k));
-    for (size_t k = 0; i < size; i += 8, k++) sum[k] = mix(sum[k], load_word(bytes + i));
-    return mix(mix(mix(mix(0, sum[0]), sum[1]), sum[2]), sum[3]);
 }
 
 // The properties of a file that depend on its version.
@@ -105,7 +82,7 @@ static layout make_layout(uint32_t written, uint32_t vertex_count) {
 
 static uint64_t compute_checksum(const layout *l, const uint8_t *bytes) {
     size_t size = l->size - CHECKSUM_SIZE;
-    return l->has_words ? compute_checksum_by_words(bytes, size) : compute_checksum_by_bytes(bytes, size);
+    return l->has_words ? checksum_words(bytes, size) : compute_checksum_by_bytes(bytes, size);
 }
 
 // ---- writing ----
@@ -209,7 +186,7 @@ typedef struct reader {
 
 static uint64_t get_word(reader *r) {
     r->at += 8;
-    return load_word(r->bytes + r->at - 8);
+    return checksum_load_word(r->bytes + r->at - 8);
 }
 
 static uint32_t get_half(reader *r) {

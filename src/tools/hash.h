@@ -39,21 +39,6 @@ static inline uint64_t hash_point(const double point[3]) {
     return (hash ^ hash >> 29) * factors[0] >> 32;
 }
 
-/// The hash of bytes, eight at a time.
-static inline uint64_t hash_bytes(const void *from, size_t size) {
-    const char *at = from;
-    uint64_t hash = size, word;
-    for (; size >= sizeof word; at += sizeof word, size -= sizeof word) {
-        memcpy(&word, at, sizeof word);
-        hash = (hash ^ word) * 0x9e3779b97f4a7c15u;
-        hash ^= hash >> 32;
-    }
-    word = 0;
-    memcpy(&word, at, size);
-    hash = (hash ^ word) * 0xbf58476d1ce4e5b9u;
-    return hash ^ hash >> 29;
-}
-
 /// 1 if both points have the same three coordinates; 0 and -0 are equal.
 static inline int hash_is_same_point(const double *a, const double *b) {
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];

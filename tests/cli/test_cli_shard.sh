@@ -91,6 +91,49 @@ all 4 'check, top' check scene.json --top 50 --csv
 all 3 'run' run scene.json --motion moves.csv --margin 0.2 --json
 all "$every" 'run, continuous' run scene.json --motion moves.csv --query collide --continuous --csv --proofs
 
+# Many frames, so that parts have several blocks. A body whose allowance is sideways alone has another over it, which
+# slides over its edge: along the normal of the first frames it is farther than 0.299, and a new query leaves that open.
+awk 'BEGIN { srand(5)
+    printf "{\"objects\":[{\"name\":\"wide\",\"box\":[1,1,1],\"allowance\":{\"outside\":0.1,\"inside\":0,\"axis\":[0,0,1]}}," >"long.json"
+    printf "{\"name\":\"over\",\"box\":[0.2,0.2,0.2],\"pose\":{\"xyz\":[0,0,0.9]}},{\"name\":\"beside\",\"sphere\":0.5,\"pose\":{\"xyz\":[0,2,0]}}," >"long.json"
+    print "{\"name\":\"rare\",\"cylinder\":{\"radius\":0.3,\"length\":1},\"pose\":{\"xyz\":[0,-1.1,0]}}]}" >"long.json"
+    print "time,body,x,y,z,qw,qx,qy,qz" >"long.csv"
+    print "time,body,vx,vy,vz,wx,wy,wz" >"speeds.csv"
+    for (f = 0; f < 150; f++) {
+        printf "%g,over,%.6f,0,0.9,1,0,0,0\n%g,beside,0.1,%.6f,0,1,0,0,0\n", f / 10, f * 0.005, f / 10, 1.3 + 0.2 * rand() >"long.csv"
+        if (f % 40 == 17) printf "%g,rare,0.2,%.6f,0,1,0,0,%.4f\n", f / 10, -1.1 - (f == 17 ? 1.5 : 0.1 * rand()), rand() >"long.csv"
+        printf "%g,over,0.05,%.6f,0,0,0,1\n", f / 10, 0.01 * rand() >"speeds.csv"
+        if (f % 40 == 17) printf "%g,rare,0.01,%.6f,0,0.1,0,0\n", f / 10, 0.1 - 0.2 * rand() >"speeds.csv"
+    } }'
+all '1 2 9' 'run, many frames' run long.json --motion long.csv --margin 0.299 --csv
+all 2 'run, many frames, no margin' run long.json --motion long.csv --csv
+all '2 5' 'run, many frames, continuous' run long.json --motion long.csv --margin 0.299 --continuous --json
+all '2 3' 'run, velocities' run long.json --motion speeds.csv --margin 0.299 --continuous --csv
+"$OVOID_TOOL" run long.json --motion long.csv --margin 0.299 --csv 2>/dev/null | grep ',over,' >lines
+check 'a pair that is proven farther is not listed, and listed once it is not' [ "$(head -1 lines | cut -d, -f 1 | cut -d. -f 1)" -gt 3 ]
+# Frames of other parts are not read; what is wrong in them is said by their part.
+sed '250s/,[^,]*$/,x/' long.csv >bad.csv
+for i in 1 2 3; do
+    rm -f $i.bad*
+    "$OVOID_TOOL" run long.json --motion bad.csv --margin 0.299 --csv --shard $i/3 -o $i.bad 2>said
+    code=$?
+    if [ $i -eq 3 ]; then
+        check "a bad line is of part 3: said" grep -q 'bad.csv:250: column qz: "x' said
+        check "a bad line is of part 3: exit code $code" [ $code -eq 3 ]
+    else
+        check "a bad line is not of part $i: exit code $code" [ $code -ne 3 ]
+    fi
+done
+sed '250s/,[a-z]*,/,none,/' long.csv >bad.csv
+"$OVOID_TOOL" run long.json --motion bad.csv --margin 0.299 --csv --shard 9/9 -o 9.none 2>said
+check 'a name of no body before a part' [ $? -eq 3 ]
+check 'a name of no body before a part: said' grep -q 'bad.csv:250: the scene has no object "none"' said
+sed '250s/^/-/' long.csv >bad.csv
+"$OVOID_TOOL" run long.json --motion bad.csv --margin 0.299 --csv --shard 1/9 -o 1.none 2>said
+check 'a time that goes back behind a part' [ $? -eq 3 ]
+check 'a time that goes back behind a part: said' grep -q 'bad.csv:250: the time is before' said
+rm -f -- *.bad* *.none*
+
 # Searches for depths that fill their memory go farther where proofs are written.
 cat >sizes.json <<'END'
 {"objects":[{"box":[7.889982050451218,7.889982050451218,7.889982050451218],"name":"o3","pose":{"xyz":[0.6578745853158191,1.6636244539173282,-1.4239153689754074],"quat_wxyz":[-0.365606394624974,0.29705377546415784,0.6138572478257066,-1.0134762399299608]},"radius":0.7889982050451219,"allowance":{"outside":0.07889982050451218,"inside":0.15779964100902436}},
@@ -214,6 +257,7 @@ again check check scene.json --json
 again 'check, CSV' check scene.json --csv
 again run run scene.json --motion moves.csv --json
 again 'run, continuous' run scene.json --motion moves.csv --json --continuous --margin 0.1
+again 'run, many frames' run long.json --motion long.csv --csv --continuous --margin 0.299
 # shellcheck disable=SC2086 # words without blanks
 [ $has_robot -eq 0 ] || again 'robot check' $robot --json --near 0.3
 

@@ -84,13 +84,22 @@ void check_scenes() {
     for (std::size_t i = 0; i < scene.size(); i++) world.add(scene[i]);
     CHECK_EQ(world.compute_contacts({OVOID_QUERY_WITHIN, 8}).size(), 1);
 
-    auto motion = ovoid::motion_reader::open(
-        write_text("motion.csv", "time,body,x,y,z,qw,qx,qy,qz\n0,box,1,2,3,1,0,0,0\n0.5,nobody,0,0,0,1,0,0,0\n"),
-        scene);
+    const std::string motion_path =
+        write_text("motion.csv", "time,body,x,y,z,qw,qx,qy,qz\n0,box,1,2,3,1,0,0,0\n0.5,nobody,0,0,0,1,0,0,0\n");
+    auto motion = ovoid::motion_reader::open(motion_path, scene);
     ovoid_motion_line line;
     CHECK(motion.columns() == OVOID_MOTION_COLUMNS_POSE && motion.read(line) && is_vec3(line.pose.position, 1, 2, 3));
     CHECK_EQ(motion.line(), 2);
     CHECK(throws(OVOID_ERROR_FORMAT, 3, "nobody", [&] { motion.read(line); }));
+    auto later = ovoid::motion_reader::open(
+        write_text("later.csv", "time,body,x,y,z,qw,qx,qy,qz\n0,box,1,2,3,1,0,0,0\n1,box,4,5,6,1,0,0,0\n"), scene);
+    later.skip(1);
+    CHECK(later.frame_count() == 1 && later.read(line) && is_vec3(line.pose.position, 1, 2, 3));
+    CHECK(later.read(line) && is_vec3(line.pose.position, 4, 5, 6) && later.frame_count() == 2);
+    CHECK(throws(OVOID_ERROR_FORMAT, 3, "nobody", [&] {
+        auto bad = ovoid::motion_reader::open(motion_path, scene);
+        bad.skip(5);
+    }));
     auto moved = std::move(scene);
     CHECK(!scene && moved.size() == 2); // NOLINT: moved from is empty
 }
@@ -138,7 +147,7 @@ int main() {
     check_scenes();
     check_tables();
     for (const char *name : {"mesh.obj", "hull.ovoid", "list.txt", "bad.obj", "scene.json", "scene.ovoids",
-                             "meshes.json", "motion.csv", "pairs.csv", "results.jsonl"})
+                             "meshes.json", "motion.csv", "later.csv", "pairs.csv", "results.jsonl"})
         CHECK(std::remove((folder + "/" + name).c_str()) == 0);
     CHECK(rmdir(path) == 0);
     return check_end();

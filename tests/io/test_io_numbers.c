@@ -54,6 +54,24 @@ static void check_both(void) {
     check_seed = 0;
 }
 
+// 17 to 19 digits times each power of ten that is read without the C library, and some beyond.
+static void check_powers(void) {
+    uint64_t s = 47;
+    for (int power = -50; power <= 50; power++)
+        for (int i = 0; i < 300; i++) {
+            check_seed = s;
+            char text[80];
+            uint64_t digits = random_next(&s) % 9999999999999999999u;
+            snprintf(text, sizeof text, "%llue%d", (unsigned long long)(i % 3 ? digits : digits / 100), power);
+            check_read(text);
+            // All digits are the same, so that carries run through.
+            memset(text, '0' + i % 10, 19);
+            snprintf(text + 19 - i % 4, sizeof text - 19, "e%d", power);
+            check_read(text);
+        }
+    check_seed = 0;
+}
+
 // Ties between two doubles, exact and missed by one digit far behind.
 static void check_ties(void) {
     uint64_t s = 43;
@@ -91,11 +109,26 @@ static void check_ends(void) {
         const char *text;
         int length; ///< of the number; -1: none
         double value;
-    } cases[] = {{"1,2", 1, 1}, {"1e", 1, 1},      {"1e+", 1, 1},         {"1.5.2", 3, 1.5},
-                 {"-", -1, 0},  {"+.", -1, 0},     {".", -1, 0},          {"e5", -1, 0},
-                 {"", -1, 0},   {"x", -1, 0},      {"0x10", 1, 0},        {"- 1", -1, 0},
-                 {"5.", 2, 5},  {"1e5e5", 3, 1e5}, {"infx", 3, INFINITY}, {"-Infinity", 9, -INFINITY},
-                 {"in", -1, 0}};
+    } cases[] = {{"1,2", 1, 1},
+                 {"1e", 1, 1},
+                 {"1e+", 1, 1},
+                 {"1.5.2", 3, 1.5},
+                 {"-", -1, 0},
+                 {"+.", -1, 0},
+                 {".", -1, 0},
+                 {"e5", -1, 0},
+                 {"", -1, 0},
+                 {"x", -1, 0},
+                 {"0x10", 1, 0},
+                 {"- 1", -1, 0},
+                 {"5.", 2, 5},
+                 {"1e5e5", 3, 1e5},
+                 {"infx", 3, INFINITY},
+                 {"-Infinity", 9, -INFINITY},
+                 {"in", -1, 0},
+                 {"12345678:9", 8, 12345678},
+                 {"1.234567?9", 8, 1.234567},
+                 {"12345/789", 5, 12345}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         double value = 0;
         const char *end = cases[i].text + strlen(cases[i].text), *after = number_read(cases[i].text, end, &value);
@@ -114,6 +147,7 @@ static void check_ends(void) {
 
 int main(void) {
     check_both();
+    check_powers();
     check_ties();
     check_ends();
     check_written(0.0);

@@ -260,6 +260,17 @@ static void check_words(const char *packed) {
         if (!CHECK(strstr(error.message, cases[i].word) != NULL)) printf("  %s\n", error.message);
         free(file.data);
     }
+    // Cut anywhere, it is a packed scene that was cut.
+    bytes file = read_all(packed);
+    for (size_t size = 1; size < 100; size++) {
+        ovoid_error error = {OVOID_OK, -1, ""};
+        write_bytes(file_path("packed_word.ovoids"), file.data, size);
+        CHECK(ovoid_scene_read(file_path("packed_word.ovoids"), NULL, &error) == NULL);
+        const char *word =
+            size < sizeof(packed_header) ? "packed scene, byte 0: it ends within its header" : "it is cut off";
+        if (!CHECK(strstr(error.message, word) != NULL)) printf("  %s\n", error.message);
+    }
+    free(file.data);
     ovoid_error error = {OVOID_OK, -1, ""};
     ovoid_scene *scene = ovoid_scene_read(packed, NULL, &error);
     CHECK_EQ(ovoid_scene_write(scene, file_path("no/such/folder.ovoids"), &error), OVOID_ERROR_FILE);

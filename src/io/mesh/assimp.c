@@ -21,10 +21,10 @@ ovoid_code mesh_read_assimp(mesh_reader *reader) {
 
 #include "io/locale.h"
 #include "io/mesh/assimp_files.h"
+#include "io/mesh/assimp_load.h"
 #include "io/mesh/child.h"
 #include "io/mesh/stream.h"
 
-#include <assimp/cimport.h>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -44,13 +44,17 @@ enum { NODE_DEPTH_MAX = 1000 };
 // Wall-clock time gets a factor, as the machine may be busy with other work.
 #define CLOCK_FACTOR 6
 
-int ovoid_io_has_assimp(void) { return 1; }
+int ovoid_io_has_assimp(void) {
+    const char *why;
+    return assimp_load(&why) != NULL;
+}
 
 // ---- the importer's side: from Assimp's scene to records
 
 /// The scene that is being written as records.
 typedef struct scene_traversal {
     record_sink *sink;
+    const assimp_functions *assimp;
     const struct aiScene *scene;
     int parts, has_part;
     const char *failure; ///< why the traversal ended early, or NULL
@@ -81,7 +85,7 @@ static void hand_over_node(scene_traversal *traversal, const struct aiNode *node
                            int depth) {
     if (depth > NODE_DEPTH_MAX) traversal->failure = "nodes are nested more than 1000 deep";
     if (traversal->failure || traversal->sink->failed) return;
-    aiMultiplyMatrix4(&parent, &node->mTransformation);
+    traversal->assimp->multiply(&parent, &node->mTransformation);
     if (node->mNumMeshes) start_part(traversal, node);
     for (unsigned i = 0; i < node->mNumMeshes; i++)
         if (node->mMeshes[i] < traversal->scene->mNumMeshes)
@@ -89,23 +93,23 @@ static void hand_over_node(scene_traversal *traversal, const struct aiNode *node
     for (unsigned i = 0; i < node->mNumChildren; i++) hand_over_node(traversal, node->mChildren[i], parent, depth + 1);
 }
 
-static const struct aiScene *import(const char *path, struct aiFileIO *io) {
-    struct aiPropertyStore *store = aiCreatePropertyStore();
+static const struct aiScene *import(const assimp_functions *assimp, const char *path, struct aiFileIO *io) {
+    struct aiPropertyStore *store = assimp->create_store();
     if (!store) return NULL;
     static const char *const off[] = {AI_CONFIG_IMPORT_FBX_READ_MATERIALS,  AI_CONFIG_IMPORT_FBX_READ_TEXTURES,
                                       AI_CONFIG_IMPORT_FBX_READ_CAMERAS,    AI_CONFIG_IMPORT_FBX_READ_LIGHTS,
                                       AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, AI_CONFIG_IMPORT_FBX_READ_WEIGHTS};
-    for (size_t i = 0; i < sizeof off / sizeof *off; i++) aiSetImportPropertyInteger(store, off[i], 0);
-    aiSetImportPropertyInteger(store, AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);
-    const struct aiScene *scene = aiImportFileExWithProperties(path, 0, io, store);
-    aiReleasePropertyStore(store);
+    for (size_t i = 0; i < sizeof off / sizeof *off; i++) assimp->set_integer(store, off[i], 0);
+    assimp->set_integer(store, AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);
+    const struct aiScene *scene = assimp->import(path, 0, io, store);
+    assimp->release_store(store);
     return scene;
 }
 
 // Writes why there is no scene: a file that it names was not opened, lack of memory, or Assimp's own message.
-static void hand_over_failure(record_sink *sink, const ovoid_error *refused) {
+static void hand_over_failure(const assimp_functions *assimp, record_sink *sink, const ovoid_error *refused) {
     char sentence[400];
-    const char *words = aiGetErrorString();
+    const char *words = assimp->get_error();
     if (refused->code) {
         record_write_end(sink, refused->code, refused->message);
     } else if (!*words || strstr(words, "bad_alloc")) {
@@ -122,19 +126,21 @@ static void hand_over(const mesh_reader *reader, record_sink *sink, void (*befor
     struct aiFileIO io = assimp_files_make(&files);
     // Some importers read numbers by the locale.
     locale_scope locale = locale_enter();
-    const struct aiScene *scene = import(reader->path, &io);
+    const char *why;
+    const assimp_functions *assimp = assimp_load(&why); // it was loaded before
+    const struct aiScene *scene = import(assimp, reader->path, &io);
     locale_leave(locale);
     if (!scene) {
-        hand_over_failure(sink, &files.refused);
+        hand_over_failure(assimp, sink, &files.refused);
         return;
     }
-    scene_traversal traversal = {.sink = sink, .scene = scene, .parts = reader->parts};
+    scene_traversal traversal = {.sink = sink, .assimp = assimp, .scene = scene, .parts = reader->parts};
     struct aiMatrix4x4 identity;
-    aiIdentityMatrix4(&identity);
+    assimp->set_identity(&identity);
     if (scene->mRootNode) hand_over_node(&traversal, scene->mRootNode, identity, 0);
     record_write_end(sink, traversal.failure ? OVOID_ERROR_LIMIT : OVOID_OK,
                      traversal.failure ? traversal.failure : "");
-    aiReleaseImport(scene);
+    assimp->release_import(scene);
 }
 
 // ---- in a child
@@ -227,6 +233,13 @@ static ovoid_code read_here(mesh_reader *reader) {
     return code;
 }
 
-ovoid_code mesh_read_assimp(mesh_reader *reader) { return reader->trusted ? read_here(reader) : read_in_child(reader); }
+ovoid_code mesh_read_assimp(mesh_reader *reader) {
+    const char *why;
+    // Before the child, which has no more than its parent.
+    if (!assimp_load(&why))
+        return io_fail(reader->error, OVOID_ERROR_FILE, (where){reader->path, 0, -1}, "Assimp cannot be loaded: %s",
+                       why);
+    return reader->trusted ? read_here(reader) : read_in_child(reader);
+}
 
 #endif

@@ -6,7 +6,7 @@
 
 #include "io/scene/scene.h"
 #include "io/scene/scene_bytes.h"
-#include "tools/hash.h"
+#include "tools/checksum.h"
 
 #include <string.h>
 
@@ -40,13 +40,15 @@ static inline size_t packed_round(size_t size) { return (size + 7) / 8 * 8; }
 
 static inline uint64_t packed_compute_checksum(const packed_header *header) {
     const char *from = (const char *)(&header->checksum + 1);
-    return hash_bytes(from, (size_t)header->size - (size_t)(from - (const char *)header));
+    return checksum_words(from, (size_t)header->size - (size_t)(from - (const char *)header));
 }
 
 /// Reads a packed scene from the bytes, which the scene takes over, or frees where it fails.
 ovoid_code scene_unpack(scene_reader *r, bytes file);
 
-/// 1 if the bytes are of a packed scene.
-static inline int packed_is(bytes file) { return file.size >= 8 && memcmp(file.data, PACKED_MAGIC, 8) == 0; }
+/// 1 if the bytes are those of a packed scene, or begin as one and end within its first word.
+static inline int packed_is(bytes file) {
+    return file.size && memcmp(file.data, PACKED_MAGIC, file.size < 8 ? file.size : 8) == 0;
+}
 
 #endif

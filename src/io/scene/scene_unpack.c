@@ -62,7 +62,9 @@ static ovoid_code check_header(unpacker *u, size_t size) {
     if (h->order != PACKED_ORDER) return refuse(u, "it is of a machine with another byte order: pack the scene here");
     if (h->version != PACKED_VERSION) return refuse(u, "it is of another version of the format: pack the scene anew");
     if (h->size != size) return refuse(u, h->size > size ? "it is cut off" : "there are bytes behind its end");
-    if (h->checksum != packed_compute_checksum(h)) return refuse(u, "the checksum does not agree: it is damaged");
+    // A whole file is padded to words.
+    if (size % 8 || h->checksum != packed_compute_checksum(h))
+        return refuse(u, "the checksum does not agree: it is damaged");
     if (h->choice > PACKED_EITHER || !memchr(h->unit, 0, sizeof h->unit) ||
         (h->unit[0] && !(ovoid_unit_get_scale(h->unit, "m") > 0)))
         return refuse(u, "its choice of meshes or its unit is none");
@@ -256,6 +258,9 @@ static ovoid_code read_mesh(unpacker *u, scene_body *body) {
     }
     if (code) return code;
     body->is_asked = (flags & PACKED_ASKED) != 0;
+    // Parts are hulls.
+    if (body->read.parts && flags & (PACKED_ASKED | PACKED_TRIANGLES))
+        return refuse(u, "a mesh has not the triangles it says");
     if (body->read.parts) return join_parts(u, body);
     body->shape = body->hulls[0].shape;
     body->solid = flags & PACKED_TRIANGLES ? body->hulls[0].solid : NULL;
