@@ -13,6 +13,8 @@
 
 /// The least triple product of an arc's unit normals and another one.
 #define CLEAR 0x1p-36
+/// The least product of a direction within a cell and the cell's corners.
+#define WIDE 0x1p-14
 
 // A map that is being made.
 typedef struct maker {
@@ -129,6 +131,29 @@ static int is_covered_once(const maker *m) {
     return 1;
 }
 
+// The least product of a direction and the corners of a vertex's cell.
+static double find_least_product(const maker *m, uint32_t vertex, vec3 direction) {
+    const uint32_t *starts = shape_neighbor_starts(m->shape), *facets = shape_edge_facets(m->shape);
+    double least = 1;
+    for (uint32_t i = starts[vertex]; i < starts[vertex + 1]; i++)
+        least = min2(least, vec3_dot(direction, get_normal(m, facets[i])));
+    return least;
+}
+
+// A unit vector that is a sum of a cell's corners of weights >= 0 has a product with any unit x of at most 1, and of at
+// least the sum of the weights times the least product of x and a corner. x: their mean, or the way from the middle of
+// the body, which is in every cell.
+static void set_spread(maker *m) {
+    const uint32_t *starts = shape_neighbor_starts(m->shape), *facets = shape_edge_facets(m->shape);
+    m->map->spread = 1;
+    for (uint32_t v = 0; v < m->shape->vertex_count; v++) {
+        vec3 mean = {0, 0, 0}, way = vec3_sub(vec3_at(shape_vertices(m->shape), v), m->shape->inner.center);
+        for (uint32_t i = starts[v]; i < starts[v + 1]; i++) mean = vec3_add(mean, get_normal(m, facets[i]));
+        double least = fmax(find_least_product(m, v, vec3_unit(mean)), find_least_product(m, v, vec3_unit(way)));
+        m->map->spread = fmax(m->map->spread, least > WIDE ? 1 / least : INFINITY);
+    }
+}
+
 // Vertices far apart: those that are the farthest in seven directions, as the inner ellipsoid sees them.
 static void choose_wide(maker *m) {
     const double *w = m->shape->inside.w;
@@ -154,6 +179,7 @@ void shape_gauss_map_fill(ovoid_shape *s) {
     set_columns(&m);
     set_lists(&m);
     set_bulge(&m);
+    set_spread(&m);
     choose_wide(&m);
-    if (!are_cells_convex(&m) || !is_covered_once(&m)) map->arcs = 0;
+    if (!are_cells_convex(&m) || !is_covered_once(&m) || !(map->spread < INFINITY)) map->arcs = 0;
 }

@@ -27,6 +27,7 @@ typedef struct gauss_map {
     uint32_t facets, arcs;    ///< 0: none
     uint32_t row;             ///< bytes of a list
     double bulge;             ///< no vertex is farther above a facet's plane, by its `low`
+    double spread;            ///< a unit vector of a cell is a sum of its corners of at most that weight
     uint8_t wide[GAUSS_WIDE]; ///< vertices far apart
 } gauss_map;
 
@@ -47,8 +48,9 @@ typedef struct gauss_side {
     const gauss_map *map;
     simd_points points;
     vec3 center;
-    double q[6]; ///< xx, xy, xz, yy, yz, zz; the ellipsoid's support is n.center + sqrt(n'Qn)
-    double ball; ///< its radius, around the same centre
+    double q[6];   ///< xx, xy, xz, yy, yz, zz; the ellipsoid's support is n.center + sqrt(n'Qn)
+    double ball;   ///< its radius, around the same centre
+    double shrink; ///< what rounding adds to the ellipsoid's support
 } gauss_side;
 
 /// What is asked: the difference B - A in the frame of A.

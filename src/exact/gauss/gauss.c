@@ -12,17 +12,15 @@
 // all C_i cover the directions, whatever rounding did (shape/gauss_map.c). P is A mirrored at the origin, Q is B.
 //
 // Which vertex? Along n_f within D_j the kernel takes the greatest q_k.n_f, not q_j.n_f. Let e be the most by which a
-// vertex is above a facet's plane, as that is kept (bulge), and x = sum b_g m_g a unit vector of D_j. Then q_j.x >=
-// q_k.x
-// - e sum b_g. A ball of radius ball around c is inside, so m_g.(q_j - c) >= ball - e, and |q_j - c| <= 2 extent, so
-// that sum b_g <= 2 extent / (ball - e). The same holds for p_i, for vertices of a facet beside its lowest, and for the
-// vertices of an edge. With e and rounding, a claim for each height, E = 4 extent / ball (e + claim) covers it, where e
-// is below half of the ball.
+// vertex is above a facet's plane, as that is kept (bulge), and x = sum b_g m_g a unit vector of D_j, b_g >= 0. Then
+// q_j.x is at least q_k.x less e sum b_g, and the sum of b_g is at most the map's spread. The same holds for p_i, for
+// vertices of a facet beside its lowest, and for the vertices of an edge. With e and rounding, a claim for each height,
+// E = 2 spread (e + claim) covers it.
 //
 // What is not tried. Where the values along both ends of an arc of one and the same point of the other body, or of its
 // ball, are at least r, so are they in between (proof above; of the ball as long as its centre's value is positive). A
-// normal is not tried where the ellipsoid's height is at least r: n'Qn is summed to 32 u trace Q, and its root, where
-// the ellipsoid is no flatter than 2 extent / ball, to less than E.
+// normal is not tried where the ellipsoid's height is at least r: n'Qn, at least the square of the ball's radius, is
+// summed to 32 u trace Q, trace Q <= 3 (2 extent)^2, so its root to 192 u extent^2 / ball.
 //
 // Errors, in parts of the pair's s (pair/frame.h): a posed vertex is off by 91 u s, and a height by 100 u s: within the
 // claim. The direction of a crossing, b1 n2 - b2 n1 with triple products that are off by 8 u, is off by 24 u before it
@@ -41,6 +39,9 @@
 #include "shape/gauss_map.h"
 #include "shape/loops.h"
 
+/// What rounding does to the ellipsoid's support, in parts of extent^2 / ball.
+#define ROOT (256 * 0x1p-53)
+
 static void make_side(const ovoid_shape *s, gauss_side *side) {
     const ovoid_sym3 *q = &s->inner.q;
     const double entries[6] = {q->xx, q->xy, q->xz, q->yy, q->yz, q->zz};
@@ -49,11 +50,13 @@ static void make_side(const ovoid_shape *s, gauss_side *side) {
     side->center = s->inner.center;
     for (int i = 0; i < 6; i++) side->q[i] = entries[i];
     side->ball = s->inside.least;
+    side->shrink = ROOT * s->extent * (s->extent / s->inside.least);
 }
 
 // E of the theorem.
 static double compute_doubt(const pair_frame *f, const ovoid_shape *s) {
-    return 4 * s->extent / s->inside.least * (shape_get_gauss_map(s)->bulge + f->claim);
+    const gauss_map *map = shape_get_gauss_map(s);
+    return 2 * map->spread * (map->bulge + f->claim);
 }
 
 static int is_for_here(const pair_frame *f) {

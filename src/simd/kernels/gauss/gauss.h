@@ -21,7 +21,7 @@ typedef struct gauss_body {
     _Alignas(64) double x[3][GAUSS_POINTS], n[3][GAUSS_FACETS], low[GAUSS_FACETS];
     double bound[GAUSS_FACETS]; ///< no height along a facet's normal is less
     vec3 center;
-    double q[6], ball;
+    double q[6], ball, shrink;
     const gauss_map *map;
     uint32_t points, facets; ///< padded
 } gauss_body;
@@ -48,6 +48,7 @@ LANES_INLINE void gauss_mirror(const gauss_side *from, gauss_body *to) {
     to->center = vec3_neg(from->center);
     memcpy(to->q, from->q, sizeof to->q);
     to->ball = from->ball;
+    to->shrink = from->shrink;
 }
 
 LANES_INLINE lane3 gauss_turn(const lane3 rows[3], lane3 v) {
@@ -89,6 +90,7 @@ LANES_INLINE void gauss_pose(const gauss_side *from, const gauss_query *q, gauss
     to->center = vec3_add(mat3_mul_vec3(q->rotation, from->center), q->translation);
     gauss_turn_ellipsoid(&q->rotation, from->q, to->q);
     to->ball = from->ball;
+    to->shrink = from->shrink;
 }
 
 // ---- heights along the normals of facets
@@ -102,7 +104,8 @@ LANES_INLINE uint32_t gauss_bound_facets(gauss_body *of, const gauss_body *by) {
     for (uint32_t i = 0; i < of->facets; i += LANES) {
         lane3 n = gauss_load(of->n[0], of->n[1], of->n[2], i);
         lane square = n.x * (xx * n.x + xy * n.y + xz * n.z) + n.y * (yy * n.y + yz * n.z) + zz * (n.z * n.z);
-        lane bound = (lane3_dot(n, c) + lane_load(of->low + i)) + lane_sqrt(lane_top(square, lane_set(0)));
+        lane middle = lane3_dot(n, c) + lane_load(of->low + i);
+        lane bound = middle + (lane_sqrt(lane_top(square, lane_set(0))) - lane_set(by->shrink));
         lane_store(of->bound + i, bound);
         least = lane_min(bound, least);
     }
