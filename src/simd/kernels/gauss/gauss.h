@@ -7,6 +7,15 @@
 #include "simd/gauss.h"
 #include "simd/kernels/lanes.h"
 
+#include "base/compiler.h"
+
+#if LANES >= 4
+#define GAUSS_PART LANES_INLINE
+#else
+/// Not copied to each caller: narrow lanes gain nothing from that, and downloads are smaller.
+#define GAUSS_PART COMPILER_NOINLINE static
+#endif
+
 /// Arcs are coplanar with a normal, to rounding: a triple product of unit vectors is off by 8 u.
 #define GAUSS_LEVEL 0x1p-48
 /// What rounding does to the height along a crossing, times its length, in parts of the size.
@@ -56,7 +65,7 @@ LANES_INLINE lane3 gauss_turn(const lane3 rows[3], lane3 v) {
 }
 
 // R Q R'.
-LANES_INLINE void gauss_turn_ellipsoid(const mat3 *r, const double q[6], double to[6]) {
+GAUSS_PART void gauss_turn_ellipsoid(const mat3 *r, const double q[6], double to[6]) {
     const vec3 x = {q[0], q[1], q[2]}, y = {q[1], q[3], q[4]}, z = {q[2], q[4], q[5]};
     const vec3 a = {vec3_dot(x, r->r0), vec3_dot(y, r->r0), vec3_dot(z, r->r0)};
     const vec3 b = {vec3_dot(x, r->r1), vec3_dot(y, r->r1), vec3_dot(z, r->r1)};
@@ -96,7 +105,7 @@ LANES_INLINE void gauss_pose(const gauss_side *from, const gauss_query *q, gauss
 // ---- heights along the normals of facets
 
 // Lower bounds by the other body's ellipsoid. Returns the facet of the least one; of several the first.
-LANES_INLINE uint32_t gauss_bound_facets(gauss_body *of, const gauss_body *by) {
+GAUSS_PART uint32_t gauss_bound_facets(gauss_body *of, const gauss_body *by) {
     lane3 c = gauss_spread(by->center);
     lane xx = lane_set(by->q[0]), xy = lane_set(2 * by->q[1]), xz = lane_set(2 * by->q[2]);
     lane yy = lane_set(by->q[3]), yz = lane_set(2 * by->q[4]), zz = lane_set(by->q[5]);
@@ -117,7 +126,7 @@ LANES_INLINE uint32_t gauss_bound_facets(gauss_body *of, const gauss_body *by) {
     return 0;
 }
 
-LANES_INLINE double gauss_measure_facet(const gauss_body *of, const gauss_body *by, uint32_t facet) {
+GAUSS_PART double gauss_measure_facet(const gauss_body *of, const gauss_body *by, uint32_t facet) {
     lane3 n = {lane_set(of->n[0][facet]), lane_set(of->n[1][facet]), lane_set(of->n[2][facet])};
     lane most = lane_set(-INFINITY);
     for (uint32_t i = 0; i < by->points; i += LANES)
@@ -139,8 +148,8 @@ LANES_INLINE void gauss_try_facet(const gauss_body *of, const gauss_body *by, ui
 }
 
 // Measures the facets that the ellipsoid leaves open, but for one that was.
-LANES_INLINE void gauss_try_facets(const gauss_body *of, const gauss_body *by, uint32_t tried, gauss_kind kind,
-                                   gauss_least *least) {
+GAUSS_PART void gauss_try_facets(const gauss_body *of, const gauss_body *by, uint32_t tried, gauss_kind kind,
+                                 gauss_least *least) {
     uint64_t open = 0;
     for (uint32_t i = 0; i < of->facets; i += LANES)
         open |= (uint64_t)lane_bits(lane_greater(lane_set(least->height), lane_load(of->bound + i))) << i;
@@ -245,7 +254,7 @@ LANES_INLINE void gauss_store(double to[3][GAUSS_ARCS], uint32_t i, lane3 v) {
     lane_store(to[2] + i, v.z);
 }
 
-LANES_INLINE void gauss_find_arcs(const gauss_body *of, const gauss_body *by, double height, gauss_arcs *to) {
+GAUSS_PART void gauss_find_arcs(const gauss_body *of, const gauss_body *by, double height, gauss_arcs *to) {
     _Alignas(64) uint8_t witnesses[GAUSS_FACETS];
     gauss_places places;
     gauss_find_witnesses(of, by, height, witnesses);
@@ -331,7 +340,7 @@ LANES_INLINE void gauss_take_blur(gauss_search *s, const gauss_arc *u, lane3 cro
 
 // The crossings of an arc of the first body with LANES of the second one, of which `all` are there. 1 if one of them is
 // the least high now.
-LANES_INLINE int gauss_cross(gauss_search *s, const gauss_arc *u, const gauss_arcs *others, uint32_t at, unsigned all) {
+GAUSS_PART int gauss_cross(gauss_search *s, const gauss_arc *u, const gauss_arcs *others, uint32_t at, unsigned all) {
     lane3 cross = gauss_load(others->cross[0], others->cross[1], others->cross[2], at);
     gauss_sides sides = {lane3_dot(u->cross, gauss_load(others->from[0], others->from[1], others->from[2], at)),
                          lane3_dot(u->cross, gauss_load(others->to[0], others->to[1], others->to[2], at)),
