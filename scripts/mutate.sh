@@ -29,7 +29,7 @@ tests_of() {
     prepared) echo "test_prepared test_environment" ;;
     depth_memory) echo "test_query_memory test_query_surface" ;;
     growth) echo "test_simd_epa8 test_judge_capacity $query" ;;
-    gauss) echo "test_query_gauss test_solid_contacts $query" ;;
+    gauss) echo "test_query_gauss test_solid_contacts test_query_trials $query" ;;
     boxes) echo "test_simd_box_axes test_simd_box_separation test_query_boxes $query" ;;
     closed) echo "test_query_closed test_judge_closed test_query_batch test_prepared test_allowance test_query_boxes $query" ;;
     swept) echo "test_query_swept_minima test_query_swept" ;;

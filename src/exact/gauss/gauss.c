@@ -197,6 +197,10 @@ static int find_witness(const foot_search *of, const gauss_plane *plane, const f
 
 // ---- the depth
 
+// Bodies that hardly overlap, by no more claims than this, are left to EPA, which may show no surface around the
+// origin.
+enum { TOUCHING = 4096 };
+
 static int take_depth(search *s) {
     const pair_frame *f = s->frame;
     gauss_query q;
@@ -207,7 +211,7 @@ static int take_depth(search *s) {
     make_side(f->b, &q.b);
     q.rotation = f->rotation;
     q.translation = f->translation;
-    q.claim = doubt;
+    q.claim = doubt + TOUCHING * f->claim;
     q.size = f->size;
     if (!gauss_find_plane(&q, &plane)) return 0;
     vec3 n = vec3_unit(plane.n), u = vec3_orthogonal(n);
@@ -226,6 +230,9 @@ static int take_depth(search *s) {
     return 1;
 }
 
+// How far above its nearest face, in claims, a surface may end that is to show a depth which is known.
+enum { COVER_NARROW = 4 };
+
 int gauss_take_depth(search *s, ovoid_cover *cover) {
     search before;
     if (cover) before = *s;
@@ -235,6 +242,7 @@ int gauss_take_depth(search *s, ovoid_cover *cover) {
     // EPA begins with the face that is known to be the nearest.
     simplex points = {.count = s->witness.count};
     for (int i = 0; i < points.count; i++) points.p[i] = s->witness.p[i], points.weight[i] = s->witness.weight[i];
+    grown.goal.tolerance = before.goal.allowance + COVER_NARROW * s->frame->claim;
     (void)epa_run(&grown, &points, 1, cover);
     if (grown.kind == OVOID_PROOF_COVER && grown.upper <= s->upper) return 1;
     *s = before;
