@@ -24,7 +24,8 @@ int polygon_find_corner(const manifold_polygon *p, uint32_t id) {
 }
 
 double polygon_compute_share(const manifold_polygon *p, const corner_choice *choice) {
-    return choice->count == 4 && p->area > 0 ? get_area_of_four(p->corners, choice->index) / (2 * p->area) : 1;
+    // Of slivers rounding may leave the whole less than its part.
+    return choice->count == 4 && p->area > 0 ? min2(get_area_of_four(p->corners, choice->index) / (2 * p->area), 1) : 1;
 }
 
 // A polygon of which four corners are wanted.

@@ -182,10 +182,38 @@ static void test_bytes(void) {
     ovoid_shape_destroy(box);
 }
 
+/// Bipyramids on one another: polygons so thin that rounding makes their area less than that of four of their corners.
+static void test_slivers(void) {
+    STATIC_COVER(cover);
+    long few = 0;
+    for (int sides = 4; sides <= 12; sides += 2) {
+        double xyz[3 * 14] = {0, 0, 100, 0, 0, -100};
+        for (int i = 0; i < sides; i++) {
+            double angle = 6.283185307179586 * i / sides;
+            xyz[3 * i + 6] = cos(angle), xyz[3 * i + 7] = sin(angle);
+        }
+        ovoid_shape *shape = hull_of(xyz, (size_t)sides + 2, 1);
+        for (uint64_t seed = 1; seed <= 60; seed++) {
+            uint64_t s = check_seed = seed;
+            double turn = 3.141592653589793 / sides * (double)(seed % 5);
+            ovoid_pair pair = {
+                shape, shape, ovoid_pose_make_identity(), {random_vec3(&s, 5e-7), {cos(turn), 0, 0, sin(turn)}}};
+            ovoid_manifold_options o = {.cover = &cover};
+            ovoid_manifold m = ovoid_manifold_find(&pair, &o, NULL);
+            CHECK(ovoid_manifold_verify(&pair, &m, &o, NULL) == OVOID_OK);
+            few += m.share == 1 && m.corners > 4;
+        }
+        ovoid_shape_destroy(shape);
+    }
+    check_seed = 0;
+    CHECK(few > 10);
+}
+
 int main(void) {
     test_touching();
     test_positions();
     test_pairs();
     test_bytes();
+    test_slivers();
     return check_end();
 }
