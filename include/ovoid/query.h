@@ -38,9 +38,9 @@ typedef enum ovoid_stage {
                             segments and boxes */
     OVOID_STAGE_INNER,   /**< inner ellipsoids */
     OVOID_STAGE_GJK,     /**< exact: Gilbert, Johnson, Keerthi 1988 */
-    OVOID_STAGE_EPA,   /**< exact: expanding polytope, van den Bergen 2001; for two boxes, or polyhedra
-                          of up to 32 vertices each, all faces of the difference at once */
-    OVOID_STAGE_REFINE /**< in pairs of doubles, where doubles cannot tell the sign or reach the tolerance */
+    OVOID_STAGE_EPA,     /**< exact: expanding polytope, van den Bergen 2001; for two boxes, or polyhedra
+                            of up to 32 vertices each, all faces of the difference at once */
+    OVOID_STAGE_REFINE   /**< in pairs of doubles, where doubles cannot tell the sign or reach the tolerance */
 } ovoid_stage;
 
 /** Why a query stopped before its bracket was narrower than the tolerance. */
