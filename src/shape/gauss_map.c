@@ -40,6 +40,14 @@ static vec3 get_cross(const maker *m, uint32_t arc) {
     return vec3_cross(get_normal(m, m->list[0][arc]), get_normal(m, m->list[1][arc]));
 }
 
+// The mean of the normals around a vertex, as a unit vector.
+static vec3 find_middle(const maker *m, uint32_t vertex) {
+    const uint32_t *starts = shape_neighbor_starts(m->shape), *facets = shape_edge_facets(m->shape);
+    vec3 sum = {0, 0, 0};
+    for (uint32_t i = starts[vertex]; i < starts[vertex + 1]; i++) sum = vec3_add(sum, get_normal(m, facets[i]));
+    return vec3_unit(sum);
+}
+
 static void set_columns(maker *m) {
     const ovoid_shape *s = m->shape;
     const uint32_t *starts = shape_loop_starts(s), *vertices = shape_loop_vertices(s);
@@ -121,10 +129,7 @@ static int locate(const maker *m, uint32_t vertex, vec3 direction) {
 }
 
 static int is_covered_once(const maker *m) {
-    const uint32_t *starts = shape_neighbor_starts(m->shape), *facets = shape_edge_facets(m->shape);
-    vec3 middle = {0, 0, 0};
-    for (uint32_t i = starts[0]; i < starts[1]; i++) middle = vec3_add(middle, get_normal(m, facets[i]));
-    middle = vec3_unit(middle);
+    vec3 middle = find_middle(m, 0);
     if (locate(m, 0, middle) != 1) return 0;
     for (uint32_t v = 1; v < m->shape->vertex_count; v++)
         if (locate(m, v, middle) != -1) return 0;
@@ -144,12 +149,10 @@ static double find_least_product(const maker *m, uint32_t vertex, vec3 direction
 // least the sum of the weights times the least product of x and a corner. x: their mean, or the way from the middle of
 // the body, which is in every cell.
 static void set_spread(maker *m) {
-    const uint32_t *starts = shape_neighbor_starts(m->shape), *facets = shape_edge_facets(m->shape);
     m->map->spread = 1;
     for (uint32_t v = 0; v < m->shape->vertex_count; v++) {
-        vec3 mean = {0, 0, 0}, way = vec3_sub(vec3_at(shape_vertices(m->shape), v), m->shape->inner.center);
-        for (uint32_t i = starts[v]; i < starts[v + 1]; i++) mean = vec3_add(mean, get_normal(m, facets[i]));
-        double least = fmax(find_least_product(m, v, vec3_unit(mean)), find_least_product(m, v, vec3_unit(way)));
+        vec3 way = vec3_unit(vec3_sub(vec3_at(shape_vertices(m->shape), v), m->shape->inner.center));
+        double least = fmax(find_least_product(m, v, find_middle(m, v)), find_least_product(m, v, way));
         m->map->spread = fmax(m->map->spread, least > WIDE ? 1 / least : INFINITY);
     }
 }

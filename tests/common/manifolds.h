@@ -24,6 +24,21 @@ static inline double size_of_pair(const ovoid_pair *p) {
            ovoid_shape_get_radius(p->shape_a) + ovoid_shape_get_radius(p->shape_b);
 }
 
+/// Moves B along a random direction, by less than `far`, until the bodies are about so far apart; `want` is negative
+/// for an overlap.
+static inline void place_at_distance(ovoid_pair *pair, double want, double far, uint64_t *s) {
+    vec3 d = vec3_unit((vec3){random_normal(s), random_normal(s), random_normal(s)});
+    double near = 0;
+    for (int k = 0; k < 30; k++) {
+        double middle = (near + far) / 2;
+        pair->pose_b.position = vec3_scale(d, middle);
+        if (ovoid_depth(pair, NULL, NULL, NULL).lower > want)
+            far = middle;
+        else
+            near = middle;
+    }
+}
+
 /// How far a point is from a body, 0 inside; by a search of its own.
 static inline double distance_of_point(const ovoid_shape *shape, const ovoid_pose *pose, ovoid_vec3 point) {
     static ovoid_shape *dot;

@@ -69,12 +69,10 @@ static int is_for_here(const pair_frame *f) {
 // A face of the difference is the sum of both bodies' faces that look there: polygons, edges or vertices. Its corners
 // come from the edges of both, in the order of their directions.
 
-enum { FACE_MOST = GAUSS_POINTS, SUM_MOST = 2 * FACE_MOST };
-
 /// The face of a body, counter-clockwise as the difference has it, across the normal.
 typedef struct face {
-    uint32_t count, vertex[FACE_MOST];
-    double x[FACE_MOST], y[FACE_MOST];
+    uint32_t count, vertex[GAUSS_POINTS];
+    double x[GAUSS_POINTS], y[GAUSS_POINTS];
 } face;
 
 /// What is looked for: the foot of the origin on a plane.

@@ -241,20 +241,6 @@ static ovoid_shape *create_hull(uint64_t *s) {
     return ovoid_shape_create_from_points(xyz, HULL, NULL, &error);
 }
 
-// Moves B along a random direction until the bodies are about so far apart.
-static void place(ovoid_pair *pair, double want, uint64_t *s) {
-    vec3 d = vec3_unit((vec3){random_normal(s), random_normal(s), random_normal(s)});
-    double near = 0, far = 6;
-    for (int k = 0; k < 30; k++) {
-        double middle = (near + far) / 2;
-        pair->pose_b.position = vec3_scale(d, middle);
-        if (ovoid_depth(pair, NULL, NULL, NULL).lower > want)
-            far = middle;
-        else
-            near = middle;
-    }
-}
-
 static void check_against_depth(const ovoid_pair *pair, const ovoid_manifold *m) {
     ovoid_answer truth = ovoid_depth(pair, NULL, NULL, NULL);
     CHECK_LE(m->lower, truth.upper);
@@ -270,7 +256,7 @@ static void test_random(void) {
         ovoid_shape *a = create_hull(&s), *b = create_hull(&s);
         ovoid_pair pair = {a, b, {{1, 2, 3}, random_quat(&s)}, {{0, 0, 0}, random_quat(&s)}};
         pair.pose_a.position = (vec3){0, 0, 0};
-        place(&pair, random_uniform(&s, -0.1, 0.03), &s);
+        place_at_distance(&pair, random_uniform(&s, -0.1, 0.03), 6, &s);
         o.tolerance = 0;
         ovoid_manifold m = ovoid_manifold_find(&pair, &o, NULL);
         check_contact(&pair, &m, &o);
@@ -302,7 +288,7 @@ static void test_depth_of_points(void) {
         uint64_t s = check_seed = seed;
         ovoid_shape *a = create_hull(&s), *b = create_hull(&s);
         ovoid_pair pair = {a, b, {{0, 0, 0}, random_quat(&s)}, {{0, 0, 0}, random_quat(&s)}};
-        place(&pair, random_uniform(&s, -0.1, -0.01), &s);
+        place_at_distance(&pair, random_uniform(&s, -0.1, -0.01), 6, &s);
         ovoid_manifold m = {0};
         for (int k = 0; k < 5; k++) {
             pair.pose_b.position = vec3_add_scaled(pair.pose_b.position, (vec3){random_normal(&s), 1, -1}, 1e-2);
@@ -540,7 +526,7 @@ static void test_features_alone(void) {
                     *b = seed % 4 ? ovoid_shape_create_box(half_b, NULL, &error) : create_hull(&s);
         ovoid_pair pair = {a, b, {{0, 0, 0}, random_quat(&s)}, {{0, 0, 0}, random_quat(&s)}};
         if (seed % 4 == 1) pair.pose_a.rotation = pair.pose_b.rotation = straight;
-        place(&pair, -0.1, &s);
+        place_at_distance(&pair, -0.1, 6, &s);
         ovoid_manifold m = ovoid_manifold_find(&pair, NULL, NULL);
         double far = seed % 2 ? 0.3 : 0.03;
         vec3 d = vec3_unit((vec3){random_normal(&s), random_normal(&s), random_normal(&s)});

@@ -2,6 +2,7 @@
 // every side. What a demand ends early must be below its least depth; from there on the depth has the same bits.
 #include "check.h"
 #include "manifold/manifold.h"
+#include "manifolds.h"
 #include "places.h"
 
 static ovoid_shape *create(int kind, uint64_t *s) {
@@ -18,20 +19,6 @@ static ovoid_shape *create(int kind, uint64_t *s) {
         xyz[3 * i + 2] = half.z * p.z;
     }
     return ovoid_shape_create_from_points(xyz, 12, NULL, NULL);
-}
-
-// Moves B along a random direction until the bodies overlap by about `depth`.
-static void place(ovoid_pair *pair, double depth, uint64_t *s) {
-    vec3 d = vec3_unit((vec3){random_normal(s), random_normal(s), random_normal(s)});
-    double near = 0, far = 12;
-    for (int k = 0; k < 20; k++) {
-        double middle = (near + far) / 2;
-        pair->pose_b.position = vec3_scale(d, middle);
-        if (ovoid_depth(pair, NULL, NULL, NULL).lower > -depth)
-            far = middle;
-        else
-            near = middle;
-    }
 }
 
 // A contact's features with the polygon's tables, as the verifier makes them.
@@ -87,7 +74,7 @@ int main(void) {
         uint64_t s = check_seed = seed;
         ovoid_shape *a = create((int)(seed % 3), &s), *b = create((int)(seed / 3 % 3), &s);
         ovoid_pair pair = {a, b, {{0, 0, 0}, random_quat(&s)}, {{0, 0, 0}, random_quat(&s)}};
-        place(&pair, 0.3 * pow(10, -random_uniform(&s, 0, 3)), &s);
+        place_at_distance(&pair, -0.3 * pow(10, -random_uniform(&s, 0, 3)), 12, &s);
         if (open_contact(&pair, &contact)) check_demands(&contact, of_axis + contact.axis.kind);
         ovoid_shape_destroy(a);
         ovoid_shape_destroy(b);
