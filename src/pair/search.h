@@ -104,13 +104,10 @@ frame_support search_probe(search *s, vec3 n);
 void search_take_points(search *s, const simplex *points);
 
 /// Takes 4 to 6 differences (hull.h) as proof of an overlap if the origin is strictly inside, rounding included; 1 if
-/// so.
+/// so. Sets their weights; those given are not read.
 int search_take_hull(search *s, const evidence *hull);
 
 /// The simplex as evidence.
 evidence evidence_make(const simplex *points);
-
-/// Sets the weights of the point nearest to the origin, by the best of the tetrahedra of four of the differences.
-void evidence_set_weights(evidence *found);
 
 #endif
