@@ -125,14 +125,13 @@ static void take_ring(const maker *m, uint32_t vertex, ring *r) {
 static int find_side(const maker *m, const ring *r, uint32_t arc) {
     both_vec3 cross = both_vec3_make(m->cross[arc], m->cross[arc]);
     both clear = both_set(CLEAR);
-    both_bits above = {0, 0}, below = {0, 0};
+    both_bits sides = {0, 0};
     for (uint32_t i = 0; i < r->count; i += 2) {
         both product = both_vec3_dot(cross, (both_vec3){both_load(r->x + i), both_load(r->y + i), both_load(r->z + i)});
-        above -= product > clear;
-        below -= product < -clear;
+        sides += (product < -clear) - (product > clear);
     }
-    uint32_t others = r->count - 2;
-    return others ? (above[0] + above[1] == others) - (below[0] + below[1] == others) : 0;
+    long long others = (long long)r->count - 2, sum = sides[0] + sides[1];
+    return others ? (sum == others) - (sum == -others) : 0;
 }
 
 // The sides of the arcs' planes as a vertex has them.
