@@ -36,7 +36,7 @@
 // times the ratio of the map's radii, at most 1e3, so its place on the cube's face by 1e-12; each cell is taken wider
 // by 1e-7 of itself, at least 1e-10.
 //
-// Cost: about 0.1 us a vertex. Lists of round bodies have 5 to 12 vertices and take 140 to 270 bytes a vertex. If lists
+// Cost: some 0.3 us a vertex. Lists of round bodies have 5 to 12 vertices and take 140 to 270 bytes a vertex. If lists
 // stay long, as for the rings of a cylinder, cells are coarser, and at most 512 bytes a vertex are used.
 #include "shape/support_table.h"
 
