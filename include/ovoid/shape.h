@@ -22,8 +22,8 @@ typedef struct ovoid_shape ovoid_shape;
 typedef enum ovoid_inner_method {
     OVOID_INNER_MAXIMUM = 0, /**< the maximum-volume inscribed ellipsoid */
     OVOID_INNER_PHASES = 1,  /**< the paper's three phases */
-    OVOID_INNER_LEAN = 2 /**< that of the body's moments, scaled to fit: a lean shape, which is made in half the time
-                            and is as true, but has no table of supports */
+    OVOID_INNER_LEAN = 2 /**< that of the body's moments, scaled to fit: a lean shape, which is made in two thirds of
+                            the time and is as true, but has no table of supports */
 } ovoid_inner_method;
 
 /**

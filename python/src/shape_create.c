@@ -23,8 +23,8 @@ typedef struct shape_keywords {
 #define SHAPE_TARGETS(k) &(k).rounding, &(k).gap, &(k).inner, read_allowance, &(k).allowance
 #define SHAPE_DOC                                                                                                      \
     "\n\nrounding: a radius >= 0 added around the hull. gap: the relative volume gap of the ellipsoids, 0 for 1e-6.\n" \
-    "inner: 'maximum' or 'phases', which inner ellipsoid; 'lean': a lean shape, which is made in half the time and "   \
-    "has\n"                                                                                                            \
+    "inner: 'maximum' or 'phases', which inner ellipsoid; 'lean': a lean shape, which is made in two thirds of the "   \
+    "time and has\n"                                                                                                   \
     "slower queries, gap 0.1. allowance: (outside, inside), by how much the true body may stand out of the shape, "    \
     "and\nthe shape out of the true body; (outside, inside, (x, y, z)): it stands out across that axis alone."
 #define SHAPE_SIGNATURE                                                                                                \

@@ -19,7 +19,7 @@ export interface ShapeOptions {
   radius?: number;
   /** Relative volume gap of the ellipsoids, 1e-6, of a lean shape 0.1. */
   gap?: number;
-  /** Lean: made in half the time; queries are as true, but slower. */
+  /** Lean: made in two thirds of the time; queries are as true, but slower. */
   inner?: 'maximum' | 'phases' | 'lean';
   /** What the true body may differ by: brackets are of the true body. With an axis, it stands out across that alone. */
   allowance?: { outside?: number; inside?: number; axis?: number[] | null };
