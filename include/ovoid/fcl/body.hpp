@@ -38,9 +38,23 @@ struct solid_deleter {
 using shape_owner = std::unique_ptr<ovoid_shape, shape_deleter>;
 using solid_owner = std::unique_ptr<ovoid_solid, solid_deleter>;
 
+/// A box by its centre and half lengths, and the sum of all of these, which rounding goes by.
+struct centered_box {
+    double center[3], half[3], size = 0;
+
+    explicit centered_box(const ovoid_box &box) {
+        const double low[3] = {box.min.x, box.min.y, box.min.z}, high[3] = {box.max.x, box.max.y, box.max.z};
+        for (int k = 0; k < 3; k++) {
+            center[k] = (low[k] + high[k]) / 2;
+            half[k] = high[k] - center[k];
+            size += std::fabs(center[k]) + half[k];
+        }
+    }
+};
+
 /// A tree of boxes over the triangles of a solid, in the solid's own order. A shape has one box.
 struct box_tree {
-    std::vector<ovoid_box> boxes;
+    std::vector<centered_box> boxes;
     std::vector<std::uint32_t> order;  ///< the triangle of each leaf
     std::vector<std::uint32_t> places; ///< the leaf of each triangle
 
@@ -202,9 +216,10 @@ class body {
             if (shape_) return make_box();
             const std::uint32_t *order = ovoid_solid_get_order(solid_.get());
             tree_ = box_tree({order, order + pieces_.size()});
-            tree_.boxes.resize(count_boxes(pieces_.size()));
-            fill_boxes(tree_.boxes, {0, 0, pieces_.size()},
+            std::vector<ovoid_box> boxes(count_boxes(pieces_.size()));
+            fill_boxes(boxes, {0, 0, pieces_.size()},
                        [this](std::size_t k) { return box_of_triangle(tree_.order[k]); });
+            for (const ovoid_box &box : boxes) tree_.boxes.emplace_back(box);
         });
         return tree_;
     }
@@ -222,7 +237,7 @@ class body {
         box.min = {box.min.x - outside, box.min.y - outside, box.min.z - outside};
         box.max = {box.max.x + outside, box.max.y + outside, box.max.z + outside};
         tree_ = box_tree({0});
-        tree_.boxes.assign(1, box);
+        tree_.boxes.emplace_back(box);
     }
     ovoid_box box_of_triangle(std::uint32_t i) const {
         ovoid_vec3 at[3];
