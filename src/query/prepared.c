@@ -60,15 +60,17 @@ static int is_near_rotation(const mat3 *m) {
 }
 
 // A quaternion of a rotation, of no particular length. The row of q.w is exact enough where the turn is below 138
-// degrees; otherwise that with the largest entry on the diagonal.
+// degrees; otherwise that with the largest entry on the diagonal. All rows are there before one is chosen: of turns
+// that no one foresees a branch costs more than their sums.
 static ovoid_quat find_quat(const mat3 *m) {
     double x = m->r0.x, y = m->r1.y, z = m->r2.z, trace = x + y + z;
     double wx = m->r2.y - m->r1.z, wy = m->r0.z - m->r2.x, wz = m->r1.x - m->r0.y;
-    if (trace > -0.5) return (ovoid_quat){1 + trace, wx, wy, wz};
     double xy = m->r1.x + m->r0.y, xz = m->r0.z + m->r2.x, yz = m->r2.y + m->r1.z;
-    if (x >= y && x >= z) return (ovoid_quat){wx, 1 + x - y - z, xy, xz};
-    if (y >= z) return (ovoid_quat){wy, xy, 1 - x + y - z, yz};
-    return (ovoid_quat){wz, xz, yz, 1 - x - y + z};
+    const ovoid_quat rows[4] = {
+        {1 + trace, wx, wy, wz}, {wx, 1 + x - y - z, xy, xz}, {wy, xy, 1 - x + y - z, yz}, {wz, xz, yz, 1 - x - y + z}};
+    int largest = 3 - (y >= z);
+    largest -= (largest - 1) * ((x >= y) & (x >= z));
+    return rows[largest * !(trace > -0.5)];
 }
 
 static void make(const ovoid_posed_shape *body, ovoid_prepared_shape *to) {

@@ -245,6 +245,15 @@ static void test_vertices() {
         (*points)[i][0] = 1.25 + 0.25 * double(i - 4);
         CHECK_NEAR(ask(&hull, &other, right(4)), 3.5 - (*points)[i][0], 1e-9);
     }
+    random_poses random(10);
+    auto many = std::make_shared<std::vector<Vector3d>>();
+    for (int i = 0; i < 40; i++) many->push_back(random.make<double>(1).translation().normalized());
+    const Convexd ball(many, 1, std::make_shared<std::vector<int>>(std::vector<int>{3, 0, 1, 2}));
+    ask(&ball, &other, right(4));
+    for (std::size_t i = 0; i < many->size(); i += 2) {
+        (*many)[i][0] = 1.1 + 0.01 * double(i);
+        CHECK_NEAR(ask(&ball, &other, right(4)), 3.5 - (*many)[i][0], 1e-9);
+    }
 }
 
 int main() {

@@ -95,8 +95,15 @@ static std::size_t check(const body &a, const Transform3d &s, const body &b, con
             if (truth.upper < 0) CHECK(is_listed);
             if (truth.lower > 0) CHECK(!is_listed);
         }
+    // One is that of the parts that decide, which come first in a list.
+    CollisionResultd plain, one;
+    ovoid::fcl::collide<double>(a.of.get(), s, b.of.get(), t, CollisionRequestd(1, true), one);
+    CHECK_EQ(one.numContacts(), std::min<std::size_t>(1, all.numContacts()));
+    if (one.numContacts() == 1 && all.numContacts() > 0) {
+        CHECK_EQ(one.getContact(0).b1, all.getContact(0).b1);
+        CHECK_EQ(one.getContact(0).b2, all.getContact(0).b2);
+    }
     // Without details the same triangles.
-    CollisionResultd plain;
     CHECK_EQ(ovoid::fcl::collide<double>(a.of.get(), s, b.of.get(), t, CollisionRequestd(100000, false), plain),
              all.numContacts());
     CHECK_EQ(ovoid::fcl::collide<double>(a.of.get(), s, b.of.get(), t, CollisionRequestd(2, true), few),

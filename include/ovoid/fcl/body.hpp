@@ -38,16 +38,31 @@ struct solid_deleter {
 using shape_owner = std::unique_ptr<ovoid_shape, shape_deleter>;
 using solid_owner = std::unique_ptr<ovoid_solid, solid_deleter>;
 
+/// A box by its centre and half lengths, and the sum of all of these, which rounding goes by.
+struct centered_box {
+    double center[3], half[3], size = 0;
+
+    explicit centered_box(const ovoid_box &box) {
+        const double low[3] = {box.min.x, box.min.y, box.min.z}, high[3] = {box.max.x, box.max.y, box.max.z};
+        for (int k = 0; k < 3; k++) {
+            center[k] = (low[k] + high[k]) / 2;
+            half[k] = high[k] - center[k];
+            size += std::fabs(center[k]) + half[k];
+        }
+    }
+};
+
 /// A tree of boxes over the triangles of a solid, in the solid's own order. A shape has one box.
 struct box_tree {
-    std::vector<ovoid_box> boxes;
-    std::vector<std::uint32_t> order;
+    std::vector<centered_box> boxes;
+    std::vector<std::uint32_t> order;  ///< the triangle of each leaf
+    std::vector<std::uint32_t> places; ///< the leaf of each triangle
 
-    /// The place of a triangle among the leaves.
-    std::size_t find(std::uint32_t triangle) const {
-        const auto found = std::find(order.begin(), order.end(), triangle);
-        return found == order.end() ? 0 : static_cast<std::size_t>(found - order.begin());
+    explicit box_tree(std::vector<std::uint32_t> triangles = {}) : order(std::move(triangles)), places(order.size()) {
+        for (std::size_t k = 0; k < order.size(); k++) places[order[k]] = static_cast<std::uint32_t>(k);
     }
+    /// The place of a triangle among the leaves.
+    std::size_t find(std::uint32_t triangle) const { return triangle < places.size() ? places[triangle] : 0; }
 };
 
 /// Two balls around a point of a shape, in its own frame: one that holds it and one that it holds.
@@ -200,10 +215,11 @@ class body {
         std::call_once(once_, [this] {
             if (shape_) return make_box();
             const std::uint32_t *order = ovoid_solid_get_order(solid_.get());
-            tree_.order.assign(order, order + pieces_.size());
-            tree_.boxes.resize(count_boxes(pieces_.size()));
-            fill_boxes(tree_.boxes, {0, 0, pieces_.size()},
+            tree_ = box_tree({order, order + pieces_.size()});
+            std::vector<ovoid_box> boxes(count_boxes(pieces_.size()));
+            fill_boxes(boxes, {0, 0, pieces_.size()},
                        [this](std::size_t k) { return box_of_triangle(tree_.order[k]); });
+            for (const ovoid_box &box : boxes) tree_.boxes.emplace_back(box);
         });
         return tree_;
     }
@@ -220,8 +236,8 @@ class body {
         const double outside = ovoid_shape_get_allowance(shape_.get()).outside;
         box.min = {box.min.x - outside, box.min.y - outside, box.min.z - outside};
         box.max = {box.max.x + outside, box.max.y + outside, box.max.z + outside};
-        tree_.order.assign(1, 0);
-        tree_.boxes.assign(1, box);
+        tree_ = box_tree({0});
+        tree_.boxes.emplace_back(box);
     }
     ovoid_box box_of_triangle(std::uint32_t i) const {
         ovoid_vec3 at[3];

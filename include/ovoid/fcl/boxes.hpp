@@ -31,6 +31,11 @@ struct overlap_test {
         };
         return (is_beyond(a.min, b.max) | is_beyond(b.min, a.max)) == 0;
     }
+    /// The same of two pairs.
+    std::pair<bool, bool> operator()(const ovoid_box &a, const ovoid_box &b, const ovoid_box &c,
+                                     const ovoid_box &d) const {
+        return {(*this)(a, b), (*this)(c, d)};
+    }
 };
 
 /// The square of the distance of two boxes.
@@ -81,23 +86,34 @@ struct leaf_pair {
 };
 
 /// Goes through the pairs of a leaf of one tree and one of another that `may_meet` does not part, until `take` returns
-/// true: then it returns true. `first` is taken first, then those that are in the same halves.
-template <class Test, class Take> class pair_search {
+/// true: then it returns true. `first` is taken first, then those that are in the same halves. Both halves are tested
+/// at once.
+template <class Box, class Test, class Take> class pair_search {
   public:
-    pair_search(const ovoid_box *a, const ovoid_box *b, const Test &may_meet, Take &take, leaf_pair first = {0, 0})
+    pair_search(const Box *a, const Box *b, const Test &may_meet, Take &take, leaf_pair first = {0, 0})
         : a_(a), b_(b), may_meet_(may_meet), take_(take), first_(first) {}
 
     bool visit(const box_range &x, const box_range &y) const {
-        if (!may_meet_(a_[x.node], b_[y.node])) return false;
-        if (x.is_leaf() && y.is_leaf()) return take_(x.first, y.first);
-        const box_range &halved = is_first_halved(x, y) ? x : y, lower = halved.lower(), upper = halved.upper();
-        if (&halved == &x)
-            return first_.a < upper.first ? visit(lower, y) || visit(upper, y) : visit(upper, y) || visit(lower, y);
-        return first_.b < upper.first ? visit(x, lower) || visit(x, upper) : visit(x, upper) || visit(x, lower);
+        return may_meet_(a_[x.node], b_[y.node]) && visit_met(x, y);
     }
 
   private:
-    const ovoid_box *a_, *b_;
+    /// Of ranges whose boxes may meet.
+    bool visit_met(const box_range &x, const box_range &y) const {
+        if (x.is_leaf() && y.is_leaf()) return take_(x.first, y.first);
+        if (is_first_halved(x, y)) {
+            const box_range lower = x.lower(), upper = x.upper();
+            return first_.a < upper.first ? visit_both(lower, y, upper, y) : visit_both(upper, y, lower, y);
+        }
+        const box_range lower = y.lower(), upper = y.upper();
+        return first_.b < upper.first ? visit_both(x, lower, x, upper) : visit_both(x, upper, x, lower);
+    }
+    bool visit_both(const box_range &x, const box_range &y, const box_range &z, const box_range &w) const {
+        const std::pair<bool, bool> meet = may_meet_(a_[x.node], b_[y.node], a_[z.node], b_[w.node]);
+        return (meet.first && visit_met(x, y)) || (meet.second && visit_met(z, w));
+    }
+
+    const Box *a_, *b_;
     const Test &may_meet_;
     Take &take_;
     leaf_pair first_;

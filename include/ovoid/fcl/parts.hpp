@@ -12,6 +12,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <limits>
+#include <utility>
 
 namespace ovoid {
 namespace fcl {
@@ -47,34 +50,35 @@ class part_test {
         const ovoid_pose b_in_a = ovoid_pose_compute_product(&inverse, &of.pose_b());
         ovoid_pose_compute_matrix(&b_in_a, turn_);
         const double at[3] = {b_in_a.position.x, b_in_a.position.y, b_in_a.position.z};
-        for (int i = 0; i < 3; i++) at_[i] = at[i];
+        for (int i = 0; i < 3; i++) at_[i] = at[i], spread_at_[i] = spread(at[i]);
         // Rounding: a part in 1e12 of every length that enters the sums.
-        for (int i = 0; i < 9; i++) size_[i] = std::fabs(turn_[i]) + 1e-12;
+        for (int i = 0; i < 9; i++) {
+            spread_turn_[i] = spread(turn_[i]);
+            spread_size_[i] = spread(std::fabs(turn_[i]) + 1e-12);
+        }
         reach_ = 1e-12 * (std::fabs(at[0]) + std::fabs(at[1]) + std::fabs(at[2]));
     }
     /// May the boxes have a common point? Separating axes are the axes of both frames.
-    bool operator()(const ovoid_box &a, const ovoid_box &b) const {
-        const double ca[3] = {(a.min.x + a.max.x) / 2, (a.min.y + a.max.y) / 2, (a.min.z + a.max.z) / 2};
-        const double cb[3] = {(b.min.x + b.max.x) / 2, (b.min.y + b.max.y) / 2, (b.min.z + b.max.z) / 2};
-        const double ha[3] = {a.max.x - ca[0], a.max.y - ca[1], a.max.z - ca[2]};
-        const double hb[3] = {b.max.x - cb[0], b.max.y - cb[1], b.max.z - cb[2]};
-        double between[3];
-        double far = reach_;
-        for (int i = 0; i < 3; i++) {
-            between[i] = at_[i] + turn_[3 * i] * cb[0] + turn_[3 * i + 1] * cb[1] + turn_[3 * i + 2] * cb[2] - ca[i];
-            far += 1e-12 * (std::fabs(ca[i]) + std::fabs(cb[i]) + ha[i] + hb[i]);
+    bool operator()(const centered_box &a, const centered_box &b) const { return (*this)(a, b, a, b).first; }
+#if defined(__GNUC__)
+    // The compiler's own vectors, which it has for every processor: a lane for each pair.
+    std::pair<bool, bool> operator()(const centered_box &a, const centered_box &b, const centered_box &c,
+                                     const centered_box &d) const {
+        number ca[3], ha[3], cb[3], hb[3];
+        for (int k = 0; k < 3; k++) {
+            ca[k] = number{a.center[k], c.center[k]}, ha[k] = number{a.half[k], c.half[k]};
+            cb[k] = number{b.center[k], d.center[k]}, hb[k] = number{b.half[k], d.half[k]};
         }
-        for (int i = 0; i < 3; i++)
-            if (std::fabs(between[i]) >
-                ha[i] + size_[3 * i] * hb[0] + size_[3 * i + 1] * hb[1] + size_[3 * i + 2] * hb[2] + far)
-                return false;
-        for (int i = 0; i < 3; i++) {
-            const double along = turn_[i] * between[0] + turn_[3 + i] * between[1] + turn_[6 + i] * between[2];
-            if (std::fabs(along) > hb[i] + size_[i] * ha[0] + size_[3 + i] * ha[1] + size_[6 + i] * ha[2] + 2 * far)
-                return false;
-        }
-        return true;
+        const flags beyond = are_beyond(ca, ha, cb, hb, number{a.size + b.size, c.size + d.size});
+        return {!beyond[0], !beyond[1]};
     }
+#else
+    std::pair<bool, bool> operator()(const centered_box &a, const centered_box &b, const centered_box &c,
+                                     const centered_box &d) const {
+        return {!are_beyond(a.center, a.half, b.center, b.half, a.size + b.size),
+                !are_beyond(c.center, c.half, d.center, d.half, c.size + d.size)};
+    }
+#endif
 
     /// May triangle i of a, or the shape, and triangle j of b touch? Not if the plane of one is beside the other.
     bool may_touch(std::uint32_t i, std::uint32_t j) const {
@@ -83,6 +87,43 @@ class part_test {
     }
 
   private:
+#if defined(__GNUC__)
+    using number = double __attribute__((vector_size(16)));
+    using flags = std::int64_t __attribute__((vector_size(16)));
+    static number spread(double x) { return number{x, x}; }
+    static number get_abs(const number &x) {
+        const std::int64_t rest = std::numeric_limits<std::int64_t>::max();
+        flags bits;
+        std::memcpy(&bits, &x, sizeof bits);
+        bits &= flags{rest, rest};
+        number to;
+        std::memcpy(&to, &bits, sizeof to);
+        return to;
+    }
+#else
+    using number = double;
+    using flags = bool;
+    static number spread(double x) { return x; }
+    static number get_abs(number x) { return std::fabs(x); }
+#endif
+    /// Are boxes apart along an axis? By their centres, halves and sizes.
+    flags are_beyond(const number (&ca)[3], const number (&ha)[3], const number (&cb)[3], const number (&hb)[3],
+                     const number &size) const {
+        const number far = reach_ + 1e-12 * size, *m = spread_turn_, *s = spread_size_;
+        number between[3];
+        for (int i = 0; i < 3; i++)
+            between[i] = spread_at_[i] + m[3 * i] * cb[0] + m[3 * i + 1] * cb[1] + m[3 * i + 2] * cb[2] - ca[i];
+        flags beyond = far < -far;
+        for (int i = 0; i < 3; i++)
+            beyond |=
+                get_abs(between[i]) > ha[i] + s[3 * i] * hb[0] + s[3 * i + 1] * hb[1] + s[3 * i + 2] * hb[2] + far;
+        for (int i = 0; i < 3; i++) {
+            const number along = m[i] * between[0] + m[3 + i] * between[1] + m[6 + i] * between[2];
+            beyond |= get_abs(along) > hb[i] + s[i] * ha[0] + s[3 + i] * ha[1] + s[6 + i] * ha[2] + 2 * far;
+        }
+        return beyond;
+    }
+
     static ovoid_vec3 subtract(const ovoid_vec3 &x, const ovoid_vec3 &y) { return {x.x - y.x, x.y - y.y, x.z - y.z}; }
     static double dot(const ovoid_vec3 &x, const ovoid_vec3 &y) { return x.x * y.x + x.y * y.y + x.z * y.z; }
     static double sum(const ovoid_vec3 &x) { return std::fabs(x.x) + std::fabs(x.y) + std::fabs(x.z); }
@@ -92,11 +133,10 @@ class part_test {
             of.get_triangle(i, part.at);
             return part;
         }
-        const ovoid_box &box = of.tree().boxes[0];
+        const centered_box &box = of.tree().boxes[0];
         part.is_box = true;
-        part.at[0] = {(box.min.x + box.max.x) / 2, (box.min.y + box.max.y) / 2, (box.min.z + box.max.z) / 2};
-        part.at[1].x = box.max.x - part.at[0].x, part.at[2].y = box.max.y - part.at[0].y;
-        part.at[3].z = box.max.z - part.at[0].z;
+        part.at[0] = {box.center[0], box.center[1], box.center[2]};
+        part.at[1].x = box.half[0], part.at[2].y = box.half[1], part.at[3].z = box.half[2];
         return part;
     }
     flat_part turn(flat_part part) const {
@@ -129,7 +169,9 @@ class part_test {
     }
 
     const body *a_, *b_;
-    double turn_[9], size_[9], at_[3], reach_;
+    double turn_[9], at_[3], reach_;
+    number spread_turn_[9], spread_at_[3];
+    number spread_size_[9]; ///< the sizes of the entries of the rotation
 };
 
 /// Goes through the pairs of a triangle (or the shape) of a and one of b that may touch, until `take` returns true:

@@ -33,14 +33,17 @@ namespace detail {
 
 template <class S> using geometry = ::fcl::CollisionGeometry<S>;
 
+/// A double by its bits.
+inline std::uint64_t get_word(double value) {
+    std::uint64_t word;
+    std::memcpy(&word, &value, sizeof word);
+    return word;
+}
+
 /// The words of a print, one after another: doubles by their bits, arrays by their addresses.
 template <class Self> class print_words {
   public:
-    void add(double value) {
-        std::uint64_t word;
-        std::memcpy(&word, &value, sizeof word);
-        add(word);
-    }
+    void add(double value) { add(get_word(value)); }
     void add(const void *address) { add(static_cast<std::uint64_t>(reinterpret_cast<std::uintptr_t>(address))); }
     void add(std::uint64_t word) { static_cast<Self *>(this)->take(word); }
 };
@@ -76,10 +79,7 @@ class print_comparison : public print_words<print_comparison> {
             difference_ |= size > 0 && std::memcmp(point, at, size * sizeof *at) != 0;
         } else {
             for (std::size_t i = 0; i < size; i += step)
-                for (int k = 0; k < 3; k++) {
-                    const double value = static_cast<double>(at[i][k]);
-                    difference_ |= std::memcmp(point++, &value, sizeof value) != 0;
-                }
+                for (int k = 0; k < 3; k++) difference_ |= get_word(*point++) ^ get_word(static_cast<double>(at[i][k]));
         }
     }
     bool is_same() const { return difference_ == 0; }
@@ -95,8 +95,7 @@ class print_comparison : public print_words<print_comparison> {
 class mixer {
   public:
     void add(double value) {
-        std::uint64_t word;
-        std::memcpy(&word, &value, sizeof word);
+        const std::uint64_t word = get_word(value);
         sum_ += (word ^ word >> 31) * factor_;
         factor_ += 2 * 0x9e3779b97f4a7c15u;
     }
