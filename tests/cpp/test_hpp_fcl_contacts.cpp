@@ -280,37 +280,6 @@ static void test_hulls_of_boxes() {
     }
 }
 
-/// Room for the contacts of a call is made once; a result of many calls doubles its room.
-static void test_room() {
-    const body table = make_box(4, 4, 1), box = make_box(0.5, 0.4, 0.3), capsule = make_capsule(0.1, 0.8);
-    const body hull = make_hull(Vector3d(0, 0, 0), Vector3d(0.5, 0, 0), Vector3d(0.1, 0.5, 0), Vector3d(0, 0, 0.15));
-    const Transform3d at = Transform3d::Identity();
-    const auto get_room = [](CollisionResultd &result) {
-        using namespace ovoid::fcl::detail;
-        return (result.*find_contacts(result_of<double>())).capacity();
-    };
-    const auto ask = [&](const body &on, const Transform3d &t, const body &of, CollisionResultd &result,
-                         std::size_t most = 100) {
-        ovoid::fcl::collide<double>(on.of.get(), at, of.of.get(), t, CollisionRequestd(most, true), result);
-        return result.numContacts();
-    };
-    for (const body *of : {&box, &hull}) {
-        CollisionResultd result, few;
-        const Transform3d t = make_transform(Vector3d(0, 0, 0.64), Vector3d::UnitZ(), 0.3);
-        CHECK_EQ(ask(table, t, *of, result), 4u);
-        CHECK_EQ(get_room(result), 4u);
-        CHECK_EQ(ask(table, t, *of, result), 8u);
-        CHECK_EQ(ask(table, t, *of, result), 12u);
-        CHECK_EQ(get_room(result), 16u);
-        CHECK_EQ(ask(table, t, *of, few, 3), 3u);
-        CHECK_EQ(get_room(few), 3u);
-    }
-    CollisionResultd result;
-    const Transform3d beside = make_transform(Vector3d(0.19, 0, 0));
-    CHECK_EQ(ask(capsule, beside, capsule, result), 2u);
-    CHECK_EQ(get_room(result), 2u);
-}
-
 int main() {
     const std::vector<body> all = {make_box(1, 0.8, 0.6), make_box(0.9, 0.9, 0.9), make_box(2, 0.1, 0.3),
                                    make_capsule(0.25, 0.8), make_capsule(0.05, 1.5)};
@@ -322,6 +291,5 @@ int main() {
     test_long_crossing();
     test_capsules();
     test_hulls_of_boxes();
-    test_room();
     return check_end();
 }

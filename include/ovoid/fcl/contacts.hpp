@@ -13,7 +13,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <utility>
-#include <vector>
 
 namespace ovoid {
 namespace fcl {
@@ -37,44 +36,32 @@ template <class S> OVOID_FCL_INLINE double get_part(const typed<S> &o1, const ty
     return a + b > 0 ? a / (a + b) : 0.5;
 }
 
-/// The contacts of a result, as a member that may be written to: `addContact` is a call of libfcl that copies a
-/// contact, and makes room for one, then two, then four. The member is private; an explicit instantiation may name it.
-template <class S> using contacts_member = std::vector<::fcl::Contact<S>>(::fcl::CollisionResult<S>::*);
-template <class S> struct result_of {};
-contacts_member<double> find_contacts(result_of<double>);
-contacts_member<float> find_contacts(result_of<float>);
-template <class S, contacts_member<S> member> struct contacts_finder {
-    friend contacts_member<S> find_contacts(result_of<S>) { return member; }
-};
-template struct contacts_finder<double, &::fcl::CollisionResult<double>::contacts>;
-template struct contacts_finder<float, &::fcl::CollisionResult<float>::contacts>;
-
-/// Adds the contacts that a request wants to a result.
+/// Adds the contacts that a request wants to a result. FCL's functions for it are calls of libfcl, so their number is
+/// kept here.
 template <class S> class contact_list {
   public:
     contact_list(const typed<S> &o1, const typed<S> &o2, const ::fcl::CollisionRequest<S> &request,
                  ::fcl::CollisionResult<S> &result)
-        : o1_(o1), o2_(o2), request_(&request), result_(&result), contacts_(&(result.*find_contacts(result_of<S>()))) {}
+        : o1_(o1), o2_(o2), request_(&request), result_(&result), count_(result.numContacts()) {}
 
     const ::fcl::CollisionRequest<S> &request() const { return *request_; }
     ::fcl::CollisionResult<S> &result() const { return *result_; }
     /// How many contacts are in the result.
-    std::size_t count() const { return contacts_->size(); }
+    std::size_t count() const { return count_; }
     /// How many more contacts are wanted.
-    std::size_t room() const { return count() < request_->num_max_contacts ? request_->num_max_contacts - count() : 0; }
-    /// Makes room for as many of these as are wanted. A result that has contacts grows by its own rule, so that many
-    /// calls into one result do not copy it each time.
-    void reserve(std::size_t more) {
-        if (contacts_->empty()) contacts_->reserve(std::min(more, room()));
-    }
+    std::size_t room() const { return count_ < request_->num_max_contacts ? request_->num_max_contacts - count_ : 0; }
     bool is_detailed() const { return request_->enable_contact; }
 
     /// A contact without details, of parts i and j (-1: not of a mesh).
-    OVOID_FCL_INLINE void add(int i, int j) { contacts_->emplace_back(o1_.of, o2_.of, i, j); }
+    OVOID_FCL_INLINE void add(int i, int j) {
+        result_->addContact(::fcl::Contact<S>(o1_.of, o2_.of, i, j));
+        count_++;
+    }
     /// A contact with details. FCL's depths are not negative.
     OVOID_FCL_INLINE void add(int i, int j, const ovoid_vec3 &position, const ovoid_vec3 &normal, double depth) {
-        contacts_->emplace_back(o1_.of, o2_.of, i, j, from_vec3<S>(position), from_vec3<S>(normal),
-                                static_cast<S>(std::max(0.0, depth)));
+        result_->addContact(::fcl::Contact<S>(o1_.of, o2_.of, i, j, from_vec3<S>(position), from_vec3<S>(normal),
+                                              static_cast<S>(std::max(0.0, depth))));
+        count_++;
     }
     OVOID_FCL_INLINE void add(int i, int j, const ovoid_manifold_point &at, const ovoid_vec3 &normal) {
         add(i, j, between(at.point_a, at.point_b, get_part(o1_, o2_)), normal, -at.separation);
@@ -84,7 +71,7 @@ template <class S> class contact_list {
     typed<S> o1_, o2_;
     const ::fcl::CollisionRequest<S> *request_;
     ::fcl::CollisionResult<S> *result_;
-    std::vector<::fcl::Contact<S>> *contacts_; ///< those of the result
+    std::size_t count_;
 };
 
 /// A bracket, and its points and normal; without the proof, which FCL's callers have no place for.
@@ -143,7 +130,6 @@ template <class S> void add_contacts(contact_list<S> &to, int i, int j, const ov
         // Of edges that are nearly parallel the manifold's bracket may be wider than that of the depth.
         off += depth - contact_distance(ask_depth(pair).bracket);
     }
-    to.reserve(count);
     for (std::uint32_t n = 0; n < count && to.room() > 0; n++) {
         points.points[n].separation -= off;
         to.add(i, j, points.points[n], manifold.normal);

@@ -399,7 +399,6 @@ template <class S> void add_segments(contact_list<S> &to, const ovoid_swept_pair
     const int first = at[1].separation < at[0].separation ? 1 : 0;
     const double off = contact_distance(depth.bracket) - at[first].separation;
     if (!(std::fabs(off) <= 1e-9 * size)) return add_deepest(to, -1, -1, depth);
-    to.reserve(2);
     for (const int i : {first, 1 - first}) {
         at[i].separation += off;
         if (to.room() > 0 && at[i].separation <= 0) to.add(-1, -1, at[i], n);
@@ -450,7 +449,6 @@ template <class S> bool collide_faces(contact_list<S> &to, const ovoid_swept_pai
         add(faces.get_crossing());
     else if (!faces.find(polygon))
         return false;
-    to.reserve(static_cast<std::size_t>(polygon.count()));
     for (int i = 0; i < polygon.count() && to.room() > 0; i++) add(faces.get_point(polygon[i]));
     return true;
 }
