@@ -92,6 +92,14 @@ template <class S> bool make_points_pair(const posed<S> &a, const posed<S> &b, o
     return is_one && make_swept_or_points<S>(a.self(), a.pose, to[0]) &&
            make_swept_or_points<S>(b.self(), b.pose, to[1]);
 }
+/// The same, with the shapes of convex polytopes.
+template <class S>
+bool make_hull_pair(const posed<S> &a, const posed<S> &b, const body_couple &couple, ovoid_swept_sphere (&to)[2]) {
+    if (!make_points_pair(a, b, to)) return false;
+    if (to[0].core == OVOID_SWEPT_POINTS) to[0].shape = couple.a->shape();
+    if (to[1].core == OVOID_SWEPT_POINTS) to[1].shape = couple.b->shape();
+    return true;
+}
 /// Two geometries of which one is a convex polytope with the corners of a box, and the other that or a swept sphere.
 template <class S>
 bool make_box_pair(const posed<S> &a, const posed<S> &b, const body_couple &couple, ovoid_swept_sphere (&to)[2]) {
@@ -233,7 +241,7 @@ template <class S> bool collide_bodies(contact_list<S> &to, const posed<S> &a, c
         to.add(-1, -1);
         return true;
     }
-    if ((make_box_pair(a, b, couple, swept) || make_points_pair(a, b, swept)) &&
+    if ((make_box_pair(a, b, couple, swept) || make_hull_pair(a, b, couple, swept)) &&
         collide_numbers<S>(to, {&swept[0], &swept[1]}))
         return true;
     if (!place_couple(a, b, couple)) return false;

@@ -75,13 +75,16 @@ ovoid_swept_sphere make_in_c(const body &b) {
     const ovoid_vec3 x = {m[0], m[3], m[6]}, y = {m[1], m[4], m[7]}, z = {m[2], m[5], m[8]};
     const double *s = b.sizes.data();
     const ovoid_vec3 center = b.at.position;
-    if (b.kind == "sphere") return {center, s[0], OVOID_SWEPT_POINT, {}, {}, nullptr, 0};
-    if (b.kind == "capsule") return {center, s[0], OVOID_SWEPT_SEGMENT, {s[1]}, {z}, nullptr, 0};
-    if (b.kind == "cylinder") return {center, 0, OVOID_SWEPT_CYLINDER, {s[1], s[0]}, {z}, nullptr, 0};
-    if (b.kind == "cone") return {center, 0, OVOID_SWEPT_CONE, {s[1], s[0]}, {z}, nullptr, 0};
-    if (b.kind == "box") return {center, b.rounding, OVOID_SWEPT_BOX, {s[0], s[1], s[2]}, {x, y, z}, nullptr, 0};
-    if (b.kind == "ellipsoid") return {center, 0, OVOID_SWEPT_ELLIPSOID, {s[0], s[1], s[2]}, {x, y, z}, nullptr, 0};
-    return {center, b.rounding, OVOID_SWEPT_POINTS, {}, {x, y, z}, s, static_cast<std::uint32_t>(b.sizes.size() / 3)};
+    if (b.kind == "sphere") return {center, s[0], OVOID_SWEPT_POINT, {}, {}, nullptr, 0, nullptr};
+    if (b.kind == "capsule") return {center, s[0], OVOID_SWEPT_SEGMENT, {s[1]}, {z}, nullptr, 0, nullptr};
+    if (b.kind == "cylinder") return {center, 0, OVOID_SWEPT_CYLINDER, {s[1], s[0]}, {z}, nullptr, 0, nullptr};
+    if (b.kind == "cone") return {center, 0, OVOID_SWEPT_CONE, {s[1], s[0]}, {z}, nullptr, 0, nullptr};
+    if (b.kind == "box")
+        return {center, b.rounding, OVOID_SWEPT_BOX, {s[0], s[1], s[2]}, {x, y, z}, nullptr, 0, nullptr};
+    if (b.kind == "ellipsoid")
+        return {center, 0, OVOID_SWEPT_ELLIPSOID, {s[0], s[1], s[2]}, {x, y, z}, nullptr, 0, nullptr};
+    return {center, b.rounding, OVOID_SWEPT_POINTS, {}, {x, y, z}, s, static_cast<std::uint32_t>(b.sizes.size() / 3),
+            nullptr};
 }
 
 struct answered {

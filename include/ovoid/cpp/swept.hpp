@@ -52,7 +52,7 @@ struct swept_sphere : ovoid_swept_sphere {
 
   private:
     swept_sphere(ovoid_swept_core core_, double radius_, const vec3 &half_, const pose &at) noexcept
-        : ovoid_swept_sphere{at.position, radius_, core_, {half_.x, half_.y, half_.z}, {}, nullptr, 0} {
+        : ovoid_swept_sphere{at.position, radius_, core_, {half_.x, half_.y, half_.z}, {}, nullptr, 0, nullptr} {
         double m[9];
         ovoid_pose_compute_matrix(&at, m);
         for (int k = 0; k < 3; k++) axis[k] = {m[k], m[3 + k], m[6 + k]};

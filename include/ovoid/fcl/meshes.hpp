@@ -32,6 +32,7 @@ template <class S> class swept_parts {
         part_.core = OVOID_SWEPT_POINTS;
         part_.points = corners_;
         part_.count = 3;
+        part_.shape = nullptr;
     }
     swept_parts(const swept_parts &) = delete;
     swept_parts &operator=(const swept_parts &) = delete;

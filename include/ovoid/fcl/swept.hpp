@@ -69,6 +69,7 @@ bool make_points(const ::fcl::Vector3<S> *corners, std::size_t count, const ::fc
     to.core = OVOID_SWEPT_POINTS;
     to.points = reinterpret_cast<const double *>(corners);
     to.count = static_cast<std::uint32_t>(count);
+    to.shape = nullptr;
     for (int k = 0; k < 3; k++) to.half[k] = sum[k] / static_cast<double>(count);
     return set_axes<S>(t, to);
 }

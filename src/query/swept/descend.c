@@ -50,6 +50,14 @@ static double measure_inside(const ovoid_swept_sphere *s, int facet, vec3 y) {
     return least;
 }
 
+int least_overlap_add_piece(const cores *p, int is_facet_b, least_overlap *to) {
+    const patch_plane *of = &to->of, back = {vec3_neg(of->n), {vec3_neg(of->e[0]), vec3_neg(of->e[1])}};
+    piece *with = &to->pieces[0];
+    *with = (piece){.weight = 1, .on_a = {.at = to->on_a}, .on_b = {.at = to->on_b}};
+    to->count = to->active = 1;
+    return is_facet_b ? patch_find(p->a, 0, of, &with->on_a) : patch_find(p->b, 0, &back, &with->on_b);
+}
+
 // The minimum along the normal of a facet near n, if the other core's deepest point is over it, and it is not above
 // `most`, the overlap along n: else there is another minimum nearby.
 static int take_facet(const cores *p, int is_b, vec3 n, double most, least_overlap *to) {
@@ -68,7 +76,7 @@ static int take_facet(const cores *p, int is_b, vec3 n, double most, least_overl
     to->of = patch_make_plane(is_b ? vec3_neg(normal) : normal);
     to->on_a = is_b ? end : foot;
     to->on_b = is_b ? foot : end;
-    return 1;
+    return y->core != OVOID_SWEPT_ELLIPSOID || least_overlap_add_piece(p, is_b, to);
 }
 
 // ---- pieces
@@ -460,6 +468,16 @@ static int is_side_held(const least_overlap *at, int farther, const angle_ring *
     return 0;
 }
 
+// Of a facet some mean of the pieces rises by how far its point is within on the side of t, and bends as one of them.
+static int is_facet_held(const least_overlap *at, double inside, const angle_ring *ring) {
+    double bend = 0;
+    for (int i = 0; i < at->active; i++) {
+        const patch_form m = add_piece(&at->pieces[i], 1, ring->to);
+        bend = min2(bend, find_least_eigenvalue(&m) - ring->bent);
+    }
+    return at->lowest - ring->wanted + ring->to * (inside + 0.5 * bend * ring->to) >= 0;
+}
+
 static int is_ring_held(const least_overlap *at, angle_ring ring) {
     if (at->active == 2) return is_side_held(at, 0, &ring) && is_side_held(at, 1, &ring);
     const patch_form m = add_forms(at, ring.to);
@@ -486,9 +504,17 @@ static double find_inside(const least_overlap *at) {
 
 double least_overlap_find_angle(const least_overlap *at, double wanted) {
     double inside = at->active > 2 ? find_inside(at) : at->inside;
-    if (inside > 0) return at->lowest >= wanted ? 0.999 * find_angle_of_facet(at, inside) : 0;
-    if (at->active > 2) return 0;
+    if (inside > 0 && at->lowest < wanted) return 0;
+    if (at->active > 2 && !(inside > 0)) return 0;
     double reach = WIDEST;
+    if (inside > 0) {
+        reach = 0.999 * find_angle_of_facet(at, inside);
+        for (; at->active > 0 && reach < WIDEST; reach *= WIDER) {
+            const angle_ring ring = make_ring(reach, reach * WIDER, wanted);
+            if (!is_facet_held(at, inside, &ring)) break;
+        }
+        return reach;
+    }
     while (!is_ring_held(at, make_ring(0, reach, wanted)))
         if ((reach *= NARROWER) < NARROWEST) return 0;
     while (reach < WIDEST && is_ring_held(at, make_ring(reach, reach * WIDER, wanted))) reach *= WIDER;

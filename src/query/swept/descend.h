@@ -31,6 +31,7 @@ typedef struct least_overlap {
     double lowest; ///< the least of the pieces' values
     double slope;  ///< of their weighted mean
     double inside; ///< of a facet how far its point is within its edges; 0: it is not one of a facet, there are pieces
+                   ///< beside it, which a facet need not have
     int count;
     piece pieces[LEAST_PIECES]; ///< the first `active`, at most three, have weights
     int active;
@@ -51,6 +52,9 @@ COMPILER_INLINED overlap_ends cores_find_ends(const cores *p, vec3 n) {
 /// the pieces that are in *to already; 0 if none is found in a few steps. Where h is not above 0 on the way the cores
 /// are apart: the value is that, and nothing else is set.
 int cores_descend(const cores *p, vec3 from, double height, least_overlap *to);
+
+/// Adds the piece of an ellipsoid to a minimum along the normal of the other core's facet, for the angle around it. 1.
+int least_overlap_add_piece(const cores *p, int is_facet_b, least_overlap *to);
 
 /// The tangent of an angle around the minimum's direction in which no overlap is less than `wanted`; 0 if none is
 /// proven.

@@ -12,45 +12,55 @@
 // The most supports that are asked, and the most times that a triangle is halved.
 enum { MOST_CELLS = 600, MOST_HALVES = 32 };
 
-typedef struct division {
-    const cores *of;
-    vec3 n;        ///< of the minimum,
-    double cosine; ///< and the least one of the angle to it that is proven; 2: none
-    double wanted;
-    int left; ///< supports that may be asked
-} division;
-
-// A spherical triangle, and how many times it may be halved.
+// A spherical triangle.
 typedef struct cell {
-    vec3 corner[3];
-    int left;
+    const vec3 *corner[3];
 } cell;
 
 static double find_least(const cell *c, vec3 v) {
-    return min2(vec3_dot(v, c->corner[0]), min2(vec3_dot(v, c->corner[1]), vec3_dot(v, c->corner[2])));
+    return min2(vec3_dot(v, *c->corner[0]), min2(vec3_dot(v, *c->corner[1]), vec3_dot(v, *c->corner[2])));
 }
 
 // The corner at which the longest side begins: the one whose ends have the least cosine.
 static int find_longest(const cell *c) {
-    const double side0 = vec3_dot(c->corner[0], c->corner[1]), side1 = vec3_dot(c->corner[1], c->corner[2]),
-                 side2 = vec3_dot(c->corner[2], c->corner[0]);
+    const double side0 = vec3_dot(*c->corner[0], *c->corner[1]), side1 = vec3_dot(*c->corner[1], *c->corner[2]),
+                 side2 = vec3_dot(*c->corner[2], *c->corner[0]);
     return side1 < side0 && side1 <= side2 ? 1 : side2 < side0 ? 2 : 0;
 }
 
-// known: a point of the difference body.
+// known: a point of the difference body; left: how many times the cell may be halved.
 // NOLINTNEXTLINE(misc-no-recursion): no cell is halved more than MOST_HALVES times
-static int divide(division *d, const cell *c, const vec3 *known) {
-    if (find_least(c, d->n) >= d->cosine || find_least(c, *known) >= d->wanted) return 1;
-    if (d->left-- <= 0 || c->left == 0) return 0;
-    const vec3 middle = vec3_unit(vec3_add(vec3_add(c->corner[0], c->corner[1]), c->corner[2])),
-               point = cores_find_ends(d->of, middle).v;
-    if (vec3_dot(point, middle) < d->wanted) return 0;
+static int divide(division *d, const cell *c, const vec3 *known, int left) {
+    if (find_least(c, *known) >= d->wanted || find_least(c, d->n) >= d->cosine) return 1;
+    if (d->left-- <= 0 || left == 0) return 0;
+    const vec3 middle = vec3_unit(vec3_add(vec3_add(*c->corner[0], *c->corner[1]), *c->corner[2])),
+               point = d->find(d->of, middle);
+    if (vec3_dot(point, middle) < d->wanted) {
+        d->less = middle;
+        return 0;
+    }
     if (find_least(c, point) >= d->wanted) return 1;
     const int i = find_longest(c), k = (i + 1) % 3;
-    cell first = *c, last = *c;
-    first.left = last.left = c->left - 1;
-    first.corner[k] = last.corner[i] = vec3_unit(vec3_add(c->corner[i], c->corner[k]));
-    return divide(d, &first, &point) && divide(d, &last, &point);
+    const vec3 half = vec3_unit(vec3_add(*c->corner[i], *c->corner[k]));
+    cell part = *c;
+    part.corner[k] = &half;
+    if (!divide(d, &part, &point, left - 1)) return 0;
+    part = *c;
+    part.corner[i] = &half;
+    return divide(d, &part, &point, left - 1);
+}
+
+static vec3 find_end(const void *of, vec3 n) { return cores_find_ends(of, n).v; }
+
+division division_make(const cores *p, const least_overlap *at, double wanted) {
+    const double tangent = least_overlap_find_angle(at, wanted);
+    return (division){p,      find_end,   at->of.n, tangent > 0 ? 1 / sqrt(1 + tangent * tangent) + 0x1p-50 : 2,
+                      wanted, MOST_CELLS, {0, 0, 0}};
+}
+
+int division_hold(division *d, const vec3 corner[3], const vec3 *known) {
+    const cell whole = {{&corner[0], &corner[1], &corner[2]}};
+    return divide(d, &whole, known, MOST_HALVES);
 }
 
 // Seen from the middle of a cap great circles are lines: a square covers it.
@@ -59,15 +69,12 @@ static int divide_cap(division *d, const direction_cap *cap) {
     const double reach = sqrt(2 * (1 - cap->cosine * cap->cosine)) / cap->cosine;
     vec3 corner[4];
     for (int i = 0; i < 4; i++) corner[i] = vec3_unit(vec3_add_scaled(of.n, of.e[i & 1], i & 2 ? -reach : reach));
-    const cell first = {{corner[0], corner[1], corner[2]}, MOST_HALVES},
-               last = {{corner[2], corner[3], corner[0]}, MOST_HALVES};
     const vec3 none = {0, 0, 0};
-    return divide(d, &first, &none) && divide(d, &last, &none);
+    return division_hold(d, corner, &none) && division_hold(d, (vec3[]){corner[2], corner[3], corner[0]}, &none);
 }
 
 int cores_divide(const cores *p, const least_overlap *at, double wanted, const direction_caps *open) {
-    const double tangent = least_overlap_find_angle(at, wanted);
-    division d = {p, at->of.n, tangent > 0 ? 1 / sqrt(1 + tangent * tangent) + 0x1p-50 : 2, wanted, MOST_CELLS};
+    division d = division_make(p, at, wanted);
     int is_proven = 1;
     for (uint32_t i = 0; i < open->count && is_proven; i++)
         is_proven = open->cap[i].cosine > 0 && divide_cap(&d, &open->cap[i]);

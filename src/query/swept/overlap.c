@@ -5,15 +5,16 @@
 // - two such balls are larger together than the overlap;
 // - a polytope in the difference body holds a ball of that radius (query/swept/enclose.c); where its faces become
 //   slivers, directions are divided until none is open (query/swept/divide.c).
-// A cylinder or a cone with a box (query/swept/circles.c) or with another one (query/swept/revolved.c) has a proof of
-// its own, which comes before these.
+// A cylinder or a cone with a box (query/swept/circles.c), a hull with faces (query/swept/hull_arcs.c) or another one
+// (query/swept/revolved.c) has a proof of its own, which comes before these.
 #include "query/swept/overlap.h"
 
 #include "query/swept/circles.h"
 #include "query/swept/enclose.h"
+#include "query/swept/hull_cells.h"
 #include "query/swept/revolved.h"
 
-enum { EXCHANGES = 1 };
+enum { EXCHANGES = 1, DESCENTS = 3 };
 
 // The radius of a ball in the core that touches its surface from within at its farthest point along n, where that is
 // `reach` along n from the centre. Of an ellipsoid: with E its form, q another point of it and p that one,
@@ -100,6 +101,29 @@ static int is_least(overlap_search *s, const least_overlap *at) {
     return radius - vec3_norm(center) >= at->value - s->tolerance;
 }
 
+// Of a hull and an ellipsoid, from the best of the hull's facets on, and from what is less. 0 if none is shown to be
+// the least: then *s has the last direction.
+static int search_cells(overlap_search *s, double claim, least_overlap *to, double *doubt) {
+    hull_cells cells;
+    s->value = hull_cells_make(&s->of, &cells, &s->n);
+    *doubt = cells.doubt;
+    int is_facet = 1;
+    for (int i = 0; i < DESCENTS && s->value > 4 * claim && s->value < INFINITY; i++) {
+        to->count = 0;
+        if (!(is_facet && hull_cells_find_facet(&cells, &s->of, to)) && !cores_descend(&s->of, s->n, s->value, to))
+            return 0;
+        is_facet = 0;
+        vec3 less;
+        if (to->value > 4 * claim &&
+            (is_least(s, to) || hull_cells_hold(&cells, &s->of, to, to->value - 0.5 * s->tolerance, &less)))
+            return 1;
+        s->value = to->value, s->n = to->of.n;
+        if (!(s->value > 4 * claim && vec3_norm_squared(less) > 0)) return 0;
+        s->n = less, s->value = vec3_dot(less, cores_find_ends(&s->of, less).v);
+    }
+    return 0;
+}
+
 static ovoid_verdict answer(const swept_placed *p, const least_overlap *at, double lower, ovoid_witness *witness) {
     ovoid_verdict v = swept_make_verdict(-at->value - p->radii - p->claim, -lower - p->radii, TOLERANCE * p->size);
     if (v.status != OVOID_OVERLAPPING || v.upper - v.lower > TOLERANCE * p->size) return swept_undecided;
@@ -114,7 +138,12 @@ ovoid_verdict swept_measure_overlap(const swept_placed *p, ovoid_witness *witnes
     least_overlap least;
     if (cores_have_circles(&s.of) && cores_search_circles(&s.of, s.tolerance, &least))
         return answer(p, &least, least.value - s.tolerance - 4 * p->claim, witness);
+    double doubt;
+    if (cores_have_hull_arcs(&s.of) && cores_search_hull_arcs(&s.of, s.tolerance, &least, &doubt))
+        return answer(p, &least, least.value - s.tolerance - doubt - 4 * p->claim, witness);
     s.value = INFINITY;
+    if (cores_have_hull_cells(&s.of) && search_cells(&s, p->claim, &least, &doubt))
+        return answer(p, &least, least.value - s.tolerance - doubt - 4 * p->claim, witness);
     if (cores_are_revolved(&s.of)) {
         if (cores_search_revolved(&s.of, s.tolerance, &least))
             return answer(p, &least, least.value - s.tolerance - 4 * p->claim, witness);

@@ -70,7 +70,7 @@ static void set_points(ovoid_swept_sphere *s) {
 
 /// The axis of a capsule, a cylinder and a cone is the third one of its frame.
 static body make_body(ovoid_swept_core core, double radius, const double half[3], ovoid_vec3 center, ovoid_quat q) {
-    body b = {{center, radius, core, {half[0], half[1], half[2]}, {{0, 0, 0}}, NULL, 0}, {0}};
+    body b = {{center, radius, core, {half[0], half[1], half[2]}, {{0, 0, 0}}, NULL, 0, NULL}, {0}};
     if (core == OVOID_SWEPT_POINTS) set_points(&b.swept);
     ovoid_pose pose = {center, q};
     double rows[9];
@@ -78,6 +78,8 @@ static body make_body(ovoid_swept_core core, double radius, const double half[3]
     for (int k = 0; k < 3; k++) b.swept.axis[k] = (ovoid_vec3){rows[k], rows[3 + k], rows[6 + k]};
     if (is_around_axis(core)) b.swept.axis[0] = b.swept.axis[2];
     b.shape = (ovoid_posed_shape){create_shape(&b.swept), {center, q}};
+    // Of some hulls the faces are known.
+    if (core == OVOID_SWEPT_POINTS && b.swept.count % 2) b.swept.shape = b.shape.shape;
     CHECK(b.shape.shape != NULL);
     return b;
 }
@@ -358,7 +360,7 @@ static void test_inside(void) {
         double radius = i % 2 ? 0.25 : 0;
         ovoid_vec3 at = {i % 4 < 2 ? 0.75 : -0.75, 0.5, i < 6 ? 0.25 : -0.25};
         body box = make_body(OVOID_SWEPT_BOX, 0, half, (ovoid_vec3){0, 0, 0}, (ovoid_quat){1, 0, 0, 0});
-        ovoid_swept_sphere ball = {at, radius, OVOID_SWEPT_POINT, {0, 0, 0}, {{0, 0, 0}}, NULL, 0};
+        ovoid_swept_sphere ball = {at, radius, OVOID_SWEPT_POINT, {0, 0, 0}, {{0, 0, 0}}, NULL, 0, NULL};
         const ovoid_swept_pair pair = {i % 3 ? &box.swept : &ball, i % 3 ? &ball : &box.swept};
         ovoid_witness w;
         ovoid_verdict v = ovoid_swept_depth(pair, &w), sign = ovoid_swept_collide(pair);
@@ -379,9 +381,15 @@ static void test_rounding(void) {
     const ovoid_vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     static const ovoid_swept_core cores[3] = {OVOID_SWEPT_POINT, OVOID_SWEPT_SEGMENT, OVOID_SWEPT_BOX};
     for (int i = 0; i < 600; i++) {
-        ovoid_swept_sphere
-            a = {random_vec3(&r, 1), random_uniform(&r, 0, 0.5), OVOID_SWEPT_POINT, {0, 0, 0}, {{0, 0, 0}}, NULL, 0},
-            b = a;
+        ovoid_swept_sphere a = {random_vec3(&r, 1),
+                                random_uniform(&r, 0, 0.5),
+                                OVOID_SWEPT_POINT,
+                                {0, 0, 0},
+                                {{0, 0, 0}},
+                                NULL,
+                                0,
+                                NULL},
+                           b = a;
         b.center = random_vec3(&r, 1);
         b.core = cores[i % 3];
         for (int k = 0; k < 3; k++) b.axis[k] = axes[k], b.half[k] = random_uniform(&r, 0.01, 0.5);
@@ -413,7 +421,7 @@ static void test_axis(void) {
         } known[4] = {{3, 1, 1}, {-3, 1, 1}, {1, -0.5, -sine}, {-1.75, -0.25, -0.25}};
         for (int k = 0; k < 4; k++) {
             ovoid_swept_sphere ball = {
-                {i ? 1e-17 : 0, 0, known[k].z}, radius, OVOID_SWEPT_POINT, {0, 0, 0}, {{0, 0, 0}}, NULL, 0};
+                {i ? 1e-17 : 0, 0, known[k].z}, radius, OVOID_SWEPT_POINT, {0, 0, 0}, {{0, 0, 0}}, NULL, 0, NULL};
             for (int n = 0; n < 2; n++) {
                 const ovoid_swept_pair pair = {&ball, n ? &hat.swept : &can.swept};
                 double exact = (n ? known[k].cone : known[k].cylinder) - radius;
@@ -447,9 +455,9 @@ static void check_refused(const ovoid_swept_sphere *a, const ovoid_swept_sphere 
 
 static void test_refused(void) {
     const ovoid_swept_sphere plain[3] = {
-        {{0.1, 0.2, 0.3}, 0.5, OVOID_SWEPT_POINT, {0, 0, 0}, {{0, 0, 0}}, NULL, 0},
-        {{0.1, 0.2, 0.3}, 0.5, OVOID_SWEPT_SEGMENT, {1, 0, 0}, {{1, 0, 0}}, NULL, 0},
-        {{0.1, 0.2, 0.3}, 0, OVOID_SWEPT_BOX, {1, 1, 1}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, NULL, 0}};
+        {{0.1, 0.2, 0.3}, 0.5, OVOID_SWEPT_POINT, {0, 0, 0}, {{0, 0, 0}}, NULL, 0, NULL},
+        {{0.1, 0.2, 0.3}, 0.5, OVOID_SWEPT_SEGMENT, {1, 0, 0}, {{1, 0, 0}}, NULL, 0, NULL},
+        {{0.1, 0.2, 0.3}, 0, OVOID_SWEPT_BOX, {1, 1, 1}, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, NULL, 0, NULL}};
     for (int k = 0; k < 3; k++)
         for (int n = 0; n < 3; n++) {
             ovoid_swept_sphere wrong = plain[n];
@@ -463,7 +471,7 @@ static void test_refused(void) {
             wrong.radius = NAN;
             check_refused(&plain[k], &wrong);
         }
-    const ovoid_swept_sphere small = {{0, 0, 0}, 1e-60, OVOID_SWEPT_POINT, {0, 0, 0}, {{0, 0, 0}}, NULL, 0};
+    const ovoid_swept_sphere small = {{0, 0, 0}, 1e-60, OVOID_SWEPT_POINT, {0, 0, 0}, {{0, 0, 0}}, NULL, 0, NULL};
     check_refused(&small, &small);
 }
 

@@ -1,17 +1,29 @@
 // Local minima of the overlap of two cores (query/swept/descend.c), and the proof by dividing the directions that one
 // is the least of all (query/swept/divide.c), beside the overlaps along random directions and the minima that descents
 // from these find: supports are those of the library, which test_query_swept.c holds against shapes. A box and a
-// cylinder or a cone have the least of all along circles of directions (query/swept/circles.c), two of the latter as
-// query/swept/revolved.c says, beside the same.
+// cylinder or a cone have the least of all along circles of directions (query/swept/circles.c), a hull with faces and a
+// cylinder or a cone along arcs (query/swept/hull_arcs.c), two of the latter as query/swept/revolved.c says, beside the
+// same; of a hull with faces and an ellipsoid a local minimum is shown to be the least by cells
+// (query/swept/hull_cells.c).
+#include "ovoid/shape.h"
 #include "query/swept/circles.h"
 #include "query/swept/divide.h"
+#include "query/swept/hull_cells.h"
 #include "query/swept/pair.h"
 #include "query/swept/revolved.h"
 
 #include "check.h"
 #include "places.h"
 
-enum { PAIRS = 1500, ROUND_PAIRS = 2000, REVOLVED_PAIRS = 8000, DIRECTIONS = 400, STARTS = 8, POINTS = 12 };
+enum {
+    PAIRS = 1500,
+    ROUND_PAIRS = 2000,
+    HULL_PAIRS = 3000,
+    REVOLVED_PAIRS = 8000,
+    DIRECTIONS = 400,
+    STARTS = 8,
+    POINTS = 12
+};
 
 /// A random core around the origin at a rotation, of about size 1.
 static ovoid_swept_sphere make_turned(ovoid_swept_core core, ovoid_quat rotation, double *xyz, uint64_t *r) {
@@ -136,6 +148,25 @@ static void check_spots(const cores *p, double least, uint64_t *r, int count[2])
 /// Of a search that says that it found the least overlap of all: the cores, the tolerance, and the overlap.
 typedef int overlap_function(const cores *p, double tolerance, least_overlap *at);
 
+/// Is a point, from the core's centre, in it, to rounding? In a hull it is behind all triangles of its shape.
+static int is_in(const ovoid_swept_sphere *s, vec3 y, double rounding) {
+    if (s->core == OVOID_SWEPT_ELLIPSOID) {
+        const vec3 m = patch_turn(s, y);
+        return vec3_norm((vec3){m.x / s->half[0], m.y / s->half[1], m.z / s->half[2]}) < 1 + 10 * rounding;
+    }
+    if (s->core != OVOID_SWEPT_POINTS) return swept_leave_core(s, y).distance < rounding;
+    const ovoid_polytope hull = ovoid_shape_get_polytope(s->shape);
+    const vec3 at = vec3_sub(patch_turn(s, y), hull.origin);
+    double most = -INFINITY;
+    for (uint32_t i = 0; i < hull.triangle_count; i++) {
+        const uint32_t *v = &hull.triangles[3 * i];
+        const vec3 a = vec3_at(hull.vertices, v[0]), b = vec3_sub(vec3_at(hull.vertices, v[1]), a),
+                   c = vec3_sub(vec3_at(hull.vertices, v[2]), a);
+        most = max2(most, vec3_dot(vec3_unit(vec3_cross(b, c)), vec3_sub(at, a)));
+    }
+    return most < rounding;
+}
+
 /// No direction has less overlap than that, whose points are in the cores. -1: it was not found; 0: the cores are
 /// apart.
 static int check_search(const cores *p, overlap_function *find, uint64_t *r) {
@@ -144,8 +175,8 @@ static int check_search(const cores *p, overlap_function *find, uint64_t *r) {
     if (!(least > 0.01)) return 0;
     if (!find(p, 1e-13 * p->size, &found)) return -1;
     check_minimum(p, &found, least);
-    CHECK(swept_leave_core(p->a, found.on_a).distance < 1e-12);
-    CHECK(swept_leave_core(p->b, found.on_b).distance < 1e-12);
+    CHECK(is_in(p->a, found.on_a, 2e-13 * p->size));
+    CHECK(is_in(p->b, found.on_b, 2e-13 * p->size));
     return 1;
 }
 
@@ -165,6 +196,100 @@ static void check_round_pairs(uint64_t *r) {
     // Most overlap, and most of these are found: the axes of half are at right angles, or nearly.
     CHECK_LE(ROUND_PAIRS / 3, count[2]);
     CHECK_LE(20 * count[0], count[2]);
+}
+
+/// A hull beside the origin: of random points, of few, or a prism whose sides are of a box or more.
+static ovoid_swept_sphere make_hull(int kind, double *xyz, uint64_t *r) {
+    ovoid_swept_sphere s = make_turned(OVOID_SWEPT_POINTS, make_rotation(kind / 4 % 4, r), xyz, r);
+    if (kind & 1) s.count = 4 + (uint32_t)(random_next(r) % (POINTS - 3));
+    const uint32_t sides = 3 + (uint32_t)(random_next(r) % (POINTS / 2 - 2));
+    if (kind & 2) s.count = 2 * sides;
+    for (uint32_t i = 0; i < s.count && kind & 2; i++) {
+        const double angle = 6.283185307179586 / sides * (double)(i / 2);
+        xyz[3 * i] = 0.7 * cos(angle), xyz[3 * i + 1] = 0.7 * sin(angle), xyz[3 * i + 2] = i & 1 ? 0.4 : -0.5;
+    }
+    // Beside the origin of its frame, or so far that its shape has another one.
+    const double far = kind & 1 ? 20 : 1, off[3] = {2 * far, -far, 0.5};
+    for (int k = 0; k < 3; k++) s.half[k] = off[k];
+    for (uint32_t i = 0; i < 3 * s.count; i++) s.half[i % 3] += xyz[i] / s.count, xyz[i] += off[i % 3];
+    return s;
+}
+
+static int search_hull_arcs(const cores *p, double tolerance, least_overlap *at) {
+    double doubt = 0;
+    const int is_found = cores_search_hull_arcs(p, tolerance, at, &doubt);
+    if (is_found) CHECK_LE(doubt, 3e-13 * p->size);
+    return is_found;
+}
+
+static int search_hull_cells(const cores *p, double tolerance, least_overlap *at) {
+    hull_cells cells;
+    vec3 n, less;
+    const double height = hull_cells_make(p, &cells, &n);
+    if (!(height > 0 && height < INFINITY)) return 0;
+    CHECK_LE(cells.doubt, 3e-13 * p->size);
+    CHECK_NEAR(measure(p, n), height, 1e-12 * p->size);
+    at->count = 0;
+    if (!hull_cells_find_facet(&cells, p, at) && !(cores_descend(p, n, height, at) && at->value > 0)) return 0;
+    if (hull_cells_hold(&cells, p, at, at->value - 0.5 * tolerance, &less)) return 1;
+    // Less is less.
+    if (vec3_norm_squared(less) > 0) CHECK_LE(measure(p, less), at->value);
+    return 0;
+}
+
+/// A local minimum that is held is the least of all.
+static void check_cells(const cores *p, double least, uint64_t *r, int count[2]) {
+    hull_cells cells;
+    vec3 n, less;
+    if (!(hull_cells_make(p, &cells, &n) < INFINITY)) return;
+    for (int i = 0; i < 4; i++) {
+        least_overlap at;
+        at.count = 0;
+        n = vec3_unit((vec3){random_normal(r), random_normal(r), random_normal(r)});
+        if (!cores_descend(p, n, measure(p, n), &at) || !(at.value > 0)) continue;
+        const int is_held = hull_cells_hold(&cells, p, &at, at.value - 1e-13 * p->size, &less);
+        count[is_held]++;
+        if (is_held) CHECK_LE(at.value, least + 1e-12 * p->size);
+    }
+}
+
+/// A cylinder, a cone or an ellipsoid about in the middle of a hull; some axes are the hull's.
+static ovoid_swept_sphere make_beside(const ovoid_swept_sphere *hull, int kind, uint64_t *r) {
+    static const ovoid_swept_core types[] = {OVOID_SWEPT_CYLINDER, OVOID_SWEPT_CONE, OVOID_SWEPT_ELLIPSOID};
+    double none[3 * POINTS];
+    const ovoid_swept_core core = types[random_next(r) % 3];
+    ovoid_swept_sphere s = make_turned(core, make_rotation(kind % 4, r), none, r);
+    const uint64_t first = random_next(r) % 12;
+    for (uint64_t k = 0; k < 3 && first < 3; k++) s.axis[k] = hull->axis[(first + k) % 3];
+    const vec3 middle = patch_turn_back(hull, (vec3){hull->half[0], hull->half[1], hull->half[2]});
+    s.center = vec3_add(vec3_scale(random_vec3(r, 1), 0.4), middle);
+    return s;
+}
+
+static void check_hull_pairs(uint64_t *r) {
+    int count[3] = {0, 0, 0}, of_cells[3] = {0, 0, 0}, shown[2] = {0, 0};
+    for (int i = 0; i < HULL_PAIRS; i++) {
+        double xyz[3 * POINTS];
+        ovoid_swept_sphere a = make_hull((int)(random_next(r) % 16), xyz, r);
+        const ovoid_swept_sphere b = make_beside(&a, i, r);
+        ovoid_shape *shape = ovoid_shape_create_from_points(xyz, a.count, NULL, NULL);
+        a.shape = shape;
+        const cores p = {i & 1 ? &b : &a, i & 1 ? &a : &b, i & 1 ? vec3_neg(b.center) : b.center,
+                         6 + vec3_norm(b.center)};
+        if (cores_have_hull_arcs(&p)) count[1 + check_search(&p, search_hull_arcs, r)]++;
+        if (cores_have_hull_cells(&p)) {
+            of_cells[1 + check_search(&p, search_hull_cells, r)]++;
+            const double least = sample_minima(&p, r);
+            if (least > 0.01) check_cells(&p, least, r, shown);
+        }
+        ovoid_shape_destroy(shape);
+    }
+    CHECK_LE(HULL_PAIRS / 4, count[2]);
+    CHECK_LE(100 * count[0], count[2]);
+    CHECK_LE(HULL_PAIRS / 8, of_cells[2]);
+    CHECK_LE(5 * of_cells[0], of_cells[2]);
+    CHECK_LE(HULL_PAIRS / 8, shown[0]);
+    CHECK_LE(HULL_PAIRS / 8, shown[1]);
 }
 
 /// A cylinder or a cone, of which some are flat and some are needles.
@@ -225,6 +350,7 @@ int main(void) {
     CHECK_LE(all.found, 5 * all.proven);
     CHECK_LE(all.found, 10 * all.refused);
     check_round_pairs(&r);
+    check_hull_pairs(&r);
     check_revolved_pairs(&r);
     return check_end();
 }
