@@ -214,17 +214,13 @@ static int take_depth(search *s) {
     if (!gauss_find_plane(&q, &plane)) return 0;
     vec3 n = vec3_unit(plane.n), u = vec3_orthogonal(n);
     frame_support support = frame_find_support(f, vec3_neg(n));
-    double upper = doubt - plane.height - f->upper_radii, lower = support.gap - f->lower_radii - f->claim;
-    if (!(upper < s->upper && upper - lower <= s->goal.tolerance)) return 0;
+    const search_depth found = {support.gap - f->lower_radii - f->claim, doubt - plane.height - f->upper_radii,
+                                vec3_neg(n), OVOID_STAGE_EPA};
+    if (!search_needs_depth(s, &found)) return 0;
     evidence foot;
     const foot_search of = {s, n, u, vec3_cross(n, u), 2 * f->claim, &foot};
     if (!find_witness(&of, &plane, &support)) return 0;
-    s->upper = upper;
-    s->lower = lower;
-    s->normal = vec3_neg(n);
-    s->stage = OVOID_STAGE_EPA;
-    s->kind = OVOID_PROOF_COVER;
-    s->witness = foot;
+    search_take_depth(s, &found, &foot);
     return 1;
 }
 
