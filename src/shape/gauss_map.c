@@ -29,7 +29,7 @@ static uint64_t get_row(uint64_t count) { return (count + GAUSS_ROW - 1) / GAUSS
 uint64_t gauss_map_get_size(const block_counts *c) {
     uint64_t arcs = c->neighbors / 2;
     if (c->vertices < 4 || c->vertices > GAUSS_POINTS || c->facets > GAUSS_FACETS || arcs > GAUSS_ARCS) return 0;
-    return sizeof(gauss_map) + 4 * gauss_get_padded(c->facets) * sizeof(double) + 4 * get_row(arcs);
+    return sizeof(gauss_map) + 4 * simd_get_padded(c->facets) * sizeof(double) + 4 * get_row(arcs);
 }
 
 static vec3 get_normal(const maker *m, uint32_t facet) {
@@ -51,7 +51,7 @@ static vec3 find_middle(const maker *m, uint32_t vertex) {
 static void set_columns(maker *m) {
     const ovoid_shape *s = m->shape;
     const uint32_t *starts = shape_loop_starts(s), *vertices = shape_loop_vertices(s);
-    for (uint32_t f = 0; f < gauss_get_padded(m->map->facets); f++) {
+    for (uint32_t f = 0; f < simd_get_padded(m->map->facets); f++) {
         double low = INFINITY;
         vec3 n = {0, 0, 0};
         if (f < m->map->facets) {
@@ -176,8 +176,8 @@ void shape_gauss_map_fill(ovoid_shape *s) {
     map->facets = s->counts.facets;
     map->row = (uint32_t)get_row(s->counts.neighbors / 2);
     for (uint32_t k = 0; k < 4; k++) {
-        m.column[k] = (double *)(map + 1) + k * gauss_get_padded(map->facets);
-        m.list[k] = (uint8_t *)((double *)(map + 1) + 4 * (size_t)gauss_get_padded(map->facets)) + (size_t)k * map->row;
+        m.column[k] = (double *)(map + 1) + k * simd_get_padded(map->facets);
+        m.list[k] = (uint8_t *)((double *)(map + 1) + 4 * simd_get_padded(map->facets)) + (size_t)k * map->row;
     }
     set_columns(&m);
     set_lists(&m);

@@ -31,12 +31,10 @@ typedef struct gauss_map {
     uint8_t wide[GAUSS_WIDE]; ///< vertices far apart
 } gauss_map;
 
-static inline uint32_t gauss_get_padded(uint32_t facets) { return (facets + 7) / 8 * 8; }
-
 /// Four columns: x, y, z of the facets' unit normals, and the least n.v of each facet's corners v. Padded to a multiple
 /// of 8 by facets at zero normals and infinity.
 static inline const double *gauss_get_column(const gauss_map *map, uint32_t k) {
-    return (const double *)(map + 1) + k * gauss_get_padded(map->facets);
+    return (const double *)(map + 1) + k * simd_get_padded(map->facets);
 }
 /// Four lists of an arc's two facets, and of the two vertices of its edge, readable to a multiple of GAUSS_ROW.
 static inline const uint8_t *gauss_get_list(const gauss_map *map, uint32_t k) {
