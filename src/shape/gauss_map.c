@@ -20,7 +20,7 @@
 typedef struct maker {
     const ovoid_shape *shape;
     gauss_map *map;
-    double *column[4];
+    double *facets; ///< as gauss_get_facet has them
     uint8_t *list[4];
 } maker;
 
@@ -33,7 +33,8 @@ uint64_t gauss_map_get_size(const block_counts *c) {
 }
 
 static vec3 get_normal(const maker *m, uint32_t facet) {
-    return (vec3){m->column[0][facet], m->column[1][facet], m->column[2][facet]};
+    const double *x = gauss_get_facet(m->map, facet, 0);
+    return (vec3){x[0], x[8], x[16]};
 }
 
 static vec3 get_cross(const maker *m, uint32_t arc) {
@@ -48,7 +49,7 @@ static vec3 find_middle(const maker *m, uint32_t vertex) {
     return vec3_unit(sum);
 }
 
-static void set_columns(maker *m) {
+static void set_facets(maker *m) {
     const ovoid_shape *s = m->shape;
     const uint32_t *starts = shape_loop_starts(s), *vertices = shape_loop_vertices(s);
     for (uint32_t f = 0; f < simd_get_padded(m->map->facets); f++) {
@@ -59,8 +60,8 @@ static void set_columns(maker *m) {
             for (uint32_t i = starts[f]; i < starts[f + 1]; i++)
                 low = min2(low, vec3_dot(n, vec3_at(shape_vertices(s), vertices[i])));
         }
-        m->column[0][f] = n.x, m->column[1][f] = n.y, m->column[2][f] = n.z;
-        m->column[3][f] = low;
+        double *to = m->facets + f / 8 * 32 + f % 8;
+        to[0] = n.x, to[8] = n.y, to[16] = n.z, to[24] = low;
     }
 }
 
@@ -86,7 +87,7 @@ static void set_bulge(maker *m) {
     const ovoid_shape *s = m->shape;
     for (uint32_t f = 0; f < m->map->facets; f++)
         for (uint32_t v = 0; v < s->vertex_count; v++) {
-            double above = vec3_dot(get_normal(m, f), vec3_at(shape_vertices(s), v)) - m->column[3][f];
+            double above = vec3_dot(get_normal(m, f), vec3_at(shape_vertices(s), v)) - *gauss_get_facet(m->map, f, 3);
             m->map->bulge = fmax(m->map->bulge, above);
         }
 }
@@ -175,11 +176,11 @@ void shape_gauss_map_fill(ovoid_shape *s) {
     if (s->rank < 3 || !(s->inside.least > 0)) return;
     map->facets = s->counts.facets;
     map->row = (uint32_t)get_row(s->counts.neighbors / 2);
+    m.facets = (double *)(map + 1);
     for (uint32_t k = 0; k < 4; k++) {
-        m.column[k] = (double *)(map + 1) + k * simd_get_padded(map->facets);
         m.list[k] = (uint8_t *)((double *)(map + 1) + 4 * simd_get_padded(map->facets)) + (size_t)k * map->row;
     }
-    set_columns(&m);
+    set_facets(&m);
     set_lists(&m);
     set_bulge(&m);
     set_spread(&m);

@@ -34,6 +34,7 @@
 // m2|), and 1.6 times that along the sphere.
 #include "exact/gauss/gauss.h"
 
+#include "base/compiler.h"
 #include "exact/epa.h"
 #include "exact/epa_lanes.h"
 #include "shape/gauss_map.h"
@@ -199,11 +200,17 @@ static int find_witness(const foot_search *of, const gauss_plane *plane, const f
 // origin.
 enum { TOUCHING = 4096 };
 
+// The map of the second body, while the kernel reads the first one's.
+static void prefetch_map(const ovoid_shape *s) {
+    for (uint64_t at = s->at.gauss; at < s->at.vertices; at += 64) compiler_prefetch((const char *)s + at);
+}
+
 static int take_depth(search *s) {
     const pair_frame *f = s->frame;
     gauss_query q;
     gauss_plane plane;
     if (f->is_true || !is_for_here(f)) return 0;
+    prefetch_map(f->b);
     double doubt = compute_doubt(f, f->a) + compute_doubt(f, f->b) + 2 * f->claim;
     make_side(f->a, &q.a);
     make_side(f->b, &q.b);

@@ -50,12 +50,12 @@ LANES_INLINE void gauss_mirror(const gauss_side *from, gauss_body *to) {
     to->map = from->map;
     to->points = p->padded_count;
     to->facets = (uint32_t)simd_get_padded(from->map->facets);
-    for (int k = 0; k < 3; k++) {
-        const double *normals = gauss_get_column(from->map, (uint32_t)k);
+    for (int k = 0; k < 3; k++)
         for (uint32_t i = 0; i < to->points; i += LANES) lane_store(to->x[k] + i, -lane_load(given[k] + i));
-        for (uint32_t i = 0; i < to->facets; i += LANES) lane_store(to->n[k] + i, -lane_load(normals + i));
+    for (uint32_t i = 0; i < to->facets; i += LANES) {
+        for (uint32_t k = 0; k < 3; k++) lane_store(to->n[k] + i, -lane_load(gauss_get_facet(from->map, i, k)));
+        lane_store(to->low + i, lane_load(gauss_get_facet(from->map, i, 3)));
     }
-    memcpy(to->low, gauss_get_column(from->map, 3), to->facets * sizeof *to->low);
     to->center = vec3_neg(from->center);
     memcpy(to->q, from->q, sizeof to->q);
     to->ball = from->ball;
@@ -78,10 +78,8 @@ GAUSS_PART void gauss_turn_ellipsoid(const mat3 *r, const double q[6], double to
 
 LANES_INLINE void gauss_pose(const gauss_side *from, const gauss_query *q, gauss_body *to) {
     const simd_points *p = &from->points;
-    const double *n[4];
     const lane3 rows[3] = {gauss_spread(q->rotation.r0), gauss_spread(q->rotation.r1), gauss_spread(q->rotation.r2)};
     const lane3 t = gauss_spread(q->translation);
-    for (uint32_t k = 0; k < 4; k++) n[k] = gauss_get_column(from->map, k);
     to->map = from->map;
     to->points = p->padded_count;
     to->facets = (uint32_t)simd_get_padded(from->map->facets);
@@ -92,11 +90,12 @@ LANES_INLINE void gauss_pose(const gauss_side *from, const gauss_query *q, gauss
         lane_store(to->x[2] + i, v.z);
     }
     for (uint32_t i = 0; i < to->facets; i += LANES) {
-        lane3 v = gauss_turn(rows, gauss_load(n[0], n[1], n[2], i));
+        const double *given = gauss_get_facet(from->map, i, 0);
+        lane3 v = gauss_turn(rows, gauss_load(given, given + 8, given + 16, 0));
         lane_store(to->n[0] + i, v.x);
         lane_store(to->n[1] + i, v.y);
         lane_store(to->n[2] + i, v.z);
-        lane_store(to->low + i, lane_load(n[3] + i) + lane3_dot(v, t));
+        lane_store(to->low + i, lane_load(given + 24) + lane3_dot(v, t));
     }
     to->center = vec3_add(mat3_mul_vec3(q->rotation, from->center), q->translation);
     gauss_turn_ellipsoid(&q->rotation, from->q, to->q);
