@@ -33,7 +33,7 @@ uint64_t gauss_map_get_size(const block_counts *c) {
 }
 
 static vec3 get_normal(const maker *m, uint32_t facet) {
-    const double *x = gauss_get_facet(m->map, facet, 0);
+    const double *x = gauss_get_facet(m->map, facet);
     return (vec3){x[0], x[8], x[16]};
 }
 
@@ -60,7 +60,7 @@ static void set_facets(maker *m) {
             for (uint32_t i = starts[f]; i < starts[f + 1]; i++)
                 low = min2(low, vec3_dot(n, vec3_at(shape_vertices(s), vertices[i])));
         }
-        double *to = m->facets + f / 8 * 32 + f % 8;
+        double *to = m->facets + gauss_get_place(f);
         to[0] = n.x, to[8] = n.y, to[16] = n.z, to[24] = low;
     }
 }
@@ -87,7 +87,7 @@ static void set_bulge(maker *m) {
     const ovoid_shape *s = m->shape;
     for (uint32_t f = 0; f < m->map->facets; f++)
         for (uint32_t v = 0; v < s->vertex_count; v++) {
-            double above = vec3_dot(get_normal(m, f), vec3_at(shape_vertices(s), v)) - *gauss_get_facet(m->map, f, 3);
+            double above = vec3_dot(get_normal(m, f), vec3_at(shape_vertices(s), v)) - gauss_get_facet(m->map, f)[24];
             m->map->bulge = fmax(m->map->bulge, above);
         }
 }

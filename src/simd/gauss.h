@@ -31,11 +31,14 @@ typedef struct gauss_map {
     uint8_t wide[GAUSS_WIDE]; ///< vertices far apart
 } gauss_map;
 
-/// x, y, z of a facet's unit normal, and the least n.v of the facet's corners v, for k = 0 to 3: groups of 8 facets
-/// follow one another, each as four short columns, so that a pass reads one stream. Padded by facets of zero normals at
-/// infinity.
-static inline const double *gauss_get_facet(const gauss_map *map, uint32_t facet, uint32_t k) {
-    return (const double *)(map + 1) + facet / 8 * 32 + 8 * k + facet % 8;
+/// Where a facet's first number is. Groups of 8 facets follow one another, each as four short columns, so that a pass
+/// reads one stream.
+static inline uint32_t gauss_get_place(uint32_t facet) { return facet / 8 * 32 + facet % 8; }
+
+/// x, y, z of a facet's unit normal, and the least n.v of the facet's corners v, each 8 numbers behind the last one.
+/// Padded to a multiple of 8 by facets of zero normals at infinity.
+static inline const double *gauss_get_facet(const gauss_map *map, uint32_t facet) {
+    return (const double *)(map + 1) + gauss_get_place(facet);
 }
 /// Four lists of an arc's two facets, and of the two vertices of its edge, readable to a multiple of GAUSS_ROW.
 static inline const uint8_t *gauss_get_list(const gauss_map *map, uint32_t k) {

@@ -285,9 +285,9 @@ static void test_lists(void) {
                     uint32_t f = gauss_get_list(map, end)[arc];
                     for (uint32_t k = 2; k < 4; k++) {
                         const double *v = shape_vertices(shape) + 3 * (size_t)gauss_get_list(map, k)[arc];
-                        double along = *gauss_get_facet(map, f, 0) * v[0] + *gauss_get_facet(map, f, 1) * v[1] +
-                                       *gauss_get_facet(map, f, 2) * v[2];
-                        CHECK_NEAR(along, *gauss_get_facet(map, f, 3), 1e-12);
+                        double along = gauss_get_facet(map, f)[0] * v[0] + gauss_get_facet(map, f)[8] * v[1] +
+                                       gauss_get_facet(map, f)[16] * v[2];
+                        CHECK_NEAR(along, gauss_get_facet(map, f)[24], 1e-12);
                     }
                 }
             CHECK(map->bulge >= 0 && map->bulge < 1e-12);

@@ -53,8 +53,9 @@ LANES_INLINE void gauss_mirror(const gauss_side *from, gauss_body *to) {
     for (int k = 0; k < 3; k++)
         for (uint32_t i = 0; i < to->points; i += LANES) lane_store(to->x[k] + i, -lane_load(given[k] + i));
     for (uint32_t i = 0; i < to->facets; i += LANES) {
-        for (uint32_t k = 0; k < 3; k++) lane_store(to->n[k] + i, -lane_load(gauss_get_facet(from->map, i, k)));
-        lane_store(to->low + i, lane_load(gauss_get_facet(from->map, i, 3)));
+        const double *facet = gauss_get_facet(from->map, i);
+        for (int k = 0; k < 3; k++) lane_store(to->n[k] + i, -lane_load(facet + 8 * k));
+        lane_store(to->low + i, lane_load(facet + 24));
     }
     to->center = vec3_neg(from->center);
     memcpy(to->q, from->q, sizeof to->q);
@@ -90,7 +91,7 @@ LANES_INLINE void gauss_pose(const gauss_side *from, const gauss_query *q, gauss
         lane_store(to->x[2] + i, v.z);
     }
     for (uint32_t i = 0; i < to->facets; i += LANES) {
-        const double *given = gauss_get_facet(from->map, i, 0);
+        const double *given = gauss_get_facet(from->map, i);
         lane3 v = gauss_turn(rows, gauss_load(given, given + 8, given + 16, 0));
         lane_store(to->n[0] + i, v.x);
         lane_store(to->n[1] + i, v.y);
