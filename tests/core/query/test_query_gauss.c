@@ -219,6 +219,15 @@ static void test_random(void) {
     for (int kind = 0; kind < 3; kind++) CHECK(kinds[kind] > 100);
 }
 
+/// A tolerance that is less than the width of a depth by planes, which is above 1e-12, is met all the same. The sizes
+/// of two such hulls and the way between them are below 6 together.
+static void check_narrow(const ovoid_pair *p) {
+    const ovoid_options narrow = {.relative_tolerance = 1e-13};
+    ovoid_answer x = ovoid_depth(p, &narrow, NULL, NULL);
+    CHECK(x.limit == OVOID_LIMIT_NONE);
+    CHECK_LE(x.upper - x.lower, 6e-13);
+}
+
 /// Hulls of general position are never left to EPA.
 static void test_general(void) {
     uint64_t s = 7;
@@ -227,6 +236,7 @@ static void test_general(void) {
         ovoid_shape *a = make_hull(&s, 4 + (uint32_t)(i % 29)), *b = make_hull(&s, 4 + (uint32_t)(i / 10 % 29));
         ovoid_pair p = {a, b, {{0, 0, 0}, random_quat(&s)}, {random_vec3(&s, 0.4), random_quat(&s)}};
         check_pair(&p);
+        check_narrow(&p);
         ovoid_shape_destroy(a);
         ovoid_shape_destroy(b);
     }
