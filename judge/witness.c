@@ -108,13 +108,23 @@ static int is_witness(const claim *c, int of_b, nvec point, double tolerance) {
     return body_holds(s->p, b, point, reach);
 }
 
+// The points of an overlap that a common point or a hull around the origin shows are one point.
+static ovoid_code verify_common(const claim *c, const ovoid_answer *answer, double tolerance) {
+    pool *p = c->s->p;
+    if (c->proof->kind != OVOID_PROOF_HULL && c->proof->kind != OVOID_PROOF_INNER) return OVOID_OK;
+    nvec apart = nvec_sub(p, nvec_from(p, answer->point_b), nvec_from(p, answer->point_a));
+    double found = sqrt(num_to_double(nvec_norm_squared(p, apart)));
+    if (found <= tolerance) return OVOID_OK;
+    return judge_reject(c->error, OVOID_ERROR_PROOF, "point_a and point_b are %.3g apart, no common point", found);
+}
+
 ovoid_code judge_verify_witness(const claim *c, const ovoid_answer *answer) {
     double tolerance = compute_tolerance(c->s);
     if (!is_witness(c, 0, nvec_from(c->s->p, answer->point_a), tolerance))
         return judge_reject(c->error, OVOID_ERROR_PROOF, "point_a is not on A, rounding (%.3g) included", tolerance);
     if (!is_witness(c, 1, nvec_from(c->s->p, answer->point_b), tolerance))
         return judge_reject(c->error, OVOID_ERROR_PROOF, "point_b is not on B, rounding (%.3g) included", tolerance);
-    return OVOID_OK;
+    return verify_common(c, answer, 4 * tolerance);
 }
 
 // The default tolerance of the queries, in parts of the pair's size.

@@ -21,7 +21,7 @@ groups="allowance query prepared depth_memory growth gauss boxes closed swept ex
 
 # The tests of a group, fastest first; arguments after a colon.
 tests_of() {
-    query="test_query test_query_warm test_query_near test_simd_small_gjk test_judge_verify test_query_surface test_query_simplex test_judge test_query_trials:--rounds:5 test_query_trials_known test_query_trials:--family:near-coplanar:--trial:9537145888130744208"
+    query="test_query test_query_warm test_query_near test_simd_small_gjk test_judge_common_point test_judge_verify test_query_surface test_query_simplex test_judge test_query_trials:--rounds:5 test_query_trials_known test_query_trials:--family:near-coplanar:--trial:9537145888130744208"
     query="$query test_query_batch test_judge_capacity test_game_hulls test_query_refine test_query_altered"
     case $1 in
     allowance) echo "test_allowance test_allowance_axis test_judge_allowance test_shape_ellipsoid test_judge_round test_shape_rim test_robot_round" ;;

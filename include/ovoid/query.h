@@ -162,9 +162,10 @@ typedef struct ovoid_answer {
     double lower, upper; /**< bracket of the signed distance; -infinity and infinity where refused */
     ovoid_vec3 point_a,
         point_b; /**< witness points, world frame, on their bodies to rounding. Distance and depth: point_b - point_a =
-                    d normal, to the tolerance; if a limit ended a search for the depth, this holds for some d of the
-                    bracket where kind is COVER, else they are a common point. Other queries: the points behind upper, a
-                    common point if an overlap is proven; not the closest points. */
+                    d normal, to w + sqrt(w (w + 2 |d|)) for a bracket of width w, and to 1e-9 of the size; if a limit
+                    ended a search for the depth, this holds for some d of the bracket where kind is COVER. Other
+                    queries: the points behind upper, not the closest ones. Where the kind is HULL or INNER they are
+                    one point, common to both bodies. */
     ovoid_vec3 normal; /**< unit, world frame, from A to B; the direction of the lower bound */
     ovoid_proof proof;
 } ovoid_answer;

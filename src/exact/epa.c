@@ -278,7 +278,6 @@ static int take_tetrahedron(search *s, const expansion *e) {
         evidence found = {.count = 4, .p = {{e->w[0], e->a[0], e->b[0]}}};
         for (int k = 0; k < 3; k++) found.p[k + 1] = (difference){e->w[f->v[k]], e->a[f->v[k]], e->b[f->v[k]]};
         if (!search_take_hull(s, &found)) continue;
-        evidence_set_weights(&s->witness);
         taken = 1;
         if (search_is_done(s)) return 1;
     }
@@ -294,7 +293,6 @@ static int take_hull(growth *g) {
         const hull_points points = {e->w, (int)e->points, s->frame->claim, e->slack};
         evidence found = {.count = hull_find_reduced(&g->room.few.reduced, &points, kept)};
         for (int i = 0; i < found.count; i++) found.p[i] = (difference){e->w[kept[i]], e->a[kept[i]], e->b[kept[i]]};
-        evidence_set_weights(&found);
         if (found.count > 0) taken |= search_take_hull(s, &found);
     }
     if (taken) s->stage = OVOID_STAGE_EPA;

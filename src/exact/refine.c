@@ -12,10 +12,9 @@
 // about ten, and never more than STEPS.
 #include "exact/refine.h"
 
+#include "pair/common_point.h"
 #include "pair/fine.h"
 #include "pair/proof.h"
-
-#include <string.h>
 
 enum { STEPS = 128 };
 
@@ -84,34 +83,6 @@ static void take_points(refinement *r, const fine_simplex *points) {
     }
 }
 
-// The weights of the origin in a tetrahedron of four of the differences that holds it, by its volumes: in a needle
-// doubles do not know where it is. 0: none holds it for certain.
-static int set_inside_weights(const dd3 *w, unsigned some, evidence *hull) {
-    static const int others[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-    int at[4] = {0, 0, 0, 0}, count = 0;
-    for (int i = 0; i < hull->count; i++)
-        if (some >> i & 1 && count < 4) at[count++] = i;
-    double volume[4], sum = 0;
-    for (int i = 0; i < 4; i++) {
-        const int *o = others[i];
-        volume[i] = dd3_dot(w[at[o[0]]], dd3_cross(w[at[o[1]]], w[at[o[2]]])).high;
-        if (!(volume[i] * volume[0] > 0)) return 0;
-        sum += volume[i];
-    }
-    memset(hull->weight, 0, sizeof hull->weight);
-    for (int i = 0; i < 4; i++) hull->weight[at[i]] = volume[i] / sum;
-    return 1;
-}
-
-static void set_weights(const dd3 *w, evidence *hull) {
-    for (unsigned some = 0; some < 1u << hull->count; some++) {
-        int corners = 0;
-        for (int i = 0; i < hull->count; i++) corners += (int)(some >> i & 1);
-        if (corners == 4 && set_inside_weights(w, some, hull)) return;
-    }
-    evidence_set_weights(hull);
-}
-
 static void take_hull(refinement *r, const fine_point *p, int count) {
     search *s = r->s;
     dd3 w[OVOID_PROOF_PAIRS];
@@ -122,7 +93,7 @@ static void take_hull(refinement *r, const fine_point *p, int count) {
     }
     double upper = fine_measure_hull(&r->f, w, count, r->f.claim);
     if (!(upper < 0) || !(upper < s->upper)) return;
-    set_weights(w, &hull);
+    common_set_weights(w, count, hull.weight);
     s->upper = upper;
     s->kind = OVOID_PROOF_HULL;
     s->stage = OVOID_STAGE_REFINE;

@@ -64,7 +64,7 @@ static double find_upper(const pair_frame *f, const small_gjk_result *r, double 
     }
     get_tetrahedron(r, points);
     vec3 w[4] = {get_lane(r, 0), get_lane(r, 1), get_lane(r, 2), get_lane(r, 3)};
-    double depth = hull_find_weights(w, claim, points->weight);
+    double depth = hull_find_weights(w, 4, claim, points->weight);
     if (!(depth > 0)) return INFINITY;
     end->kind = OVOID_PROOF_HULL;
     return -depth - f->upper_radii;
@@ -99,7 +99,7 @@ int small_end_at_hull(const placed_query *q, const uint32_t a[4], const uint32_t
         w[i] = frame_world_difference(f, vec3_at(of_a, a[i]), vec3_at(of_b, b[i]));
         end->points.p[i] = (difference){w[i], a[i], b[i]};
     }
-    double depth = hull_find_weights(w, reject_get_claim(f), end->points.weight);
+    double depth = hull_find_weights(w, 4, reject_get_claim(f), end->points.weight);
     if (!(depth > 0)) return 0;
     end->points.count = 4;
     end->inner = (vec3){0, 0, 0};

@@ -35,10 +35,14 @@ static inline nearest_points nearest_find_points(vec3 d) {
 /// The nearest points of two cores whose middles are d apart, A's to B's.
 void nearest_find(const nearest_core *a, const nearest_core *b, vec3 d, nearest_pair *out);
 
-/// The direction along which the radii of the cores go: the points' difference, or where the radii, of that sum,
-/// overlap, the normal (pair/proof.c). distance: of the points.
+/// 1 if radii of that sum go from two points, that far apart, to the points of the rounded bodies along the points'
+/// difference; 0: along the normal. Along the difference, of an angle e with the normal, the bodies' points are off
+/// d normal by |distance - radii| e, along the normal by distance e. A short difference may have any direction.
+static inline int nearest_takes_difference(double distance, double radii) { return distance > 0.5 * radii; }
+
+/// The direction along which the radii of the cores go.
 static inline vec3 nearest_find_direction(const nearest_pair *found, double distance, double radii) {
-    return distance > radii ? vec3_scale(found->difference, 1 / distance) : found->normal;
+    return nearest_takes_difference(distance, radii) ? vec3_scale(found->difference, 1 / distance) : found->normal;
 }
 
 #endif

@@ -14,6 +14,8 @@
 // largest where g(m) = sum a_i^2 c_i^2 / (a_i^2 - m)^2 is 1; Newton's steps from above, along the convex g, end there.
 #include "pair/balls.h"
 
+#include "linear/nearest.h"
+
 enum { BALL_STEPS = 40 };
 
 static double square(double x) { return x * x; }
@@ -136,7 +138,6 @@ witness_points balls_compute_points(const pair_frame *f, const ovoid_proof *p) {
     ball_centers c = balls_find_centers(f, p);
     double reach_a = f->a->radius + find_room(f->a, c.a), reach_b = f->b->radius + find_room(f->b, c.b);
     vec3 b = frame_b(f, c.b), d = vec3_sub(b, c.a), n = vec3_unit(frame_direction_from_world(f, p->normal));
-    // Where the centres are about as far apart as rounding radii reach, their difference is the better direction.
-    if (vec3_norm(d) > 0.5 * max2(0, reach_a + reach_b)) n = vec3_unit(d);
+    if (nearest_takes_difference(vec3_norm(d), max2(0, reach_a + reach_b))) n = vec3_unit(d);
     return (witness_points){vec3_add_scaled(c.a, n, reach_a), vec3_add_scaled(b, n, -reach_b)};
 }

@@ -2,6 +2,7 @@
 #include "pair/hull.h"
 
 #include "linear/both.h"
+#include "pair/common_point.h"
 #include "pair/cover.h"
 
 static const uint16_t tetrahedron[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
@@ -90,7 +91,12 @@ double hull_compute_depth(const vec3 *w, int count, double error) {
     return depth != 0 ? fmax(depth, 0) : hull_compute_clearance(w, count, error);
 }
 
-double hull_find_weights(const vec3 w[4], double error, double weight[4]) {
-    double depth = tetrahedron_depth(w, error, weight);
-    return depth != 0 ? fmax(depth, 0) : hull_compute_clearance(w, 4, error);
+// Of a thin hull doubles do not know where the origin is.
+double hull_find_weights(const vec3 *w, int count, double error, double *weight) {
+    double depth = count == 4 ? tetrahedron_depth(w, error, weight) : 0;
+    int has_weights = depth > 0;
+    if (depth == 0) depth = hull_compute_clearance(w, count, error);
+    if (depth > 0 && !(has_weights && common_measure(w, 4, weight) <= error))
+        common_set_weights_of_doubles(w, count, weight);
+    return fmax(depth, 0);
 }

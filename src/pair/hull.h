@@ -9,8 +9,9 @@
 /// `error`; 0 if none is proven.
 double hull_compute_depth(const vec3 *w, int count, double error);
 
-/// The depth that a tetrahedron proves, and weights of the origin, which are valid only if the depth is above 0.
-double hull_find_weights(const vec3 w[4], double error, double weight[4]);
+/// hull_compute_depth, and weights of the origin, which are valid only if the depth is above 0: the weighted corners
+/// are off the origin by no more than `error`, or by the roundings of their sum.
+double hull_find_weights(const vec3 *w, int count, double error, double *weight);
 
 /// The depth from the distance of the surface's triangles alone: costlier than hull_compute_depth, and better if the
 /// tetrahedron is thin. The greater of both bounds is never below the bound for a larger error.

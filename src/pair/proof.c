@@ -1,6 +1,7 @@
 // Reading a proof without trusting it.
 #include "pair/proof.h"
 
+#include "linear/nearest.h"
 #include "pair/balls.h"
 
 int proof_is_sound(const pair_frame *f, const ovoid_proof *p) {
@@ -32,11 +33,9 @@ witness_points witness_compute_points(const pair_frame *f, const ovoid_proof *p)
     witness_points w;
     switch (p->kind) {
     case OVOID_PROOF_POINTS: {
-        // The radii go along the difference of the points; where they overlap, along the normal, since a short
-        // difference may have any direction.
         w = proof_compute_points(f, p);
         vec3 d = vec3_sub(w.b, w.a);
-        if (vec3_norm(d) > f->a->radius + f->b->radius) n = vec3_unit(d);
+        if (nearest_takes_difference(vec3_norm(d), f->a->radius + f->b->radius)) n = vec3_unit(d);
         break;
     }
     case OVOID_PROOF_INNER_POINTS:

@@ -3,8 +3,6 @@
 
 #include "pair/hull.h"
 
-#include <string.h>
-
 int search_is_sign_known(const search *s) { return s->lower > 0 || s->upper < 0; }
 
 int search_is_done(const search *s) {
@@ -55,26 +53,6 @@ evidence evidence_make(const simplex *points) {
     return e;
 }
 
-void evidence_set_weights(evidence *found) {
-    double best = INFINITY;
-    for (unsigned some = 0; some < 1u << found->count; some++) {
-        simplex t = {.count = 0};
-        int at[4];
-        for (int i = 0; i < found->count; i++)
-            if (some >> i & 1 && t.count < 4) at[t.count] = i, t.p[t.count++] = found->p[i];
-        if (t.count != 4) continue;
-        simplex all = t;
-        (void)simplex_reduce(&t);
-        double distance = vec3_norm(simplex_compute_point(&t));
-        if (!(distance < best)) continue;
-        best = distance;
-        memset(found->weight, 0, sizeof found->weight);
-        for (int i = 0; i < t.count; i++)
-            for (int k = 0; k < 4; k++)
-                if (all.p[k].a == t.p[i].a && all.p[k].b == t.p[i].b) found->weight[at[k]] = t.weight[i];
-    }
-}
-
 void search_take_depth(search *s, const search_depth *depth, const evidence *witness) {
     s->upper = depth->upper;
     s->lower = depth->lower;
@@ -87,14 +65,16 @@ void search_take_depth(search *s, const search_depth *depth, const evidence *wit
 int search_take_hull(search *s, const evidence *hull) {
     const pair_frame *f = s->frame;
     vec3 w[OVOID_PROOF_PAIRS];
+    double weight[OVOID_PROOF_PAIRS];
     for (int i = 0; i < hull->count; i++) w[i] = hull->p[i].w;
-    double depth = hull_compute_depth(w, hull->count, f->claim);
+    double depth = hull_find_weights(w, hull->count, f->claim, weight);
     if (!(depth > 0)) return 0;
     double upper = -depth - f->upper_radii;
     if (upper < s->upper) {
         s->upper = upper;
         s->kind = OVOID_PROOF_HULL;
         s->witness = *hull;
+        for (int i = 0; i < hull->count; i++) s->witness.weight[i] = weight[i];
     }
     return 1;
 }

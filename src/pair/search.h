@@ -104,7 +104,7 @@ frame_support search_probe(search *s, vec3 n);
 void search_take_points(search *s, const simplex *points);
 
 /// Takes 4 to 6 differences (hull.h) as proof of an overlap if the origin is strictly inside, rounding included; 1 if
-/// so.
+/// so. Sets their weights; those given are not read.
 int search_take_hull(search *s, const evidence *hull);
 
 /// A depth that a surface around the origin shows, in the difference of the cores: the bounds, radii and allowances
@@ -125,8 +125,5 @@ void search_take_depth(search *s, const search_depth *depth, const evidence *wit
 
 /// The simplex as evidence.
 evidence evidence_make(const simplex *points);
-
-/// Sets the weights of the point nearest to the origin, by the best of the tetrahedra of four of the differences.
-void evidence_set_weights(evidence *found);
 
 #endif

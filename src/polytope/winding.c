@@ -2,6 +2,7 @@
 // first ray runs along z, and most triangles are beside it by their coordinates alone.
 #include "polytope/winding.h"
 
+#include "linear/both.h"
 #include "linear/exact.h"
 #include "polytope/facets.h"
 
@@ -17,13 +18,20 @@ static int count_crossing(vec3 c, vec3 q, const vec3 corner[3]) {
     return side == 0 ? 2 : side == -s0 ? side : 0;
 }
 
-// 1 if the line through the point along z passes beside a triangle: all corners lie to one side of it along x, or along
-// y. The comparisons are exact. Each by itself follows no pattern, so there is no branch between them.
-static int is_beside(vec3 point, const vec3 corner[3]) {
-    double x = point.x, y = point.y;
-    const vec3 *a = corner, *b = corner + 1, *c = corner + 2;
-    return ((a->x > x) & (b->x > x) & (c->x > x)) | ((a->x < x) & (b->x < x) & (c->x < x)) |
-           ((a->y > y) & (b->y > y) & (c->y > y)) | ((a->y < y) & (b->y < y) & (c->y < y));
+// Which of a triangle and the next one the line through the point along z passes beside, as bits of their lanes: all
+// corners lie to one side of it along x, or along y. The comparisons are exact. Each by itself follows no pattern, so
+// there is no branch between them.
+static both_bits find_beside(const ovoid_polytope *p, uint32_t t, vec3 point) {
+    const uint32_t *first = p->triangles + 3 * (size_t)t, *second = t + 1 < p->triangle_count ? first + 3 : first;
+    both x = both_set(point.x), y = both_set(point.y);
+    both_bits right = {-1, -1}, left = right, above = right, below = right;
+    for (int i = 0; i < 3; i++) {
+        const double *a = p->vertices + 3 * (size_t)first[i], *b = p->vertices + 3 * (size_t)second[i];
+        both along_x = both_make(a[0], b[0]), along_y = both_make(a[1], b[1]);
+        right &= along_x > x, left &= along_x < x;
+        above &= along_y > y, below &= along_y < y;
+    }
+    return (right | left) | (above | below);
 }
 
 // A point on the ray of an attempt: up along z at first; then through points inside a triangle, at weights of no
@@ -37,25 +45,37 @@ static vec3 find_aim(const ovoid_polytope *p, vec3 c, double unit, uint32_t atte
     return vec3_scale(vec3_add_scaled(q, vec3_at(p->vertices, aim[2]), wc), unit);
 }
 
+// From c through q; lengths in units of the body are `unit` times as long.
+typedef struct ray {
+    vec3 c, q;
+    double unit;
+} ray;
+
+// Adds the crossing with a triangle; 0 if the ray meets its border.
+static int add_crossing(const ovoid_polytope *p, uint32_t t, const ray *r, int64_t *winding) {
+    vec3 corner[3];
+    for (int i = 0; i < 3; i++) corner[i] = vec3_scale(vec3_at(p->vertices, p->triangles[3 * (size_t)t + i]), r->unit);
+    int crossing = count_crossing(r->c, r->q, corner);
+    if (crossing != 2) *winding += crossing;
+    return crossing != 2;
+}
+
 int64_t polytope_compute_winding(const ovoid_polytope *polytope, vec3 point) {
+    uint32_t count = polytope->triangle_count;
     // In units of the body: the orientations underflow for bodies below 1e-90.
     double unit = ldexp(1, -find_unit_exponent(compute_extent(polytope->vertices, polytope->vertex_count)));
-    vec3 c = vec3_scale(point, unit);
+    ray r = {.c = vec3_scale(point, unit), .unit = unit};
     // Another ray if one meets an edge.
-    for (uint32_t attempt = 0; attempt < 9 && polytope->triangle_count > 0; attempt++) {
-        vec3 q = find_aim(polytope, c, unit, attempt);
+    for (uint32_t attempt = 0; attempt < 9 && count > 0; attempt++) {
+        r.q = find_aim(polytope, r.c, unit, attempt);
         int64_t winding = 0;
-        int met = 0;
-        for (uint32_t t = 0; t < polytope->triangle_count && !met; t++) {
-            vec3 corner[3];
-            for (int i = 0; i < 3; i++) corner[i] = vec3_at(polytope->vertices, polytope->triangles[3 * (size_t)t + i]);
-            if (attempt == 0 && is_beside(point, corner)) continue;
-            for (int i = 0; i < 3; i++) corner[i] = vec3_scale(corner[i], unit);
-            int crossing = count_crossing(c, q, corner);
-            met = crossing == 2;
-            winding += met ? 0 : crossing;
+        int good = 1;
+        for (uint32_t t = 0; t < count && good; t += 2) {
+            both_bits beside = attempt == 0 ? find_beside(polytope, t, point) : (both_bits){0, 0};
+            if (!beside[0]) good = add_crossing(polytope, t, &r, &winding);
+            if (!beside[1] && t + 1 < count && good) good = add_crossing(polytope, t + 1, &r, &winding);
         }
-        if (!met) return winding;
+        if (good) return winding;
     }
     return 0;
 }

@@ -4,6 +4,7 @@
 
 #include "base/compiler.h"
 #include "exact/small.h"
+#include "linear/nearest.h"
 #include "query/goal.h"
 
 /// Writes the answer of a search that has ended.
@@ -16,12 +17,11 @@ typedef struct small_points {
     vec3 a, b;
 } small_points;
 
-/// Moves the points of the cores to the rounded bodies: along their difference, or where the radii overlap along the
-/// normal, as in witness_compute_points.
+/// Moves the points of the cores to the rounded bodies, as in witness_compute_points.
 static inline void small_points_add_radii(small_points *p, const pair_frame *f, vec3 normal) {
     double radii = f->a->radius + f->b->radius;
     if (!(radii > 0)) return;
-    vec3 d = vec3_sub(p->b, p->a), n = vec3_norm(d) > radii ? vec3_unit(d) : normal;
+    vec3 d = vec3_sub(p->b, p->a), n = nearest_takes_difference(vec3_norm(d), radii) ? vec3_unit(d) : normal;
     p->a = vec3_add_scaled(p->a, n, f->a->radius);
     p->b = vec3_add_scaled(p->b, n, -f->b->radius);
 }

@@ -9,6 +9,7 @@
 #include "pair/hull.h"
 #include "pair/inner.h"
 #include "pair/proof.h"
+#include "pair/reject.h"
 #include "pair/round.h"
 #include "query/answer.h"
 
@@ -116,7 +117,8 @@ static ovoid_code verify_upper(measure *m, const answer_claims *claims, ovoid_er
     return found <= answer->upper ? OVOID_OK : refuse(error, "upper bound", answer->upper, found);
 }
 
-// The answer's points and normal must be those of the proof, to rounding and the slack.
+// The answer's points and normal must be those of the proof, to rounding and the slack; those of a hull around the
+// origin are one point.
 static ovoid_code verify_witness(const pair_frame *f, const ovoid_answer *answer, double slack, ovoid_error *error) {
     vec3 turn = vec3_sub(answer->normal, answer->proof.normal);
     if (!(vec3_max_abs(turn) <= 0)) return refuse(error, "normal is not the proof's", vec3_norm(answer->normal), 1);
@@ -130,7 +132,11 @@ static ovoid_code verify_witness(const pair_frame *f, const ovoid_answer *answer
     slack += f->claim + 0x1p-50 * (vec3_max_abs(answer->point_a) + vec3_max_abs(answer->point_b));
     double off = fmax(vec3_norm(vec3_sub(frame_point_to_world(f, w.a), answer->point_a)),
                       vec3_norm(vec3_sub(frame_point_to_world(f, w.b), answer->point_b)));
-    return off <= slack ? OVOID_OK : refuse(error, "witness points are not the proof's, off by", off, slack);
+    if (!(off <= slack)) return refuse(error, "witness points are not the proof's, off by", off, slack);
+    if (answer->proof.kind != OVOID_PROOF_HULL) return OVOID_OK;
+    slack += f->claim + reject_get_claim(f);
+    off = vec3_norm(vec3_sub(answer->point_b, answer->point_a));
+    return off <= slack ? OVOID_OK : refuse(error, "witness points are no common point, apart by", off, slack);
 }
 
 ovoid_code status_verify_internal(ovoid_verdict answer, double tolerance, ovoid_error *error) {

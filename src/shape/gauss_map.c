@@ -7,6 +7,7 @@
 // Nothing else of the polyhedron is trusted: not that its planes are exact, nor that its hull is.
 #include "shape/gauss_map.h"
 
+#include "linear/both.h"
 #include "shape/loops.h"
 
 #include <string.h>
@@ -16,13 +17,27 @@
 /// The least product of a direction within a cell and the cell's corners.
 #define WIDE 0x1p-14
 
-// A map that is being made.
+enum { NO_ARC = GAUSS_ARCS };
+
+// A map that is being made. Lists have one entry more than arcs, for edges that are none.
 typedef struct maker {
     const ovoid_shape *shape;
     gauss_map *map;
     double *facets; ///< as gauss_get_facet has them
     uint8_t *list[4];
+    uint8_t row[4][GAUSS_ARCS + 1]; // the lists
+    uint8_t arc[2 * GAUSS_ARCS];    // of directed edges
+    vec3 cross[GAUSS_ARCS + 1];     // of an arc's normals
+    int8_t side[2][GAUSS_ARCS + 1]; // of an arc's plane, where the normals around its two vertices are
 } maker;
+
+// The normals around a vertex: those to the left of the edges that are arcs, and a zero one behind an odd number.
+typedef struct ring {
+    uint32_t count;
+    uint8_t arc[GAUSS_POINTS];
+    double x[GAUSS_POINTS], y[GAUSS_POINTS], z[GAUSS_POINTS];
+    vec3 middle; // the mean of the normals to the left of all edges, as a unit vector
+} ring;
 
 static uint64_t get_row(uint64_t count) { return (count + GAUSS_ROW - 1) / GAUSS_ROW * GAUSS_ROW; }
 
@@ -36,18 +51,7 @@ static vec3 get_normal(const maker *m, uint32_t facet) {
     const double *x = gauss_get_facet(m->map, facet);
     return (vec3){x[0], x[8], x[16]};
 }
-
-static vec3 get_cross(const maker *m, uint32_t arc) {
-    return vec3_cross(get_normal(m, m->list[0][arc]), get_normal(m, m->list[1][arc]));
-}
-
-// The mean of the normals around a vertex, as a unit vector.
-static vec3 find_middle(const maker *m, uint32_t vertex) {
-    const uint32_t *starts = shape_neighbor_starts(m->shape), *facets = shape_edge_facets(m->shape);
-    vec3 sum = {0, 0, 0};
-    for (uint32_t i = starts[vertex]; i < starts[vertex + 1]; i++) sum = vec3_add(sum, get_normal(m, facets[i]));
-    return vec3_unit(sum);
-}
+static double get_low(const maker *m, uint32_t facet) { return gauss_get_facet(m->map, facet)[24]; }
 
 static void set_facets(maker *m) {
     const ovoid_shape *s = m->shape;
@@ -65,96 +69,130 @@ static void set_facets(maker *m) {
     }
 }
 
-// The arcs, of edges between facets; those within a facet are none.
+// The arcs, of edges between facets; those within a facet are none. Lists of neighbors ascend, so the edges back from a
+// vertex are met in the order of its list. An edge is written behind the arcs so far, and counts if it is one: a branch
+// would follow no pattern.
 static void set_lists(maker *m) {
     const ovoid_shape *s = m->shape;
     const uint32_t *starts = shape_neighbor_starts(s), *neighbors = shape_neighbors(s), *facets = shape_edge_facets(s);
-    uint32_t arc = 0;
+    uint32_t arc = 0, places[GAUSS_POINTS];
+    memcpy(places, starts, s->vertex_count * sizeof *places);
     for (uint32_t v = 0; v < s->vertex_count; v++)
         for (uint32_t i = starts[v]; i < starts[v + 1]; i++) {
-            uint32_t to = neighbors[i], right = facets[shape_find_edge(s, to, v)];
-            if (to < v || right == facets[i]) continue;
-            m->list[0][arc] = (uint8_t)facets[i];
-            m->list[1][arc] = (uint8_t)right;
-            m->list[2][arc] = (uint8_t)v;
-            m->list[3][arc++] = (uint8_t)to;
+            uint32_t to = neighbors[i], back = places[to]++, left = facets[i], right = facets[back];
+            int is_arc = (to > v) & (right != left);
+            m->row[0][arc] = (uint8_t)left;
+            m->row[1][arc] = (uint8_t)right;
+            m->row[2][arc] = (uint8_t)v;
+            m->row[3][arc] = (uint8_t)to;
+            m->arc[i] = to > v ? (uint8_t)(is_arc ? arc : NO_ARC) : m->arc[back];
+            arc += is_arc;
         }
     m->map->arcs = arc;
+    for (uint32_t k = 0; k < 4; k++) memcpy(m->list[k], m->row[k], arc);
+    for (uint32_t i = 0; i < arc; i++)
+        m->cross[i] = vec3_cross(get_normal(m, m->row[0][i]), get_normal(m, m->row[1][i]));
 }
 
-// How far vertices are above planes.
+// How far vertices are above planes, three planes at a time.
 static void set_bulge(maker *m) {
-    const ovoid_shape *s = m->shape;
-    for (uint32_t f = 0; f < m->map->facets; f++)
-        for (uint32_t v = 0; v < s->vertex_count; v++) {
-            double above = vec3_dot(get_normal(m, f), vec3_at(shape_vertices(s), v)) - gauss_get_facet(m->map, f)[24];
-            m->map->bulge = fmax(m->map->bulge, above);
-        }
+    const simd_points points = shape_get_points(m->shape);
+    uint32_t last = m->map->facets - 1;
+    for (uint32_t f = 0; f <= last; f += 3) {
+        const uint32_t which[3] = {f, f < last ? f + 1 : last, f + 1 < last ? f + 2 : last};
+        const mat3 rows = {get_normal(m, which[0]), get_normal(m, which[1]), get_normal(m, which[2])};
+        simd_extents reach = simd_find_extents(&points, &rows);
+        for (int k = 0; k < 3; k++) m->map->bulge = max2(m->map->bulge, reach.high[k] - get_low(m, which[k]));
+    }
+}
+
+static void take_ring(const maker *m, uint32_t vertex, ring *r) {
+    const uint32_t *starts = shape_neighbor_starts(m->shape), *facets = shape_edge_facets(m->shape);
+    vec3 sum = {0, 0, 0};
+    uint32_t count = 0;
+    for (uint32_t i = starts[vertex]; i < starts[vertex + 1]; i++) {
+        vec3 n = get_normal(m, facets[i]);
+        sum = vec3_add(sum, n);
+        if (m->arc[i] == NO_ARC) continue;
+        r->x[count] = n.x, r->y[count] = n.y, r->z[count] = n.z;
+        r->arc[count++] = m->arc[i];
+    }
+    r->count = count;
+    if (count % 2) r->x[count] = r->y[count] = r->z[count] = 0;
+    r->middle = vec3_unit(sum);
 }
 
 // The side of an arc's plane on which the other normals around a vertex are, as 1 or -1; 0 if that is not clear. The
-// normals around it are those to the left of its edges.
-static int find_side(const maker *m, uint32_t arc, uint32_t vertex) {
-    const uint32_t *starts = shape_neighbor_starts(m->shape), *facets = shape_edge_facets(m->shape);
-    vec3 cross = get_cross(m, arc);
-    int side = 0;
-    for (uint32_t i = starts[vertex]; i < starts[vertex + 1]; i++) {
-        uint32_t f = facets[i];
-        if (f == m->list[0][arc] || f == m->list[1][arc]) continue;
-        double product = vec3_dot(cross, get_normal(m, f));
-        int now = product > CLEAR ? 1 : product < -CLEAR ? -1 : 0;
-        if (now == 0 || (side != 0 && now != side)) return 0;
-        side = now;
+// arc's own two normals are in its plane, clearly on neither side.
+static int find_side(const maker *m, const ring *r, uint32_t arc) {
+    both_vec3 cross = both_vec3_make(m->cross[arc], m->cross[arc]);
+    both clear = both_set(CLEAR);
+    both_bits sides = {0, 0};
+    for (uint32_t i = 0; i < r->count; i += 2) {
+        both product = both_vec3_dot(cross, (both_vec3){both_load(r->x + i), both_load(r->y + i), both_load(r->z + i)});
+        sides += (product < -clear) - (product > clear);
     }
-    return side;
+    long long others = (long long)r->count - 2, sum = sides[0] + sides[1];
+    return others ? (sum == others) - (sum == -others) : 0;
+}
+
+// The sides of the arcs' planes as a vertex has them.
+static void set_sides(maker *m, const ring *r, uint32_t vertex) {
+    for (uint32_t i = 0; i < r->count; i++) {
+        uint32_t arc = r->arc[i];
+        m->side[m->row[3][arc] == vertex][arc] = (int8_t)find_side(m, r, arc);
+    }
 }
 
 static int are_cells_convex(const maker *m) {
-    for (uint32_t arc = 0; arc < m->map->arcs; arc++) {
-        int side = find_side(m, arc, m->list[2][arc]);
-        if (side == 0 || find_side(m, arc, m->list[3][arc]) != -side) return 0;
-    }
-    return 1;
+    int good = 1;
+    for (uint32_t arc = 0; arc < m->map->arcs; arc++)
+        good &= m->side[0][arc] != 0 && m->side[1][arc] == -m->side[0][arc];
+    return good;
 }
 
-// Is a direction clearly inside the cell of a vertex (1), clearly outside (-1), or neither (0)?
-static int locate(const maker *m, uint32_t vertex, vec3 direction) {
-    int found = 1;
-    for (uint32_t arc = 0; arc < m->map->arcs; arc++) {
-        if (m->list[2][arc] != vertex && m->list[3][arc] != vertex) continue;
-        double product = find_side(m, arc, vertex) * vec3_dot(get_cross(m, arc), direction);
-        if (product < -CLEAR) return -1;
-        if (!(product > CLEAR)) found = 0;
-    }
-    return found;
-}
-
+// Is a direction in the middle of the cell of vertex 0 clearly inside that, and clearly outside of all others? The
+// cells are convex.
 static int is_covered_once(const maker *m) {
-    vec3 middle = find_middle(m, 0);
-    if (locate(m, 0, middle) != 1) return 0;
-    for (uint32_t v = 1; v < m->shape->vertex_count; v++)
-        if (locate(m, v, middle) != -1) return 0;
-    return 1;
-}
-
-// The least product of a direction and the corners of a vertex's cell.
-static double find_least_product(const maker *m, uint32_t vertex, vec3 direction) {
-    const uint32_t *starts = shape_neighbor_starts(m->shape), *facets = shape_edge_facets(m->shape);
-    double least = 1;
-    for (uint32_t i = starts[vertex]; i < starts[vertex + 1]; i++)
-        least = min2(least, vec3_dot(direction, get_normal(m, facets[i])));
-    return least;
+    ring first;
+    take_ring(m, 0, &first);
+    uint8_t is_outside[GAUSS_POINTS] = {0};
+    int good = 1;
+    for (uint32_t arc = 0; arc < m->map->arcs; arc++) {
+        uint32_t from = m->row[2][arc], to = m->row[3][arc];
+        double product = m->side[0][arc] * vec3_dot(m->cross[arc], first.middle);
+        is_outside[from] |= product < -CLEAR;
+        is_outside[to] |= product > CLEAR;
+        // No arc of vertex 0 leads to it.
+        good &= from != 0 || product > CLEAR;
+    }
+    for (uint32_t v = 1; v < m->shape->vertex_count; v++) good &= is_outside[v];
+    return good;
 }
 
 // A unit vector that is a sum of a cell's corners of weights >= 0 has a product with any unit x of at most 1, and of at
 // least the sum of the weights times the least product of x and a corner. x: their mean, or the way from the middle of
 // the body, which is in every cell.
-static void set_spread(maker *m) {
+static void raise_spread(const maker *m, const ring *r, uint32_t vertex) {
+    vec3 way = vec3_unit(vec3_sub(vec3_at(shape_vertices(m->shape), vertex), m->shape->inner.center));
+    both_vec3 directions = both_vec3_make(r->middle, way);
+    both products = both_set(1);
+    for (uint32_t i = 0; i < r->count; i++) {
+        both_vec3 n = {both_set(r->x[i]), both_set(r->y[i]), both_set(r->z[i])};
+        products = both_min(products, both_vec3_dot(directions, n));
+    }
+    double least = max2(products[0], products[1]);
+    m->map->spread = max2(m->map->spread, least > WIDE ? 1 / least : INFINITY);
+}
+
+// What the normals around each vertex show.
+static void visit_vertices(maker *m) {
     m->map->spread = 1;
     for (uint32_t v = 0; v < m->shape->vertex_count; v++) {
-        vec3 way = vec3_unit(vec3_sub(vec3_at(shape_vertices(m->shape), v), m->shape->inner.center));
-        double least = fmax(find_least_product(m, v, find_middle(m, v)), find_least_product(m, v, way));
-        m->map->spread = fmax(m->map->spread, least > WIDE ? 1 / least : INFINITY);
+        ring r;
+        take_ring(m, v, &r);
+        set_sides(m, &r, v);
+        raise_spread(m, &r, v);
     }
 }
 
@@ -171,7 +209,8 @@ static void choose_wide(maker *m) {
 void shape_gauss_map_fill(ovoid_shape *s) {
     if (!gauss_map_get_size(&s->counts)) return;
     gauss_map *map = (gauss_map *)((char *)s + s->at.gauss);
-    maker m = {.shape = s, .map = map};
+    maker m;
+    m.shape = s, m.map = map;
     memset(map, 0, gauss_map_get_size(&s->counts));
     if (s->rank < 3 || !(s->inside.least > 0)) return;
     map->facets = s->counts.facets;
@@ -183,7 +222,7 @@ void shape_gauss_map_fill(ovoid_shape *s) {
     set_facets(&m);
     set_lists(&m);
     set_bulge(&m);
-    set_spread(&m);
+    visit_vertices(&m);
     choose_wide(&m);
     if (!are_cells_convex(&m) || !is_covered_once(&m) || !(map->spread < INFINITY)) map->arcs = 0;
 }

@@ -64,10 +64,11 @@ static void link_solid(tables *t) {
     number_corners(t);
     int needs_next = !has_triangles_alone(t);
     for (uint32_t i = 0; i < t->p->triangle_count; i++) {
-        const uint32_t *edge = t->corners + 3 * (size_t)i;
+        const uint32_t *edge = t->corners + 3 * (size_t)i, *corner = t->p->triangles + 3 * (size_t)i;
         for (int k = 0; k < 3; k++) {
             if (needs_next) t->next[edge[k]] = edge[k == 2 ? 0 : k + 1];
             t->facets[edge[k]] = t->p->triangle_facets[i];
+            t->tails[edge[k]] = corner[k];
         }
     }
 }
@@ -75,6 +76,8 @@ static void link_solid(tables *t) {
 // Of a polygon the lists of neighbors hold the corner before, then the corner after; it has two sides.
 static void link_flat(tables *t) {
     const ovoid_polytope *p = t->p;
+    for (uint32_t v = 0; v < p->vertex_count; v++)
+        for (uint32_t i = p->neighbor_starts[v]; i < p->neighbor_starts[v + 1]; i++) t->tails[i] = v;
     for (uint32_t i = 0; i < t->shape->counts.neighbors; i++) {
         t->facets[i] = p->rank == 2 && i == p->neighbor_starts[t->tails[i]];
         t->next[i] = p->neighbor_starts[p->neighbors[i]] + (t->facets[i] == 0);
@@ -83,10 +86,7 @@ static void link_flat(tables *t) {
 }
 
 static void link_edges(tables *t) {
-    const ovoid_polytope *p = t->p;
-    for (uint32_t v = 0; v < p->vertex_count; v++)
-        for (uint32_t i = p->neighbor_starts[v]; i < p->neighbor_starts[v + 1]; i++) t->tails[i] = v;
-    if (p->rank == 3)
+    if (t->p->rank == 3)
         link_solid(t);
     else
         link_flat(t);
@@ -146,13 +146,13 @@ static int is_triangle(const tables *t, uint32_t edge) {
 // The loops where each facet is one triangle, from its edge of the lowest number.
 static void fill_triangles(tables *t) {
     for (uint32_t i = 0; i < t->p->triangle_count; i++) {
-        const uint32_t *edges = t->corners + 3 * (size_t)i;
+        const uint32_t *edges = t->corners + 3 * (size_t)i, *corner = t->p->triangles + 3 * (size_t)i;
         uint32_t start = 3 * t->p->triangle_facets[i], k = edges[1] < edges[0];
-        if (edges[2] < edges[k]) k = 2;
-        for (uint32_t j = 0; j < 3; j++, k = k == 2 ? 0 : k + 1) {
-            uint32_t edge = edges[k];
-            t->loop_vertices[start + j] = t->tails[edge];
-            t->loop_edges[start + j] = get_name(t, edge);
+        k = edges[2] < edges[k] ? 2 : k;
+        const uint32_t after = k == 2 ? 0 : k + 1, order[3] = {k, after, 3 - k - after};
+        for (uint32_t j = 0; j < 3; j++) {
+            t->loop_vertices[start + j] = corner[order[j]];
+            t->loop_edges[start + j] = get_name(t, edges[order[j]]);
         }
     }
     for (uint32_t f = 0; f <= t->p->facet_count; f++) t->starts[f] = 3 * f;

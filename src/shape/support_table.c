@@ -19,9 +19,11 @@
 // So no search in the list can miss the extreme vertex, nor one that equals it, if e exceeds the rounding of both
 // products. A list may then leave out every vertex that another of it beats: what is left beats that one too.
 //
-// The list of a cell begins with a vertex found by climbing over edges to the cell's centre; the theorem does not rest
-// on where the climb ends. It grows over edges by all vertices that those already listed do not beat. If it does not
-// fit one block, all are tested against all.
+// The list of four cells begins with a vertex found by climbing over edges to their middle; the theorem does not rest
+// on where the climb ends. It grows over edges by all vertices that neither the first one beats nor the one over whose
+// edge they are met. The list of a cell is that of the four, or of the cell that is divided into it, without those that
+// one of two vertices beats. The vertex with the largest product in a direction of the cell is beaten by none, so it
+// stays, and what is beaten is below it by more than e. If a list does not fit one block, all are tested against all.
 //
 // Rounding, u = 2^-53: a product with a direction r of the cone is off by 4 u X N, and so is one with a corner, X and N
 // the greatest lengths; e = 32 u X N covers both products twice. Products with corners are computed from the mapped
@@ -34,7 +36,7 @@
 // times the ratio of the map's radii, at most 1e3, so its place on the cube's face by 1e-12; each cell is taken wider
 // by 1e-7 of itself, at least 1e-10.
 //
-// Cost: about 0.1 us a vertex. Lists of round bodies have 5 to 12 vertices and take 140 to 270 bytes a vertex. If lists
+// Cost: some 0.3 us a vertex. Lists of round bodies have 5 to 12 vertices and take 140 to 270 bytes a vertex. If lists
 // stay long, as for the rings of a cylinder, cells are coarser, and at most 512 bytes a vertex are used.
 #include "shape/support_table.h"
 
@@ -48,9 +50,9 @@
 #include <stddef.h>
 #include <string.h>
 
-// FEW: entries that are sorted by insertion. LEAF_MOST: entries of a cell that is not divided; two blocks are read as
-// fast as a divided cell and one block.
-enum { LIMITS_MAX = 96, FEW = 24, NESTED_MOST = 4, K_MOST = 128, LEAF_MOST = 2 * SIMD_CELL };
+// FEW: entries that are sorted by counting. LISTS: those of four cells, of one of them, and of its divisions.
+// LEAF_MOST: entries of a cell that is not divided; two blocks are read as fast as a divided cell and one block.
+enum { LIMITS_MAX = 96, FEW = 48, NESTED_MOST = 4, LISTS = NESTED_MOST + 2, K_MOST = 128, LEAF_MOST = 2 * SIMD_CELL };
 
 /// A vertex on a face of the cube: its product with the face's point (a, b) is m + a p + b q.
 typedef struct mapped {
@@ -73,10 +75,10 @@ typedef struct builder {
     mapped *vertices; ///< of the present face
     uint32_t *met;    ///< of each vertex: the last list for which it was tested
     uint32_t stamp;   ///< the number of the present list
-    uint32_t *list;   ///< of the present cell
-    uint32_t count;   ///< of the list
+    uint32_t *lists;  ///< of the present four cells; behind each list, those of the cells in it
     uint32_t *scratch;
-    products limits[LIMITS_MAX]; ///< of the vertices of the list, less the margin
+    uint32_t limit_count;            ///< at most LIMITS_MAX
+    products limits[LIMITS_MAX + 1]; ///< of the vertices of a list, less the margin
 } builder;
 
 /// A square of a cube's face.
@@ -84,6 +86,11 @@ typedef struct square {
     uint32_t face;
     double a, b, side; ///< from (a, b) to (a + side, b + side)
 } square;
+
+/// Vertices in ascending order.
+typedef struct vertex_list {
+    uint32_t *items, count;
+} vertex_list;
 
 // ---- the list of a cell ----
 
@@ -117,54 +124,31 @@ static products multiply(const corners *c, const mapped *v) {
     return (products){rest + c->a[0] * p, rest + c->a[1] * p};
 }
 
-/// 1 if all four are below, by the signs of the differences.
-static int is_below(const products *v, const products *limit) {
-    both_bits below = (both_bits)(v->low - limit->low) & (both_bits)(v->high - limit->high);
-    return (below[0] & below[1]) < 0;
-}
-
-/// 1 if a vertex of the list beats these products; the one at `likely` is tried first.
-static int is_beaten(const builder *b, const products *v, uint32_t likely) {
-    uint32_t count = b->count < LIMITS_MAX ? b->count : LIMITS_MAX;
-    if (likely < count && is_below(v, &b->limits[likely])) return 1;
-    for (uint32_t i = 0; i < count; i++)
-        if (is_below(v, &b->limits[i])) return 1;
-    return 0;
-}
-
-static void append(builder *b, uint32_t vertex, const products *v) {
+static products make_limit(const builder *b, products v) {
     both margin = both_set(b->margin);
-    if (b->count < LIMITS_MAX) b->limits[b->count] = (products){v->low - margin, v->high - margin};
-    b->list[b->count++] = vertex;
+    return (products){v.low - margin, v.high - margin};
 }
 
-/// Grows the list from one vertex.
-static void grow(builder *b, const corners *c, uint32_t first) {
-    const ovoid_polytope *p = b->polytope;
-    products v = multiply(c, &b->vertices[first]);
-    b->count = 0;
-    b->met[first] = ++b->stamp;
-    append(b, first, &v);
-    for (uint32_t done = 0; done < b->count; done++) {
-        uint32_t from = b->list[done];
-        for (uint32_t i = p->neighbor_starts[from]; i < p->neighbor_starts[from + 1]; i++) {
-            uint32_t to = p->neighbors[i];
-            if (b->met[to] == b->stamp) continue;
-            b->met[to] = b->stamp;
-            v = multiply(c, &b->vertices[to]);
-            if (!is_beaten(b, &v, done)) append(b, to, &v);
-        }
-    }
+/// The signs of the differences to a limit; in each lane that of two corners.
+static both_bits compare(const products *v, const products *limit) {
+    return (both_bits)(v->low - limit->low) & (both_bits)(v->high - limit->high);
 }
 
-/// Drops the vertices that others of the list beat.
-static void cull_by_pairs(builder *b, const corners *c) {
-    uint32_t kept = 0, count = b->count;
-    for (uint32_t i = 0; i < count; i++) {
-        products v = multiply(c, &b->vertices[b->list[i]]);
-        if (!is_beaten(b, &v, 0)) b->list[kept++] = b->list[i];
+/// 1 if all four are below either limit.
+static int is_below(const products *v, const products *limit, const products *other) {
+    both_bits x = compare(v, limit), y = compare(v, other);
+    both_bits below = (both_bits){x[0], y[0]} & (both_bits){x[1], y[1]};
+    return (below[0] | below[1]) < 0;
+}
+
+/// 1 if a vertex of the limits beats these products.
+static int is_beaten(const builder *b, const products *v) {
+    both_bits below = {0, 0};
+    for (uint32_t i = 0; i < b->limit_count; i += 2) {
+        both_bits x = compare(v, &b->limits[i]), y = compare(v, &b->limits[i + 1]);
+        below |= (both_bits){x[0], y[0]} & (both_bits){x[1], y[1]};
     }
-    b->count = kept;
+    return (below[0] | below[1]) < 0;
 }
 
 static int compare_numbers(const void *context, uint32_t a, uint32_t b) {
@@ -172,23 +156,94 @@ static int compare_numbers(const void *context, uint32_t a, uint32_t b) {
     return a < b ? -1 : a > b;
 }
 
-static void sort_list(const builder *b) {
-    uint32_t *list = b->list;
-    if (b->count > FEW) {
-        sort_indices(list, b->scratch, b->count, (index_order){compare_numbers, NULL});
+static void sort_list(const builder *b, vertex_list all) {
+    uint32_t *list = all.items;
+    if (all.count > FEW) {
+        sort_indices(list, b->scratch, all.count, (index_order){compare_numbers, NULL});
         return;
     }
-    for (uint32_t i = 1; i < b->count; i++) {
-        uint32_t v = list[i], k = i;
-        for (; k > 0 && list[k - 1] > v; k--) list[k] = list[k - 1];
-        list[k] = v;
+    // Each goes to its place, the number of lesser ones; none is there twice. Numbers are below 2^31.
+    int32_t copy[FEW];
+    memcpy(copy, list, all.count * sizeof *list);
+    for (uint32_t i = 0; i < all.count; i++) {
+        uint32_t below = 0;
+        for (uint32_t k = 0; k < all.count; k++) below += copy[k] < copy[i];
+        list[below] = (uint32_t)copy[i];
     }
 }
 
-static void find_list(builder *b, const square *s, uint32_t first) {
+/// The list of a square, grown from one vertex: by neighbors that neither that vertex nor the one that they are
+/// neighbors of beats. Each neighbor is written, and counts if it is new and not beaten: branches would follow no
+/// pattern.
+static vertex_list grow(builder *b, const square *s, uint32_t first) {
+    const ovoid_polytope *p = b->polytope;
+    const corners c = make_corners(s);
+    vertex_list list = {b->lists, 1};
+    products most = make_limit(b, multiply(&c, &b->vertices[first]));
+    list.items[0] = first;
+    b->met[first] = ++b->stamp;
+    for (uint32_t done = 0; done < list.count; done++) {
+        uint32_t from = list.items[done];
+        products limit = make_limit(b, multiply(&c, &b->vertices[from]));
+        for (uint32_t i = p->neighbor_starts[from]; i < p->neighbor_starts[from + 1]; i++) {
+            uint32_t to = p->neighbors[i];
+            products v = multiply(&c, &b->vertices[to]);
+            int is_new = b->met[to] != b->stamp;
+            b->met[to] = b->stamp;
+            list.items[list.count] = to;
+            list.count += is_new & !is_below(&v, &limit, &most);
+        }
+    }
+    sort_list(b, list);
+    return list;
+}
+
+/// The vertices of a list with the largest products with two points of a square: a quarter of the diagonal from its
+/// ends. The numbers of the places are kept beside the products, two at a time.
+static void find_tops(const builder *b, const square *s, vertex_list list, uint32_t top[2]) {
+    double near = 0.25 * s->side, far = 0.75 * s->side;
+    both at_a = both_make(s->a + near, s->a + far), at_b = both_make(s->b + near, s->b + far);
+    both most = both_set(-INFINITY), which = both_set(0), place = both_set(0);
+    for (uint32_t i = 0; i < list.count; i++, place += both_set(1)) {
+        const mapped *v = &b->vertices[list.items[i]];
+        both value = both_set(v->m) + (at_a * both_set(v->p) + at_b * both_set(v->q));
+        both_bits is_more = value > most;
+        which = (both)((is_more & (both_bits)place) | (~is_more & (both_bits)which));
+        most = (both)((is_more & (both_bits)value) | (~is_more & (both_bits)most));
+    }
+    for (int k = 0; k < 2; k++) top[k] = list.items[(uint32_t)which[k]];
+}
+
+/// Drops the vertices that others of the list beat.
+static void cull_by_pairs(builder *b, const corners *c, vertex_list *list) {
+    uint32_t count = list->count;
+    b->limit_count = count;
+    for (uint32_t i = 0; i < count; i++) b->limits[i] = make_limit(b, multiply(c, &b->vertices[list->items[i]]));
+    b->limits[count] = b->limits[0];
+    list->count = 0;
+    for (uint32_t i = 0; i < count; i++) {
+        products v = multiply(c, &b->vertices[list->items[i]]);
+        list->items[list->count] = list->items[i];
+        list->count += !is_beaten(b, &v);
+    }
+}
+
+/// The list of a square from that of one that it is in, behind which it is written. Each vertex is written, and counts
+/// if it is not beaten: a branch would follow no pattern.
+static vertex_list cull(builder *b, const square *s, vertex_list from) {
     corners c = make_corners(s);
-    grow(b, &c, first);
-    if (b->count > SIMD_CELL && b->count <= LIMITS_MAX) cull_by_pairs(b, &c);
+    vertex_list list = {from.items + from.count, 0};
+    uint32_t top[2];
+    find_tops(b, s, from, top);
+    products first = make_limit(b, multiply(&c, &b->vertices[top[0]]));
+    products second = make_limit(b, multiply(&c, &b->vertices[top[1]]));
+    for (uint32_t i = 0; i < from.count; i++) {
+        products v = multiply(&c, &b->vertices[from.items[i]]);
+        list.items[list.count] = from.items[i];
+        list.count += !is_below(&v, &first, &second);
+    }
+    if (list.count > SIMD_CELL && list.count <= LIMITS_MAX) cull_by_pairs(b, &c, &list);
+    return list;
 }
 
 // ---- cells ----
@@ -206,36 +261,37 @@ static int reserve(builder *b, uint32_t blocks, uint32_t *at) {
     return 1;
 }
 
-static void fill_block(const builder *b, support_block *block, uint32_t first) {
+static void fill_block(support_block *block, vertex_list list, uint32_t first) {
     *block = (support_block){.count = 0};
-    for (uint32_t i = 0; i < SIMD_CELL; i++) block->index[i] = b->list[first + i < b->count ? first + i : first];
+    for (uint32_t i = 0; i < SIMD_CELL; i++) block->index[i] = list.items[first + i < list.count ? first + i : first];
 }
 
-static int fill_list(builder *b, uint32_t at) {
-    sort_list(b);
-    uint32_t more = (b->count + SIMD_CELL - 1) / SIMD_CELL - 1, next = 0;
+static int fill_list(builder *b, vertex_list list, uint32_t at) {
+    uint32_t more = (list.count + SIMD_CELL - 1) / SIMD_CELL - 1, next = 0;
     if (more && !reserve(b, more, &next)) return 0;
-    fill_block(b, &b->blocks[at], 0);
-    b->blocks[at].count = b->count;
+    fill_block(&b->blocks[at], list, 0);
+    b->blocks[at].count = list.count;
     b->blocks[at].next = next;
-    for (uint32_t i = 0; i < more; i++) fill_block(b, &b->blocks[next + i], (i + 1) * SIMD_CELL);
+    for (uint32_t i = 0; i < more; i++) fill_block(&b->blocks[next + i], list, (i + 1) * SIMD_CELL);
     return 1;
 }
 
-/// Fills the cell at a place of the array. near: a vertex to climb from; replaced by that found. nested: the number of
-/// divisions of the cell.
-static int fill_cell(builder *b, const square *s, uint32_t at, uint32_t *near, int nested) {
+/// A cell, its place in the array, and how often cells that it is in are divided.
+typedef struct place {
+    square s;
+    uint32_t at, nested;
+} place;
+
+/// Fills a cell. from: the list of a square that it is in.
+static int fill_cell(builder *b, place of, vertex_list from) {
     uint32_t next;
-    *near = climb(b, *near, s->a + 0.5 * s->side, s->b + 0.5 * s->side);
-    find_list(b, s, *near);
-    if (b->count <= LEAF_MOST || nested == NESTED_MOST || b->used > b->divided_most) return fill_list(b, at);
+    vertex_list list = cull(b, &of.s, from);
+    if (list.count <= LEAF_MOST || of.nested == NESTED_MOST || b->used > b->divided_most)
+        return fill_list(b, list, of.at);
     if (!reserve(b, 4, &next)) return 0;
-    b->blocks[at] = (support_block){.next = next};
-    uint32_t inside = *near;
-    for (uint32_t i = 0; i < 4; i++) {
-        square inner = quarter(s, i);
-        if (!fill_cell(b, &inner, next + i, &inside, nested + 1)) return 0;
-    }
+    b->blocks[of.at] = (support_block){.next = next};
+    for (uint32_t i = 0; i < 4; i++)
+        if (!fill_cell(b, (place){quarter(&of.s, i), next + i, of.nested + 1}, list)) return 0;
     return 1;
 }
 
@@ -249,16 +305,31 @@ static void map_vertices(const builder *b, uint32_t face) {
     }
 }
 
-/// Fills all cells of a face, row by row, forth and back, so that the next one is at the side of the last.
-static int fill_face(builder *b, uint32_t face, uint32_t *near) {
+/// Fills the cells of a square of a face, `step` a side, from that row and column on. near: a vertex to climb from;
+/// replaced by that found.
+static int fill_square(builder *b, uint32_t face, const uint32_t at[2], uint32_t step, uint32_t *near) {
     uint32_t k = b->table->k;
     double side = 2.0 / k;
-    map_vertices(b, face);
-    for (uint32_t i = 0; i < k * k; i++) {
-        uint32_t row = i / k, column = row & 1 ? k - 1 - i % k : i % k;
+    square whole = {face, -1 + side * at[0], -1 + side * at[1], side * step};
+    *near = climb(b, *near, whole.a + 0.5 * whole.side, whole.b + 0.5 * whole.side);
+    vertex_list list = grow(b, &whole, *near);
+    for (uint32_t i = 0; i < step * step; i++) {
+        uint32_t row = at[0] + i / step, column = at[1] + i % step;
         square s = {face, -1 + side * row, -1 + side * column, side};
-        if (!fill_cell(b, &s, cube_cell(face, row, column, k), near, 0)) return 0;
+        if (!fill_cell(b, (place){s, cube_cell(face, row, column, k), 0}, list)) return 0;
     }
+    return 1;
+}
+
+/// Fills all cells of a face, four by four, in rows, forth and back, so that the next ones are at the side of the last.
+static int fill_face(builder *b, uint32_t face, uint32_t *near) {
+    uint32_t step = b->table->k > 1 ? 2 : 1, count = b->table->k / step;
+    map_vertices(b, face);
+    for (uint32_t row = 0; row < count; row++)
+        for (uint32_t i = 0; i < count; i++) {
+            uint32_t column = row & 1 ? count - 1 - i : i;
+            if (!fill_square(b, face, (uint32_t[2]){row * step, column * step}, step, near)) return 0;
+        }
     return 1;
 }
 
@@ -302,11 +373,11 @@ static int has_edges(const ovoid_polytope *p) {
 static int make_room(builder *b, const ovoid_allocator *allocator) {
     uint32_t count = b->polytope->vertex_count;
     b->blocks = allocator_allocate(allocator, b->capacity, sizeof *b->blocks);
-    b->vertices = allocator_allocate(allocator, count, sizeof *b->vertices + 3 * sizeof *b->met);
+    b->vertices = allocator_allocate(allocator, count, sizeof *b->vertices + (2 + LISTS) * sizeof *b->met);
     if (!b->vertices || !b->blocks) return 0;
     b->met = (uint32_t *)(b->vertices + count);
-    b->list = b->met + count;
-    b->scratch = b->list + count;
+    b->scratch = b->met + count;
+    b->lists = b->scratch + count;
     memset(b->met, 0, count * sizeof *b->met);
     return 1;
 }

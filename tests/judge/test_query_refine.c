@@ -415,6 +415,28 @@ static void test_brute_force(uint64_t seed) {
     judge_forget(court);
 }
 
+// A capsule of the shape of a ball and a ball touch: their cores' direction has an angle of 3e-9 with the proven
+// normal, so points along the normal, at the end of large radii, would be far off d normal.
+static void test_touching_radii(void) {
+    ovoid_shape_options o = {.radius = 728521410.16900837};
+    const double core[3] = {-857697041.874403, 619775702.54419553, -175632938.04513964};
+    ovoid_shape *a = ovoid_shape_create_capsule(813781412.3955431, 7.5960798663403395, NULL, NULL);
+    ovoid_shape *b = ovoid_shape_create_from_points(core, 1, &o, NULL);
+    ovoid_pair p = {a,
+                    b,
+                    {{106660751.01793988, 1103479743.0946143, -1735473399.0623937},
+                     {-1.5505704719560272, -0.22643236195557742, -1.1688036542807254, 1.2244599776370872}},
+                    {{1258868460.5980988, 1874911000.1777894, -2958741061.555315},
+                     {-0.31905400405328721, -1.625074541209149, 0.87797390138714648, 0.075507325110861084}}};
+    if (CHECK(a && b)) {
+        ovoid_answer x = ovoid_depth(&p, NULL, NULL, NULL);
+        CHECK(holds(&p, &x, NULL));
+        CHECK(judge_verify_points(court, &p, &x, NULL) == OVOID_OK);
+        CHECK_LE(vec3_norm(vec3_sub(x.point_b, x.point_a)), 1e-3);
+    }
+    ovoid_shape_destroy(a), ovoid_shape_destroy(b);
+}
+
 // The measurements' bits, whatever the search does with them: what gcc gave at -O3; clang and -O0 must give it too.
 static void test_bits(void) {
     uint64_t r = 5, hash = 14695981039346656037u;
@@ -469,6 +491,7 @@ int main(void) {
     test_tolerance();
     test_altered();
     test_many();
+    test_touching_radii();
     test_bits();
     judge_destroy(court);
     return check_end();

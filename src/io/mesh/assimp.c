@@ -237,7 +237,9 @@ ovoid_code mesh_read_assimp(mesh_reader *reader) {
     const char *why;
     // Before the child, which has no more than its parent.
     if (!assimp_load(&why))
-        return io_fail(reader->error, OVOID_ERROR_FILE, (where){reader->path, 0, -1}, "Assimp cannot be loaded: %s",
+        return io_fail(reader->error, OVOID_ERROR_FILE, (where){reader->path, 0, -1},
+                       "Assimp cannot be loaded: %s; "
+                       "install it (Debian: libassimp5), or convert the mesh to stl, obj, off or ply",
                        why);
     return reader->trusted ? read_here(reader) : read_in_child(reader);
 }

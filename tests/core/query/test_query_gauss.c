@@ -315,7 +315,7 @@ static ovoid_pair make_scaled(double k) {
 
 /// What is made of the normals of the sides of a prism or a pyramid. Mirrored normals are a map too, of a body that is
 /// not there, so that vertices are far above planes.
-typedef enum alteration { TWICE_AROUND, MIRRORED, ANOTHER_FACET, DENTED } alteration;
+typedef enum alteration { TWICE_AROUND, MIRRORED, ANOTHER_FACET, DENTED, DENTED_LITTLE } alteration;
 
 static void alter(ovoid_shape *shape, alteration how) {
     ovoid_plane *planes = (ovoid_plane *)((char *)shape + shape->at.planes);
@@ -326,13 +326,44 @@ static void alter(ovoid_shape *shape, alteration how) {
         double angle = 2 * atan2(n.y, n.x);
         if (how == TWICE_AROUND) planes[f].normal = (ovoid_vec3){cos(angle), sin(angle), 0};
         if (how == MIRRORED) planes[f].normal = (ovoid_vec3){-n.x, n.y, n.z};
-        if (how == DENTED && !is_dented++) planes[f].normal = vec3_unit((ovoid_vec3){0.2 * n.x, 0.2 * n.y, 1});
+        double across = how == DENTED ? 0.2 : 0.8;
+        if (how >= DENTED && !is_dented++) planes[f].normal = vec3_unit((ovoid_vec3){across * n.x, across * n.y, 1});
     }
     if (how == ANOTHER_FACET) planes[0].normal = planes[1].normal;
 }
 
+/// How far the vertices are above a facet's plane.
+static double find_rise(const ovoid_shape *shape, const gauss_map *map, uint32_t f) {
+    double most = -INFINITY;
+    for (uint32_t v = 0; v < shape->vertex_count; v++) {
+        const double *x = shape_vertices(shape) + 3 * (size_t)v;
+        double along =
+            gauss_get_facet(map, f)[0] * x[0] + gauss_get_facet(map, f)[8] * x[1] + gauss_get_facet(map, f)[16] * x[2];
+        most = fmax(most, along - gauss_get_facet(map, f)[24]);
+    }
+    return most;
+}
+
+/// A plane that is turned a little has vertices above it, whichever plane it is.
+static void test_bulge(void) {
+    uint64_t s = 17;
+    ovoid_shape *shape = make_hull(&s, 9);
+    ovoid_plane *planes = (ovoid_plane *)((char *)shape + shape->at.planes);
+    for (uint32_t f = 0; f < shape->counts.facets; f++) {
+        ovoid_plane kept = planes[f];
+        planes[f].normal = vec3_unit(vec3_add(kept.normal, (ovoid_vec3){1e-3, 2e-3, -1e-3}));
+        shape_gauss_map_fill(shape);
+        const gauss_map *map = shape_get_gauss_map(shape);
+        CHECK(map != NULL);
+        if (map) CHECK_NEAR(map->bulge, find_rise(shape, map, f), 1e-14);
+        planes[f] = kept;
+    }
+    ovoid_shape_destroy(shape);
+}
+
 /// Normals that are no polyhedron's are refused: those that go around twice, where each cell is convex and its
-/// neighbors lie beside it; one that is another facet's; one that makes a dent in the cell of an apex.
+/// neighbors lie beside it; one that is another facet's; one that makes a dent in the cell of an apex. Of a little dent
+/// most of the cell's normals are on the right side of each arc.
 static void test_altered(void) {
     double prism[3 * 10], pyramid[3 * 7] = {0};
     for (int i = 0; i < 10; i++) {
@@ -345,8 +376,8 @@ static void test_altered(void) {
         pyramid[3 * i] = cos(angle), pyramid[3 * i + 1] = sin(angle), pyramid[3 * i + 2] = -0.5;
     }
     pyramid[20] = 1;
-    for (int how = TWICE_AROUND; how <= DENTED; how++) {
-        ovoid_shape *shape = how == DENTED ? ovoid_shape_create_from_points(pyramid, 7, NULL, NULL)
+    for (int how = TWICE_AROUND; how <= DENTED_LITTLE; how++) {
+        ovoid_shape *shape = how >= DENTED ? ovoid_shape_create_from_points(pyramid, 7, NULL, NULL)
                                            : ovoid_shape_create_from_points(prism, 10, NULL, NULL);
         CHECK(shape_get_gauss_map(shape) != NULL);
         alter(shape, (alteration)how);
@@ -381,6 +412,7 @@ int main(void) {
     test_stacks();
     test_maps();
     test_lists();
+    test_bulge();
     test_altered();
     test_scales();
     return check_end();
