@@ -210,23 +210,19 @@ int boxes_take_depth(search *s, ovoid_cover *cover) {
     if (!box_axes_find(&q, &axes)) return 0;
     uint32_t pair = find_nearest(&axes);
     double slack = axes.error[pair] + 2 * f->claim, depth = axes.height[pair] - slack;
-    double upper = -depth - f->upper_radii, lower = -axes.height[pair] - slack - f->lower_radii;
-    if (!(depth > 0 && upper < s->upper && upper - lower <= s->goal.tolerance)) return 0;
     // The direction from A to B along which Z is nearest behind the origin.
     int is_along = axes.along[pair] >= 0;
     vec3 n = {axes.n[0][pair], axes.n[1][pair], axes.n[2][pair]}, normal = is_along ? n : vec3_neg(n);
+    const search_depth found = {-axes.height[pair] - slack - f->lower_radii, -depth - f->upper_radii, normal,
+                                OVOID_STAGE_EPA};
+    if (!(depth > 0) || !search_needs_depth(s, &found)) return 0;
     evidence foot;
     if (!find_foot(f, &q, pair, find_face(&axes, pair, !is_along), vec3_scale(normal, -axes.height[pair]), &foot))
         return 0;
-    if (search_wants_cover(s, cover, upper) && !build_cover(f, &q, &axes, pair, depth, cover)) {
+    if (search_wants_cover(s, cover, found.upper) && !build_cover(f, &q, &axes, pair, depth, cover)) {
         cover_clear(cover);
         return 0;
     }
-    s->upper = upper;
-    s->lower = lower;
-    s->normal = normal;
-    s->stage = OVOID_STAGE_EPA;
-    s->kind = OVOID_PROOF_COVER;
-    s->witness = foot;
+    search_take_depth(s, &found, &foot);
     return 1;
 }

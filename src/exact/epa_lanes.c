@@ -118,17 +118,12 @@ static void show(const epa8 *lanes, ovoid_cover *cover) {
 int epa_lanes_take_depth(search *s, const epa8 *lanes, ovoid_cover *cover) {
     if (lanes->inward[0] | lanes->inward[1]) return 0;
     double depth = measure(s, lanes);
-    double upper = -depth - s->frame->upper_radii, lower = lanes->gap - s->frame->lower_radii - s->frame->claim;
+    const search_depth found = {lanes->gap - s->frame->lower_radii - s->frame->claim, -depth - s->frame->upper_radii,
+                                vec3_neg(get_normal(lanes, lanes->nearest)), OVOID_STAGE_EPA};
     evidence foot;
-    if (!(depth > 0 && upper < s->upper && upper - lower <= s->goal.tolerance)) return 0;
-    if (!find_witness(s, lanes, &foot)) return 0;
-    s->upper = upper;
-    s->lower = lower;
-    s->normal = vec3_neg(get_normal(lanes, lanes->nearest));
-    s->stage = OVOID_STAGE_EPA;
-    s->kind = OVOID_PROOF_COVER;
-    s->witness = foot;
-    if (search_wants_cover(s, cover, upper) || search_wants_start(s, cover)) show(lanes, cover);
+    if (!(depth > 0) || !search_needs_depth(s, &found) || !find_witness(s, lanes, &foot)) return 0;
+    search_take_depth(s, &found, &foot);
+    if (search_wants_cover(s, cover, found.upper) || search_wants_start(s, cover)) show(lanes, cover);
     return 1;
 }
 

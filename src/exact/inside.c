@@ -131,15 +131,12 @@ int inside_take_depth(search *s, ovoid_cover *cover) {
     difference_box d;
     nearest_face face;
     if (!make_difference(f, &d) || !find_nearest(&d, &face)) return 0;
-    double depth = face.height - (3 * f->claim + 64 * 0x1p-53 * f->size), upper = -depth - f->upper_radii;
-    double lower = frame_find_support(f, face.normal).gap - f->lower_radii - f->claim;
-    if (!(depth > 0 && upper < s->upper && upper - lower <= s->goal.tolerance)) return 0;
-    s->upper = upper;
-    s->lower = lower;
-    s->normal = face.normal;
-    s->stage = OVOID_STAGE_SUPPORT;
-    s->kind = OVOID_PROOF_COVER;
-    s->witness = find_foot(&d, &face);
-    if (search_wants_cover(s, cover, upper)) write_cover(&d, cover);
+    double depth = face.height - (3 * f->claim + 64 * 0x1p-53 * f->size);
+    const search_depth found = {frame_find_support(f, face.normal).gap - f->lower_radii - f->claim,
+                                -depth - f->upper_radii, face.normal, OVOID_STAGE_SUPPORT};
+    if (!(depth > 0) || !search_needs_depth(s, &found)) return 0;
+    const evidence foot = find_foot(&d, &face);
+    search_take_depth(s, &found, &foot);
+    if (search_wants_cover(s, cover, found.upper)) write_cover(&d, cover);
     return 1;
 }

@@ -53,6 +53,15 @@ evidence evidence_make(const simplex *points) {
     return e;
 }
 
+void search_take_depth(search *s, const search_depth *depth, const evidence *witness) {
+    s->upper = depth->upper;
+    s->lower = depth->lower;
+    s->normal = depth->normal;
+    s->stage = depth->stage;
+    s->kind = OVOID_PROOF_COVER;
+    s->witness = *witness;
+}
+
 int search_take_hull(search *s, const evidence *hull) {
     const pair_frame *f = s->frame;
     vec3 w[OVOID_PROOF_PAIRS];

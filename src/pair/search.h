@@ -107,6 +107,22 @@ void search_take_points(search *s, const simplex *points);
 /// so. Sets their weights; those given are not read.
 int search_take_hull(search *s, const evidence *hull);
 
+/// A depth that a surface around the origin shows, in the difference of the cores: the bounds, radii and allowances
+/// subtracted, and the normal of its nearest face, from A to B.
+typedef struct search_depth {
+    double lower, upper;
+    vec3 normal;
+    ovoid_stage stage;
+} search_depth;
+
+/// 1 if the bounds are narrow enough for the goal, and better than what is known.
+static inline int search_needs_depth(const search *s, const search_depth *depth) {
+    return depth->upper < s->upper && depth->upper - depth->lower <= s->goal.tolerance;
+}
+
+/// Takes the bounds of a depth that is needed. witness: the point of the surface that is nearest to the origin.
+void search_take_depth(search *s, const search_depth *depth, const evidence *witness);
+
 /// The simplex as evidence.
 evidence evidence_make(const simplex *points);
 

@@ -19,11 +19,9 @@ static uint64_t advance(uint64_t *at, uint64_t size) {
     return start;
 }
 
-static uint64_t padded(uint32_t count) { return ((uint64_t)count + 7) / 8 * 8; }
-
 block_offsets block_compute_offsets(block_counts c) {
     block_offsets o;
-    uint64_t at = (sizeof(ovoid_shape) + 63) / 64 * 64, lane = padded(c.vertices) * sizeof(double);
+    uint64_t at = (sizeof(ovoid_shape) + 63) / 64 * 64, lane = simd_get_padded(c.vertices) * sizeof(double);
     o.x = advance(&at, lane);
     o.y = advance(&at, lane);
     o.z = advance(&at, lane);
@@ -71,7 +69,7 @@ ovoid_shape *block_create(block_counts counts, const ovoid_allocator *given, ovo
     shape->counts = counts;
     shape->allocator = allocator;
     shape->vertex_count = counts.vertices;
-    shape->padded_count = (uint32_t)padded(counts.vertices);
+    shape->padded_count = (uint32_t)simd_get_padded(counts.vertices);
     return shape;
 }
 

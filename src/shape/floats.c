@@ -3,12 +3,13 @@
 #include "shape/floats.h"
 
 #include "linear/vec3.h"
+#include "simd/support.h"
 
 #include <math.h>
 
 uint64_t shape_floats_get_size(uint32_t vertex_count) {
-    uint32_t padded = (vertex_count + 7) / 8 * 8;
-    return vertex_count <= FLOAT_GJK_POINTS ? sizeof(float_shape) + 3 * (uint64_t)padded * sizeof(float) : 0;
+    uint64_t column = simd_get_padded(vertex_count) * sizeof(float);
+    return vertex_count <= FLOAT_GJK_POINTS ? sizeof(float_shape) + 3 * column : 0;
 }
 
 static float_shape *get_floats(ovoid_shape *s) { return (float_shape *)((char *)s + s->at.floats); }

@@ -23,7 +23,7 @@ enum { NO_ARC = GAUSS_ARCS };
 typedef struct maker {
     const ovoid_shape *shape;
     gauss_map *map;
-    double *column[4];
+    double *facets; ///< as gauss_get_facet has them
     uint8_t *list[4];
     uint8_t row[4][GAUSS_ARCS + 1]; // the lists
     uint8_t arc[2 * GAUSS_ARCS];    // of directed edges
@@ -44,17 +44,19 @@ static uint64_t get_row(uint64_t count) { return (count + GAUSS_ROW - 1) / GAUSS
 uint64_t gauss_map_get_size(const block_counts *c) {
     uint64_t arcs = c->neighbors / 2;
     if (c->vertices < 4 || c->vertices > GAUSS_POINTS || c->facets > GAUSS_FACETS || arcs > GAUSS_ARCS) return 0;
-    return sizeof(gauss_map) + 4 * gauss_get_padded(c->facets) * sizeof(double) + 4 * get_row(arcs);
+    return sizeof(gauss_map) + 4 * simd_get_padded(c->facets) * sizeof(double) + 4 * get_row(arcs);
 }
 
 static vec3 get_normal(const maker *m, uint32_t facet) {
-    return (vec3){m->column[0][facet], m->column[1][facet], m->column[2][facet]};
+    const double *x = gauss_get_facet(m->map, facet);
+    return (vec3){x[0], x[8], x[16]};
 }
+static double get_low(const maker *m, uint32_t facet) { return gauss_get_facet(m->map, facet)[24]; }
 
-static void set_columns(maker *m) {
+static void set_facets(maker *m) {
     const ovoid_shape *s = m->shape;
     const uint32_t *starts = shape_loop_starts(s), *vertices = shape_loop_vertices(s);
-    for (uint32_t f = 0; f < gauss_get_padded(m->map->facets); f++) {
+    for (uint32_t f = 0; f < simd_get_padded(m->map->facets); f++) {
         double low = INFINITY;
         vec3 n = {0, 0, 0};
         if (f < m->map->facets) {
@@ -62,8 +64,8 @@ static void set_columns(maker *m) {
             for (uint32_t i = starts[f]; i < starts[f + 1]; i++)
                 low = min2(low, vec3_dot(n, vec3_at(shape_vertices(s), vertices[i])));
         }
-        m->column[0][f] = n.x, m->column[1][f] = n.y, m->column[2][f] = n.z;
-        m->column[3][f] = low;
+        double *to = m->facets + gauss_get_place(f);
+        to[0] = n.x, to[8] = n.y, to[16] = n.z, to[24] = low;
     }
 }
 
@@ -100,7 +102,7 @@ static void set_bulge(maker *m) {
         const uint32_t which[3] = {f, f < last ? f + 1 : last, f + 1 < last ? f + 2 : last};
         const mat3 rows = {get_normal(m, which[0]), get_normal(m, which[1]), get_normal(m, which[2])};
         simd_extents reach = simd_find_extents(&points, &rows);
-        for (int k = 0; k < 3; k++) m->map->bulge = max2(m->map->bulge, reach.high[k] - m->column[3][which[k]]);
+        for (int k = 0; k < 3; k++) m->map->bulge = max2(m->map->bulge, reach.high[k] - get_low(m, which[k]));
     }
 }
 
@@ -213,11 +215,11 @@ void shape_gauss_map_fill(ovoid_shape *s) {
     if (s->rank < 3 || !(s->inside.least > 0)) return;
     map->facets = s->counts.facets;
     map->row = (uint32_t)get_row(s->counts.neighbors / 2);
+    m.facets = (double *)(map + 1);
     for (uint32_t k = 0; k < 4; k++) {
-        m.column[k] = (double *)(map + 1) + k * gauss_get_padded(map->facets);
-        m.list[k] = (uint8_t *)((double *)(map + 1) + 4 * (size_t)gauss_get_padded(map->facets)) + (size_t)k * map->row;
+        m.list[k] = (uint8_t *)((double *)(map + 1) + 4 * simd_get_padded(map->facets)) + (size_t)k * map->row;
     }
-    set_columns(&m);
+    set_facets(&m);
     set_lists(&m);
     set_bulge(&m);
     visit_vertices(&m);

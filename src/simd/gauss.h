@@ -22,7 +22,7 @@ enum {
     GAUSS_WIDE = 7
 };
 
-/// A polyhedron's Gauss map, in its body frame; its columns and lists follow it in memory.
+/// A polyhedron's Gauss map, in its body frame; its facets and lists follow it in memory.
 typedef struct gauss_map {
     uint32_t facets, arcs;    ///< 0: none
     uint32_t row;             ///< bytes of a list
@@ -31,16 +31,18 @@ typedef struct gauss_map {
     uint8_t wide[GAUSS_WIDE]; ///< vertices far apart
 } gauss_map;
 
-static inline uint32_t gauss_get_padded(uint32_t facets) { return (facets + 7) / 8 * 8; }
+/// Where a facet's first number is. Groups of 8 facets follow one another, each as four short columns, so that a pass
+/// reads one stream.
+static inline uint32_t gauss_get_place(uint32_t facet) { return facet / 8 * 32 + facet % 8; }
 
-/// Four columns: x, y, z of the facets' unit normals, and the least n.v of each facet's corners v. Padded to a multiple
-/// of 8 by facets at zero normals and infinity.
-static inline const double *gauss_get_column(const gauss_map *map, uint32_t k) {
-    return (const double *)(map + 1) + k * gauss_get_padded(map->facets);
+/// x, y, z of a facet's unit normal, and the least n.v of the facet's corners v, each 8 numbers behind the last one.
+/// Padded to a multiple of 8 by facets of zero normals at infinity.
+static inline const double *gauss_get_facet(const gauss_map *map, uint32_t facet) {
+    return (const double *)(map + 1) + gauss_get_place(facet);
 }
 /// Four lists of an arc's two facets, and of the two vertices of its edge, readable to a multiple of GAUSS_ROW.
 static inline const uint8_t *gauss_get_list(const gauss_map *map, uint32_t k) {
-    return (const uint8_t *)gauss_get_column(map, 4) + (size_t)k * map->row;
+    return (const uint8_t *)((const double *)(map + 1) + 4 * simd_get_padded(map->facets)) + (size_t)k * map->row;
 }
 
 /// A body: its map and vertices, and an ellipsoid and a ball inside it, all in its body frame.

@@ -7,6 +7,9 @@
 
 #include <stdint.h>
 
+/// The entries of a column that the kernels read: a multiple of 8.
+static inline uint64_t simd_get_padded(uint32_t count) { return ((uint64_t)count + 7) / 8 * 8; }
+
 /// Points as structure of arrays: padded_count (a multiple of 8, not 0) finite entries; padding repeats point 0.
 typedef struct simd_points {
     const double *x, *y, *z;

@@ -34,6 +34,7 @@
 // m2|), and 1.6 times that along the sphere.
 #include "exact/gauss/gauss.h"
 
+#include "base/compiler.h"
 #include "exact/epa.h"
 #include "exact/epa_lanes.h"
 #include "shape/gauss_map.h"
@@ -199,11 +200,17 @@ static int find_witness(const foot_search *of, const gauss_plane *plane, const f
 // origin.
 enum { TOUCHING = 4096 };
 
+// The map of the second body, while the kernel reads the first one's.
+static void prefetch_map(const ovoid_shape *s) {
+    for (uint64_t at = s->at.gauss; at < s->at.vertices; at += 64) compiler_prefetch((const char *)s + at);
+}
+
 static int take_depth(search *s) {
     const pair_frame *f = s->frame;
     gauss_query q;
     gauss_plane plane;
     if (f->is_true || !is_for_here(f)) return 0;
+    prefetch_map(f->b);
     double doubt = compute_doubt(f, f->a) + compute_doubt(f, f->b) + 2 * f->claim;
     make_side(f->a, &q.a);
     make_side(f->b, &q.b);
@@ -214,17 +221,13 @@ static int take_depth(search *s) {
     if (!gauss_find_plane(&q, &plane)) return 0;
     vec3 n = vec3_unit(plane.n), u = vec3_orthogonal(n);
     frame_support support = frame_find_support(f, vec3_neg(n));
-    double upper = doubt - plane.height - f->upper_radii, lower = support.gap - f->lower_radii - f->claim;
-    if (!(upper < s->upper && upper - lower <= s->goal.tolerance)) return 0;
+    const search_depth found = {support.gap - f->lower_radii - f->claim, doubt - plane.height - f->upper_radii,
+                                vec3_neg(n), OVOID_STAGE_EPA};
+    if (!search_needs_depth(s, &found)) return 0;
     evidence foot;
     const foot_search of = {s, n, u, vec3_cross(n, u), 2 * f->claim, &foot};
     if (!find_witness(&of, &plane, &support)) return 0;
-    s->upper = upper;
-    s->lower = lower;
-    s->normal = vec3_neg(n);
-    s->stage = OVOID_STAGE_EPA;
-    s->kind = OVOID_PROOF_COVER;
-    s->witness = foot;
+    search_take_depth(s, &found, &foot);
     return 1;
 }
 

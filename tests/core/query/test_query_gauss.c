@@ -219,6 +219,15 @@ static void test_random(void) {
     for (int kind = 0; kind < 3; kind++) CHECK(kinds[kind] > 100);
 }
 
+/// A tolerance that is less than the width of a depth by planes, which is above 1e-12, is met all the same. The sizes
+/// of two such hulls and the way between them are below 6 together.
+static void check_narrow(const ovoid_pair *p) {
+    const ovoid_options narrow = {.relative_tolerance = 1e-13};
+    ovoid_answer x = ovoid_depth(p, &narrow, NULL, NULL);
+    CHECK(x.limit == OVOID_LIMIT_NONE);
+    CHECK_LE(x.upper - x.lower, 6e-13);
+}
+
 /// Hulls of general position are never left to EPA.
 static void test_general(void) {
     uint64_t s = 7;
@@ -227,6 +236,7 @@ static void test_general(void) {
         ovoid_shape *a = make_hull(&s, 4 + (uint32_t)(i % 29)), *b = make_hull(&s, 4 + (uint32_t)(i / 10 % 29));
         ovoid_pair p = {a, b, {{0, 0, 0}, random_quat(&s)}, {random_vec3(&s, 0.4), random_quat(&s)}};
         check_pair(&p);
+        check_narrow(&p);
         ovoid_shape_destroy(a);
         ovoid_shape_destroy(b);
     }
@@ -285,9 +295,9 @@ static void test_lists(void) {
                     uint32_t f = gauss_get_list(map, end)[arc];
                     for (uint32_t k = 2; k < 4; k++) {
                         const double *v = shape_vertices(shape) + 3 * (size_t)gauss_get_list(map, k)[arc];
-                        double along = gauss_get_column(map, 0)[f] * v[0] + gauss_get_column(map, 1)[f] * v[1] +
-                                       gauss_get_column(map, 2)[f] * v[2];
-                        CHECK_NEAR(along, gauss_get_column(map, 3)[f], 1e-12);
+                        double along = gauss_get_facet(map, f)[0] * v[0] + gauss_get_facet(map, f)[8] * v[1] +
+                                       gauss_get_facet(map, f)[16] * v[2];
+                        CHECK_NEAR(along, gauss_get_facet(map, f)[24], 1e-12);
                     }
                 }
             CHECK(map->bulge >= 0 && map->bulge < 1e-12);
@@ -327,9 +337,9 @@ static double find_rise(const ovoid_shape *shape, const gauss_map *map, uint32_t
     double most = -INFINITY;
     for (uint32_t v = 0; v < shape->vertex_count; v++) {
         const double *x = shape_vertices(shape) + 3 * (size_t)v;
-        double along = gauss_get_column(map, 0)[f] * x[0] + gauss_get_column(map, 1)[f] * x[1] +
-                       gauss_get_column(map, 2)[f] * x[2];
-        most = fmax(most, along - gauss_get_column(map, 3)[f]);
+        double along =
+            gauss_get_facet(map, f)[0] * x[0] + gauss_get_facet(map, f)[8] * x[1] + gauss_get_facet(map, f)[16] * x[2];
+        most = fmax(most, along - gauss_get_facet(map, f)[24]);
     }
     return most;
 }

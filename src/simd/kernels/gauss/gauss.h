@@ -24,6 +24,8 @@
 /// distance between them (exact/gauss).
 #define GAUSS_SHARP 0x1p-40
 #define GAUSS_BLUR 10
+/// Arcs that a column has room for.
+enum { GAUSS_ROOM = GAUSS_ARCS + 8 };
 
 // A body in the frame, and what is known of its facets.
 typedef struct gauss_body {
@@ -47,13 +49,14 @@ LANES_INLINE void gauss_mirror(const gauss_side *from, gauss_body *to) {
     const double *given[3] = {p->x, p->y, p->z};
     to->map = from->map;
     to->points = p->padded_count;
-    to->facets = gauss_get_padded(from->map->facets);
-    for (int k = 0; k < 3; k++) {
-        const double *normals = gauss_get_column(from->map, (uint32_t)k);
+    to->facets = (uint32_t)simd_get_padded(from->map->facets);
+    for (int k = 0; k < 3; k++)
         for (uint32_t i = 0; i < to->points; i += LANES) lane_store(to->x[k] + i, -lane_load(given[k] + i));
-        for (uint32_t i = 0; i < to->facets; i += LANES) lane_store(to->n[k] + i, -lane_load(normals + i));
+    for (uint32_t i = 0; i < to->facets; i += LANES) {
+        const double *facet = gauss_get_facet(from->map, i);
+        for (int k = 0; k < 3; k++) lane_store(to->n[k] + i, -lane_load(facet + 8 * k));
+        lane_store(to->low + i, lane_load(facet + 24));
     }
-    memcpy(to->low, gauss_get_column(from->map, 3), to->facets * sizeof *to->low);
     to->center = vec3_neg(from->center);
     memcpy(to->q, from->q, sizeof to->q);
     to->ball = from->ball;
@@ -76,13 +79,11 @@ GAUSS_PART void gauss_turn_ellipsoid(const mat3 *r, const double q[6], double to
 
 LANES_INLINE void gauss_pose(const gauss_side *from, const gauss_query *q, gauss_body *to) {
     const simd_points *p = &from->points;
-    const double *n[4];
     const lane3 rows[3] = {gauss_spread(q->rotation.r0), gauss_spread(q->rotation.r1), gauss_spread(q->rotation.r2)};
     const lane3 t = gauss_spread(q->translation);
-    for (uint32_t k = 0; k < 4; k++) n[k] = gauss_get_column(from->map, k);
     to->map = from->map;
     to->points = p->padded_count;
-    to->facets = gauss_get_padded(from->map->facets);
+    to->facets = (uint32_t)simd_get_padded(from->map->facets);
     for (uint32_t i = 0; i < to->points; i += LANES) {
         lane3 v = lane3_add(gauss_turn(rows, gauss_load(p->x, p->y, p->z, i)), t);
         lane_store(to->x[0] + i, v.x);
@@ -90,11 +91,12 @@ LANES_INLINE void gauss_pose(const gauss_side *from, const gauss_query *q, gauss
         lane_store(to->x[2] + i, v.z);
     }
     for (uint32_t i = 0; i < to->facets; i += LANES) {
-        lane3 v = gauss_turn(rows, gauss_load(n[0], n[1], n[2], i));
+        const double *given = gauss_get_facet(from->map, i);
+        lane3 v = gauss_turn(rows, gauss_load(given, given + 8, given + 16, 0));
         lane_store(to->n[0] + i, v.x);
         lane_store(to->n[1] + i, v.y);
         lane_store(to->n[2] + i, v.z);
-        lane_store(to->low + i, lane_load(n[3] + i) + lane3_dot(v, t));
+        lane_store(to->low + i, lane_load(given + 24) + lane3_dot(v, t));
     }
     to->center = vec3_add(mat3_mul_vec3(q->rotation, from->center), q->translation);
     gauss_turn_ellipsoid(&q->rotation, from->q, to->q);
@@ -103,6 +105,14 @@ LANES_INLINE void gauss_pose(const gauss_side *from, const gauss_query *q, gauss
 }
 
 // ---- heights along the normals of facets
+
+// The facets, as bits, whose bounds are not above a height.
+LANES_INLINE uint64_t gauss_find_low(const gauss_body *of, double height) {
+    uint64_t low = 0;
+    for (uint32_t i = 0; i < of->facets; i += LANES)
+        low |= (uint64_t)lane_bits(lane_at_least(lane_set(height), lane_load(of->bound + i))) << i;
+    return low;
+}
 
 // Lower bounds by the other body's ellipsoid. Returns the facet of the least one; of several the first.
 GAUSS_PART uint32_t gauss_bound_facets(gauss_body *of, const gauss_body *by) {
@@ -118,16 +128,16 @@ GAUSS_PART uint32_t gauss_bound_facets(gauss_body *of, const gauss_body *by) {
         lane_store(of->bound + i, bound);
         least = lane_min(bound, least);
     }
-    least = -lane_find_max(-least);
-    for (uint32_t i = 0; i < of->facets; i += LANES) {
-        unsigned found = lane_bits(lane_at_least(least, lane_load(of->bound + i)));
-        if (found) return i + (uint32_t)__builtin_ctz(found);
-    }
-    return 0;
+    uint64_t low = gauss_find_low(of, lane_first(-lane_find_max(-least)));
+    return low ? (uint32_t)__builtin_ctzll(low) : 0;
+}
+
+LANES_INLINE vec3 gauss_get_normal(const gauss_body *of, uint32_t facet) {
+    return (vec3){of->n[0][facet], of->n[1][facet], of->n[2][facet]};
 }
 
 GAUSS_PART double gauss_measure_facet(const gauss_body *of, const gauss_body *by, uint32_t facet) {
-    lane3 n = {lane_set(of->n[0][facet]), lane_set(of->n[1][facet]), lane_set(of->n[2][facet])};
+    lane3 n = gauss_spread(gauss_get_normal(of, facet));
     lane most = lane_set(-INFINITY);
     for (uint32_t i = 0; i < by->points; i += LANES)
         most = lane_top(lane3_dot(gauss_load(by->x[0], by->x[1], by->x[2], i), n), most);
@@ -150,10 +160,7 @@ LANES_INLINE void gauss_try_facet(const gauss_body *of, const gauss_body *by, ui
 // Measures the facets that the ellipsoid leaves open, but for one that was.
 GAUSS_PART void gauss_try_facets(const gauss_body *of, const gauss_body *by, uint32_t tried, gauss_kind kind,
                                  gauss_least *least) {
-    uint64_t open = 0;
-    for (uint32_t i = 0; i < of->facets; i += LANES)
-        open |= (uint64_t)lane_bits(lane_greater(lane_set(least->height), lane_load(of->bound + i))) << i;
-    for (open &= ~(1ull << tried); open; open &= open - 1)
+    for (uint64_t open = gauss_find_low(of, least->height) & ~(1ull << tried); open; open &= open - 1)
         gauss_try_facet(of, by, (uint32_t)__builtin_ctzll(open), kind, least);
 }
 
@@ -163,16 +170,17 @@ GAUSS_PART void gauss_try_facets(const gauss_body *of, const gauss_body *by, uin
 // points, and the last one its ball, of which no more is taken than keeps the centre's own value positive.
 LANES_INLINE void gauss_find_witnesses(const gauss_body *of, const gauss_body *by, double height,
                                        uint8_t found[GAUSS_FACETS]) {
-    _Alignas(64) double x[3][8], radius[8] = {0};
+    static const double is_ball[8] = {0, 0, 0, 0, 0, 0, 0, 1};
+    _Alignas(64) double x[3][8];
+    double radius = by->ball < height ? by->ball : height;
     for (uint32_t i = 0; i < GAUSS_WIDE; i++)
         for (int k = 0; k < 3; k++) x[k][i] = by->x[k][by->map->wide[i]];
     x[0][7] = by->center.x, x[1][7] = by->center.y, x[2][7] = by->center.z;
-    radius[7] = by->ball < height ? by->ball : height;
     lane3 p[8 / LANES];
     lane beyond[8 / LANES];
     for (uint32_t i = 0; i < 8 / LANES; i++) {
         p[i] = gauss_load(x[0], x[1], x[2], LANES * i);
-        beyond[i] = lane_set(height) - lane_load(radius + LANES * i);
+        beyond[i] = lane_set(height) - lane_set(radius) * lane_load(is_ball + LANES * i);
     }
     for (uint32_t f = 0; f < of->facets; f++) {
         lane3 n = {lane_set(of->n[0][f]), lane_set(of->n[1][f]), lane_set(of->n[2][f])};
@@ -220,16 +228,18 @@ LANES_INLINE uint32_t gauss_find_open(const uint8_t table[GAUSS_FACETS], const u
 typedef struct gauss_arcs {
     uint32_t count;
     uint8_t arc[GAUSS_ARCS];
-    _Alignas(64) double from[3][GAUSS_ARCS], to[3][GAUSS_ARCS], cross[3][GAUSS_ARCS], x[3][GAUSS_ARCS];
+    /// Readable in groups of lanes: numbers behind the last arc are zero.
+    _Alignas(64) double from[3][GAUSS_ROOM], to[3][GAUSS_ROOM], cross[3][GAUSS_ROOM], x[3][GAUSS_ROOM];
 } gauss_arcs;
 
-// Where the columns come from.
-typedef struct gauss_places {
-    uint32_t from[GAUSS_ARCS], to[GAUSS_ARCS], vertex[GAUSS_ARCS];
-} gauss_places;
+LANES_INLINE void gauss_store(double to[3][GAUSS_ROOM], uint32_t i, lane3 v) {
+    lane_store(to[0] + i, v.x);
+    lane_store(to[1] + i, v.y);
+    lane_store(to[2] + i, v.z);
+}
 
-LANES_INLINE void gauss_list_arcs(const gauss_body *of, const uint8_t witnesses[GAUSS_FACETS], gauss_arcs *to,
-                                  gauss_places *places) {
+// Number by number, which costs less than to gather the lanes of a column, as it is stored again.
+LANES_INLINE void gauss_list_arcs(const gauss_body *of, const uint8_t witnesses[GAUSS_FACETS], gauss_arcs *to) {
     const gauss_map *map = of->map;
     const uint8_t *from = gauss_get_list(map, 0), *end = gauss_get_list(map, 1), *vertex = gauss_get_list(map, 2);
     uint32_t count = 0;
@@ -239,37 +249,33 @@ LANES_INLINE void gauss_list_arcs(const gauss_body *of, const uint8_t witnesses[
         for (; open; open &= open - 1, count++) {
             uint32_t arc = row + (uint32_t)__builtin_ctz(open);
             to->arc[count] = (uint8_t)arc;
-            places->from[count] = from[arc];
-            places->to[count] = end[arc];
-            places->vertex[count] = vertex[arc];
+            for (int k = 0; k < 3; k++) {
+                to->from[k][count] = of->n[k][from[arc]];
+                to->to[k][count] = of->n[k][end[arc]];
+                to->x[k][count] = of->x[k][vertex[arc]];
+            }
         }
     }
     to->count = count;
-    for (; count % LANES; count++) places->from[count] = places->to[count] = places->vertex[count] = 0;
+    const lane zero = lane_set(0);
+    gauss_store(to->from, count, (lane3){zero, zero, zero});
+    gauss_store(to->to, count, (lane3){zero, zero, zero});
+    gauss_store(to->x, count, (lane3){zero, zero, zero});
 }
 
-LANES_INLINE void gauss_store(double to[3][GAUSS_ARCS], uint32_t i, lane3 v) {
-    lane_store(to[0] + i, v.x);
-    lane_store(to[1] + i, v.y);
-    lane_store(to[2] + i, v.z);
+// Done when the columns of both bodies are written, so that they are not read before they are in memory.
+LANES_INLINE void gauss_cross_ends(gauss_arcs *of) {
+    for (uint32_t i = 0; i < of->count; i += LANES) {
+        lane3 u = gauss_load(of->from[0], of->from[1], of->from[2], i),
+              v = gauss_load(of->to[0], of->to[1], of->to[2], i);
+        gauss_store(of->cross, i, lane3_cross(u, v));
+    }
 }
 
 GAUSS_PART void gauss_find_arcs(const gauss_body *of, const gauss_body *by, double height, gauss_arcs *to) {
     _Alignas(64) uint8_t witnesses[GAUSS_FACETS];
-    gauss_places places;
     gauss_find_witnesses(of, by, height, witnesses);
-    gauss_list_arcs(of, witnesses, to, &places);
-    for (uint32_t i = 0; i < to->count; i += LANES) {
-        const uint32_t *from = places.from + i, *end = places.to + i, *vertex = places.vertex + i;
-        lane3 u = {lane_gather(of->n[0], from), lane_gather(of->n[1], from), lane_gather(of->n[2], from)};
-        lane3 v = {lane_gather(of->n[0], end), lane_gather(of->n[1], end), lane_gather(of->n[2], end)};
-        gauss_store(to->from, i, u);
-        gauss_store(to->to, i, v);
-        gauss_store(to->cross, i, (lane3){u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x});
-        gauss_store(
-            to->x, i,
-            (lane3){lane_gather(of->x[0], vertex), lane_gather(of->x[1], vertex), lane_gather(of->x[2], vertex)});
-    }
+    gauss_list_arcs(of, witnesses, to);
 }
 
 // ---- crossings
@@ -279,8 +285,8 @@ typedef struct gauss_arc {
     lane3 from, to, cross, x;
 } gauss_arc;
 
-LANES_INLINE lane3 gauss_spread_column(const double (*x)[GAUSS_ARCS], uint32_t i) {
-    return (lane3){lane_set(x[0][i]), lane_set(x[1][i]), lane_set(x[2][i])};
+LANES_INLINE lane3 gauss_spread_column(const double (*x)[GAUSS_ROOM], uint32_t i) {
+    return gauss_spread((vec3){x[0][i], x[1][i], x[2][i]});
 }
 
 // The triple products of an arc with the ends of others, and of theirs with its ends.
@@ -393,14 +399,12 @@ LANES_INLINE int run_gauss(const gauss_query *q, gauss_plane *out) {
     gauss_try_facets(&second, &first, of_second, GAUSS_FACET_B, &least);
     if (!(least.height > q->claim)) return 0;
     const gauss_body *of = least.kind == GAUSS_FACET_A ? &first : &second;
-    *out = (gauss_plane){least.height,
-                         {of->n[0][least.facet], of->n[1][least.facet], of->n[2][least.facet]},
-                         least.kind,
-                         least.facet,
-                         least.facet};
+    *out = (gauss_plane){least.height, gauss_get_normal(of, least.facet), least.kind, least.facet, least.facet};
     gauss_arcs arcs, others;
     gauss_find_arcs(&first, &second, least.height, &arcs);
     gauss_find_arcs(&second, &first, least.height, &others);
+    gauss_cross_ends(&arcs);
+    gauss_cross_ends(&others);
     gauss_try_crossings(q, &arcs, &others, out);
     return out->height > q->claim;
 }
