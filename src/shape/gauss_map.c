@@ -47,12 +47,6 @@ uint64_t gauss_map_get_size(const block_counts *c) {
     return sizeof(gauss_map) + 4 * simd_get_padded(c->facets) * sizeof(double) + 4 * get_row(arcs);
 }
 
-static vec3 get_normal(const maker *m, uint32_t facet) {
-    const double *x = gauss_get_facet(m->map, facet);
-    return (vec3){x[0], x[8], x[16]};
-}
-static double get_low(const maker *m, uint32_t facet) { return gauss_get_facet(m->map, facet)[24]; }
-
 static void set_facets(maker *m) {
     const ovoid_shape *s = m->shape;
     const uint32_t *starts = shape_loop_starts(s), *vertices = shape_loop_vertices(s);
@@ -91,7 +85,8 @@ static void set_lists(maker *m) {
     m->map->arcs = arc;
     for (uint32_t k = 0; k < 4; k++) memcpy(m->list[k], m->row[k], arc);
     for (uint32_t i = 0; i < arc; i++)
-        m->cross[i] = vec3_cross(get_normal(m, m->row[0][i]), get_normal(m, m->row[1][i]));
+        m->cross[i] =
+            vec3_cross(gauss_map_get_normal(m->map, m->row[0][i]), gauss_map_get_normal(m->map, m->row[1][i]));
 }
 
 // How far vertices are above planes, three planes at a time.
@@ -100,9 +95,13 @@ static void set_bulge(maker *m) {
     uint32_t last = m->map->facets - 1;
     for (uint32_t f = 0; f <= last; f += 3) {
         const uint32_t which[3] = {f, f < last ? f + 1 : last, f + 1 < last ? f + 2 : last};
-        const mat3 rows = {get_normal(m, which[0]), get_normal(m, which[1]), get_normal(m, which[2])};
+        const mat3 rows = {gauss_map_get_normal(m->map, which[0]), gauss_map_get_normal(m->map, which[1]),
+                           gauss_map_get_normal(m->map, which[2])};
         simd_extents reach = simd_find_extents(&points, &rows);
-        for (int k = 0; k < 3; k++) m->map->bulge = max2(m->map->bulge, reach.high[k] - get_low(m, which[k]));
+        for (int k = 0; k < 3; k++) {
+            double low = gauss_map_get_low(m->map, which[k]);
+            m->map->bulge = max2(m->map->bulge, reach.high[k] - low);
+        }
     }
 }
 
@@ -111,7 +110,7 @@ static void take_ring(const maker *m, uint32_t vertex, ring *r) {
     vec3 sum = {0, 0, 0};
     uint32_t count = 0;
     for (uint32_t i = starts[vertex]; i < starts[vertex + 1]; i++) {
-        vec3 n = get_normal(m, facets[i]);
+        vec3 n = gauss_map_get_normal(m->map, facets[i]);
         sum = vec3_add(sum, n);
         if (m->arc[i] == NO_ARC) continue;
         r->x[count] = n.x, r->y[count] = n.y, r->z[count] = n.z;

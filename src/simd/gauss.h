@@ -40,6 +40,12 @@ static inline uint32_t gauss_get_place(uint32_t facet) { return facet / 8 * 32 +
 static inline const double *gauss_get_facet(const gauss_map *map, uint32_t facet) {
     return (const double *)(map + 1) + gauss_get_place(facet);
 }
+/// A facet's normal, and the least n.v.
+static inline vec3 gauss_map_get_normal(const gauss_map *map, uint32_t facet) {
+    const double *x = gauss_get_facet(map, facet);
+    return (vec3){x[0], x[8], x[16]};
+}
+static inline double gauss_map_get_low(const gauss_map *map, uint32_t facet) { return gauss_get_facet(map, facet)[24]; }
 /// Four lists of an arc's two facets, and of the two vertices of its edge, readable to a multiple of GAUSS_ROW.
 static inline const uint8_t *gauss_get_list(const gauss_map *map, uint32_t k) {
     return (const uint8_t *)((const double *)(map + 1) + 4 * simd_get_padded(map->facets)) + (size_t)k * map->row;

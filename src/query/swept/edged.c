@@ -39,9 +39,7 @@ typedef struct hull_face {
 } hull_face;
 
 static double measure_facet(const gauss_map *map, uint32_t f, vec3 y) {
-    const double *x = gauss_get_column(map, 0);
-    const size_t next = gauss_get_padded(map->facets);
-    return x[f] * y.x + x[next + f] * y.y + x[2 * next + f] * y.z - (x[3 * next + f] + map->bulge);
+    return vec3_dot(gauss_map_get_normal(map, f), y) - (gauss_map_get_low(map, f) + map->bulge);
 }
 
 // Is a point, from the centre of the hull's core, beyond a facet?

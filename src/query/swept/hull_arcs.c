@@ -79,15 +79,17 @@ static void take_vertices(hull_search *q, uint32_t count) {
 
 // Is an arc shown by the round body's points at its ends?
 static inline int is_short(const hull_map *h, uint32_t f, uint32_t g, double wanted) {
-    return h->low[g] + vec3_dot(hull_map_get_point(h, f), hull_map_get_normal(h, g)) >= wanted ||
-           h->low[f] + vec3_dot(hull_map_get_point(h, g), hull_map_get_normal(h, f)) >= wanted;
+    return hull_map_get_low(h, g) + vec3_dot(hull_map_get_point(h, f), hull_map_get_normal(h, g)) >= wanted ||
+           hull_map_get_low(h, f) + vec3_dot(hull_map_get_point(h, g), hull_map_get_normal(h, f)) >= wanted;
 }
 
 // Is it by the one in its middle?
 static int is_short_by_middle(const hull_search *q, uint32_t f, uint32_t g) {
     const vec3 m = hull_map_get_normal(&q->hull, f), n = hull_map_get_normal(&q->hull, g),
                at = find_point(&q->of, vec3_add(m, n));
-    return min2(q->hull.low[f] + vec3_dot(at, m), q->hull.low[g] + vec3_dot(at, n)) >= q->of.low;
+    const double first = hull_map_get_low(&q->hull, f) + vec3_dot(at, m),
+                 second = hull_map_get_low(&q->hull, g) + vec3_dot(at, n);
+    return min2(first, second) >= q->of.low;
 }
 
 // The unit vectors of the plane in which an arc is, the first one its first end.

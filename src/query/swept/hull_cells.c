@@ -68,7 +68,7 @@ static double measure_inside(const hull_map *h, uint32_t facet, vec3 y) {
         const uint32_t f = h->list[0][arc], g = h->list[1][arc];
         if (f != facet && g != facet) continue;
         const vec3 m = hull_map_get_normal(h, f == facet ? g : f);
-        const double height = h->low[f == facet ? g : f] - vec3_dot(m, y);
+        const double height = hull_map_get_low(h, f == facet ? g : f) - vec3_dot(m, y);
         least = min2(least, height / vec3_norm(vec3_cross(m, n)));
     }
     return least;
@@ -115,7 +115,7 @@ static void make_cells(const hull_cells *c, double wanted, hull_cell *cells) {
         for (int k = 0; k < 2; k++) {
             const uint32_t f = h->list[k][arc];
             hull_cell *to = &cells[h->list[2 + k][arc]];
-            to->is_open |= !(h->low[f] + vec3_dot(to->point, hull_map_get_normal(h, f)) >= wanted);
+            to->is_open |= !(hull_map_get_low(h, f) + vec3_dot(to->point, hull_map_get_normal(h, f)) >= wanted);
         }
     for (uint32_t arc = 0; arc < h->map->arcs; arc++)
         for (int k = 2; k < 4; k++) {

@@ -15,7 +15,6 @@ typedef struct hull_map {
     int is_b; ///< of the two cores
     const gauss_map *map;
     simd_points points;
-    const double *normal[3], *low; ///< the map's columns
     const uint8_t *list[4];
     double x[GAUSS_FACETS], y[GAUSS_FACETS], z[GAUSS_FACETS]; ///< the points
     double least;                                             ///< of the heights of the difference along the normals
@@ -33,14 +32,11 @@ static inline void hull_map_set(const cores *p, hull_map *to) {
     to->of = to->is_b ? p->b : p->a;
     to->map = shape_get_gauss_map(to->of->shape);
     to->points = shape_get_points(to->of->shape);
-    to->low = gauss_get_column(to->map, 3);
-    for (uint32_t k = 0; k < 3; k++) to->normal[k] = gauss_get_column(to->map, k);
     for (uint32_t k = 0; k < 4; k++) to->list[k] = gauss_get_list(to->map, k);
 }
 
-static inline vec3 hull_map_get_normal(const hull_map *h, uint32_t f) {
-    return (vec3){h->normal[0][f], h->normal[1][f], h->normal[2][f]};
-}
+static inline vec3 hull_map_get_normal(const hull_map *h, uint32_t f) { return gauss_map_get_normal(h->map, f); }
+static inline double hull_map_get_low(const hull_map *h, uint32_t f) { return gauss_map_get_low(h->map, f); }
 static inline vec3 hull_map_get_point(const hull_map *h, uint32_t f) { return (vec3){h->x[f], h->y[f], h->z[f]}; }
 static inline vec3 hull_map_get_vertex(const hull_map *h, uint32_t i) {
     return (vec3){h->points.x[i], h->points.y[i], h->points.z[i]};
@@ -48,7 +44,7 @@ static inline vec3 hull_map_get_vertex(const hull_map *h, uint32_t i) {
 
 /// Takes the other core's point along a facet's normal, reversed and from the hull's frame.
 static inline void hull_map_take_point(hull_map *h, uint32_t f, vec3 at) {
-    const double height = h->low[f] + vec3_dot(at, hull_map_get_normal(h, f));
+    const double height = hull_map_get_low(h, f) + vec3_dot(at, hull_map_get_normal(h, f));
     h->x[f] = at.x, h->y[f] = at.y, h->z[f] = at.z;
     h->least_facet = height < h->least ? f : h->least_facet;
     h->least = min2(height, h->least);
