@@ -7,7 +7,7 @@ options=--check
 # shellcheck source=scripts/help.sh
 . "$(dirname "$0")/help.sh"
 cd "$(dirname "$0")/.."
-jobs=${JOBS:-2} most=375000
+jobs=${JOBS:-2} most=377000
 out=build/wasm
 
 for tool in clang wasm-ld wasm-opt zopfli node; do
@@ -25,7 +25,7 @@ rm -rf $out/package
 mkdir -p $out/package
 cp web/package/* LICENSE $out/package/
 # Binaryen's passes keep every answer's bits: it reorders no operation on floats.
-wasm-opt -Oz --enable-simd --enable-bulk-memory --enable-sign-ext --enable-mutable-globals --enable-nontrapping-float-to-int \
+wasm-opt -Oz -Oz --enable-simd --enable-bulk-memory --enable-sign-ext --enable-mutable-globals --enable-nontrapping-float-to-int \
     $out/cmake/web/ovoid.wasm -o $out/package/ovoid.wasm
 version=$(sed -n 's/^ *"version": "\(.*\)",$/\1/p' web/package/package.json)
 [ "$version" = "$(build/release/ovoid --version | sed 's/^ovoid //;q')" ] || { echo "wasm: package.json says $version, the tool another version" >&2 && exit 1; }

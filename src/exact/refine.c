@@ -12,8 +12,8 @@
 // about ten, and never more than STEPS.
 #include "exact/refine.h"
 
-#include "pair/common_point.h"
 #include "pair/fine.h"
+#include "pair/hull_weights.h"
 #include "pair/proof.h"
 
 enum { STEPS = 128 };
@@ -93,7 +93,7 @@ static void take_hull(refinement *r, const fine_point *p, int count) {
     }
     double upper = fine_measure_hull(&r->f, w, count, r->f.claim);
     if (!(upper < 0) || !(upper < s->upper)) return;
-    common_set_weights(w, count, hull.weight);
+    hull_set_weights(w, count, hull.weight);
     s->upper = upper;
     s->kind = OVOID_PROOF_HULL;
     s->stage = OVOID_STAGE_REFINE;

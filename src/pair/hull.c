@@ -2,8 +2,8 @@
 #include "pair/hull.h"
 
 #include "linear/both.h"
-#include "pair/common_point.h"
 #include "pair/cover.h"
+#include "pair/hull_weights.h"
 
 static const uint16_t tetrahedron[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
 
@@ -96,7 +96,7 @@ double hull_find_weights(const vec3 *w, int count, double error, double *weight)
     double depth = count == 4 ? tetrahedron_depth(w, error, weight) : 0;
     int has_weights = depth > 0;
     if (depth == 0) depth = hull_compute_clearance(w, count, error);
-    if (depth > 0 && !(has_weights && common_measure(w, 4, weight) <= error))
-        common_set_weights_of_doubles(w, count, weight);
+    if (depth > 0 && !(has_weights && hull_measure_weights(w, 4, weight) <= error))
+        hull_set_weights_of_doubles(w, count, weight);
     return fmax(depth, 0);
 }

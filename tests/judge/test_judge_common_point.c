@@ -3,7 +3,7 @@
 #include "check.h"
 #include "judge.h"
 #include "ovoid/ovoid.h"
-#include "pair/common_point.h"
+#include "pair/hull_weights.h"
 #include "places.h"
 #include "proofs/covers.h"
 
@@ -43,7 +43,7 @@ static void test_weights(void) {
         int count = make_corners(&r, thin, w), used = 0;
         for (int i = 0; i < count; i++) w[i] = vec3_scale(w[i], scale);
         double weight[6] = {0};
-        common_set_weights_of_doubles(w, count, weight);
+        hull_set_weights_of_doubles(w, count, weight);
         for (int i = 0; i < count; i++) {
             CHECK(weight[i] >= 0);
             used += weight[i] > 0;
@@ -58,10 +58,10 @@ static void test_weights(void) {
     // The tips of an octahedron alone hold its centre; four corners on a plane keep what they had.
     const vec3 tips[6] = {{1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
     double of_tips[6] = {0}, of_flat[4] = {0.25, 0.25, 0.25, 0.25};
-    common_set_weights_of_doubles(tips, 6, of_tips);
-    CHECK_LE(common_measure(tips, 6, of_tips), 0);
+    hull_set_weights_of_doubles(tips, 6, of_tips);
+    CHECK_LE(hull_measure_weights(tips, 6, of_tips), 0);
     CHECK_NEAR(of_tips[0] + of_tips[1] + of_tips[2] + of_tips[3] + of_tips[4] + of_tips[5], 1, 1e-15);
-    common_set_weights_of_doubles(tips, 4, of_flat);
+    hull_set_weights_of_doubles(tips, 4, of_flat);
     CHECK_EQ(of_flat[2], 0.25);
 }
 

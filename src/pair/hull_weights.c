@@ -3,7 +3,7 @@
 // n[i].(x - w[j]) / det[i] there. In a needle of width t the products cancel to t of their size in a normal and to t^2
 // in det[i]: double-doubles leave a relative error of about 2^-102 / t^2 in a weight. The corrections have that error,
 // too, relative to what is left, so a few of them reach the rounding of the weights themselves.
-#include "pair/common_point.h"
+#include "pair/hull_weights.h"
 
 #include <string.h>
 
@@ -62,7 +62,7 @@ static void take_weights(const tetrahedron *t, const int *at, int count, double 
     for (int i = 0; i < 4; i++) weight[at[i]] = t->weight[i] / sum;
 }
 
-void common_set_weights(const dd3 *w, int count, double *weight) {
+void hull_set_weights(const dd3 *w, int count, double *weight) {
     double best = INFINITY;
     for (unsigned some = 0; some < 1u << count; some++) {
         tetrahedron t;
@@ -80,11 +80,11 @@ void common_set_weights(const dd3 *w, int count, double *weight) {
     }
 }
 
-void common_set_weights_of_doubles(const vec3 *w, int count, double *weight) {
+void hull_set_weights_of_doubles(const vec3 *w, int count, double *weight) {
     double reach = 0;
-    dd3 compact[COMMON_CORNERS_MAX];
+    dd3 compact[HULL_CORNERS_MAX];
     for (int i = 0; i < count; i++) reach = fmax(reach, vec3_max_abs(w[i]));
     double unit = ldexp(1, -find_unit_exponent(reach));
     for (int i = 0; i < count; i++) compact[i] = dd3_from(vec3_scale(w[i], unit));
-    common_set_weights(compact, count, weight);
+    hull_set_weights(compact, count, weight);
 }
