@@ -267,6 +267,12 @@ OVOID_FCL_APART std::size_t collide_faced(const posed<S> &a, const posed<S> &b, 
     return list_faces<S>(to, pair) ? to.count() : collide_others<S>(a, b, to);
 }
 
+/// FCL's contacts are those of geometries that are occupied, which cells of an octree need not be. FCL's own functions
+/// are calls of libfcl.
+template <class S> OVOID_FCL_INLINE bool are_occupied(const geometry<S> *a, const geometry<S> *b) {
+    return a->cost_density >= a->threshold_occupied && b->cost_density >= b->threshold_occupied;
+}
+
 /// The poses are passed on by copies, so that a call that is answered here keeps its own in registers.
 template <class S>
 OVOID_FCL_INLINE std::size_t collide(const posed<S> &a, const posed<S> &b, const ::fcl::CollisionRequest<S> &request,
@@ -274,7 +280,7 @@ OVOID_FCL_INLINE std::size_t collide(const posed<S> &a, const posed<S> &b, const
     contact_list<S> to(a.self(), b.self(), request, result);
     // request.isSatisfied(result), which is a call of libfcl.
     if (!request.enable_cost && to.count() > 0 && to.room() == 0) return to.count();
-    if (request.enable_cost || request.num_max_contacts == 0)
+    if (request.enable_cost || request.num_max_contacts == 0 || !are_occupied<S>(a.self().of, b.self().of))
         return collide_itself<S>(posed<S>(a), posed<S>(b), contact_list<S>(to));
     if (a.is_flat() || b.is_flat()) return collide_plane<S>(posed<S>(a), posed<S>(b), to);
     ovoid_swept_sphere swept[2];
@@ -396,6 +402,8 @@ template <class S> struct moved {
 template <class S>
 bool continuous_collide(const moved<S> &a, const moved<S> &b, const ::fcl::ContinuousCollisionRequest<S> &request,
                         ::fcl::ContinuousCollisionResult<S> &result) {
+    // FCL's naive solver finds contacts, the others measure distances.
+    if (request.ccd_solver_type == ::fcl::CCDC_NAIVE && !are_occupied<S>(a.of, b.of)) return false;
     table &mine = table::get();
     mine.begin();
     const body *x = mine.find<S>({a.of, a.of->getNodeType()}, nullptr),

@@ -372,6 +372,37 @@ static void test_planes() {
              fcl::collide<double>(&half, at, &plane, at, CollisionRequestd(), theirs));
 }
 
+/// Contacts are those of occupied geometries, motions of others are free for FCL's naive solver; distances are
+/// measured.
+static void test_not_occupied() {
+    const Transform3d at = Transform3d::Identity();
+    Transform3d t = at, begin = at, end = at;
+    t.translation()[0] = 0.5, begin.translation()[0] = -3, end.translation()[0] = 3;
+    Boxd box(1, 1, 1), cell(1, 1, 1);
+    Sphered ball(0.5);
+    const auto mesh = make_ball<OBBd>(0.5);
+    for (CollisionGeometryd *x : {static_cast<CollisionGeometryd *>(&box), static_cast<CollisionGeometryd *>(&ball),
+                                  static_cast<CollisionGeometryd *>(mesh.get())})
+        for (const double cost : {1.0, 0.5, 0.0}) {
+            x->cost_density = cost;
+            for (const bool is_first : {true, false}) {
+                CollisionResultd result;
+                const CollisionGeometryd *a = is_first ? x : &cell, *b = is_first ? &cell : x;
+                CHECK_EQ(ovoid::fcl::collide<double>(a, at, b, t, CollisionRequestd(9, true), result) > 0, cost == 1);
+                for (const auto solver : {CCDC_NAIVE, CCDC_CONSERVATIVE_ADVANCEMENT}) {
+                    ContinuousCollisionRequestd request(100);
+                    request.ccd_solver_type = solver;
+                    request.ccd_motion_type = CCDM_TRANS;
+                    ContinuousCollisionResultd found;
+                    ovoid::fcl::continuousCollide<double>(a, at, at, b, begin, end, request, found);
+                    CHECK_EQ(found.is_collide, cost == 1 || solver != CCDC_NAIVE);
+                }
+            }
+            DistanceResultd result;
+            CHECK_NEAR(ovoid::fcl::distance<double>(x, at, &cell, end, DistanceRequestd(), result), 2, 1e-2);
+        }
+}
+
 /// What ovoid does not answer is FCL's answer: cost, no contacts, a transform that is no rotation, NaN, a box with a
 /// side below 0, two planes, points without triangles, a spline.
 static void test_left_to_fcl() {
@@ -519,6 +550,7 @@ int main() {
     test_turned_spheres();
     test_meshes();
     test_planes();
+    test_not_occupied();
     test_left_to_fcl();
     test_results();
     test_motions();
