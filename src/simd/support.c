@@ -31,8 +31,9 @@ static support_result find_support_scalar(const simd_points *p, const vec3 *n) {
 
 #include "simd/kernels/vectors.h"
 
-/// Lowest of the indices whose lane is set in mask (not 0).
+/// Lowest of the indices whose lane is set in mask; 0 where none is, as of values that are no numbers.
 static inline uint32_t find_lowest(const uint64_t *indices, unsigned mask) {
+    if (!mask) return 0;
     uint64_t best = indices[__builtin_ctz(mask)];
     while (mask &= mask - 1) {
         uint64_t other = indices[__builtin_ctz(mask)];

@@ -65,8 +65,21 @@ static inline int edged_aim_corner(const edged_search *q, const double v[3], dou
     const double along = dot3(v, q->axis), most = q->inside - q->sine * along, left = most - q->value;
     double off[3];
     for (int i = 0; i < 3; i++) off[i] = v[i] - along * q->axis[i];
-    const double square = dot3(off, off), squared = q->cosine * q->cosine * square;
-    if (!(square > 0 && most > 0) || squared > most * most || (left > 0 && squared < left * left)) return 0;
+    // Twice, so that no more than roundings of what is left is along the axis.
+    for (int k = 0; k < 2; k++) {
+        const double again = dot3(off, q->axis);
+        for (int i = 0; i < 3; i++) off[i] -= again * q->axis[i];
+    }
+    double square = dot3(off, off);
+    const double squared = q->cosine * q->cosine * square;
+    if (!(most > 0) || squared > most * most || (left > 0 && squared < left * left)) return 0;
+    // On the axis all directions across it are as good.
+    if (!(square > 0x1p-100 * q->size * q->size)) {
+        const double *w = q->axis;
+        const int k = fabs(w[0]) < 0.6 ? 0 : 1;
+        for (int i = 0; i < 3; i++) off[i] = (i == k) - w[k] * w[i];
+        square = dot3(off, off);
+    }
     const double across = q->cosine / sqrt(square);
     for (int i = 0; i < 3; i++) n[i] = -(q->sine * q->axis[i] + across * off[i]);
     return 1;

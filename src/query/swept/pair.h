@@ -33,18 +33,26 @@ typedef struct swept_placed {
 static const ovoid_verdict swept_undecided = {OVOID_UNDECIDED, OVOID_STAGE_SUPPORT, OVOID_LIMIT_PRECISION, 0, -INFINITY,
                                               INFINITY};
 
+// Zero, or NaN if a number is not finite.
+static inline double swept_show_finite(vec3 v) { return ((v.x - v.x) + (v.y - v.y)) + (v.z - v.z); }
+
 static inline double find_reach_of_points(const swept *s) {
-    double most = 0;
-    for (size_t i = 0; i < s->count; i++) most = max2(vec3_norm_squared(vec3_at(s->points, i)), most);
-    return sqrt(most);
+    double most = 0, zero = swept_show_finite((vec3){s->half[0], s->half[1], s->half[2]});
+    for (size_t i = 0; i < s->count; i++) {
+        const vec3 at = vec3_at(s->points, i);
+        most = max2(vec3_norm_squared(at), most);
+        zero += swept_show_finite(at);
+    }
+    return sqrt(most) + zero;
 }
 
-// How far a core reaches from its centre.
+// How far a core reaches from its centre; NaN if a number is not finite.
 static inline double swept_find_reach(const swept *s) {
     const double *h = s->half;
     if (s->core == OVOID_SWEPT_POINTS) return find_reach_of_points(s);
     if (s->core <= OVOID_SWEPT_SEGMENT) return s->core == OVOID_SWEPT_POINT ? 0 : h[0];
-    if (s->core == OVOID_SWEPT_ELLIPSOID) return max2(h[0], max2(h[1], h[2]));
+    if (s->core == OVOID_SWEPT_ELLIPSOID)
+        return max2(h[0], max2(h[1], h[2])) + swept_show_finite((vec3){h[0], h[1], h[2]});
     double square = h[0] * h[0] + h[1] * h[1];
     return sqrt(s->core == OVOID_SWEPT_BOX ? square + h[2] * h[2] : square);
 }

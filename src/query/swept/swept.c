@@ -180,6 +180,17 @@ COMPILER_NOINLINE static ovoid_verdict measure_nearest(const swept_placed *p, sw
     return v.status == OVOID_UNDECIDED && asked & OF_CONTACT ? swept_measure_overlap(p, witness) : v;
 }
 
+// Searches of directions that are no numbers would read beside the points. A segment, a cylinder and a cone have one
+// axis.
+static inline int has_finite_axes(const swept *s) {
+    const uint32_t count = s->core == OVOID_SWEPT_POINT                                     ? 0
+                           : s->core == OVOID_SWEPT_BOX || s->core >= OVOID_SWEPT_ELLIPSOID ? 3
+                                                                                            : 1;
+    double zero = 0;
+    for (uint32_t k = 0; k < count; k++) zero += swept_show_finite(s->axis[k]);
+    return zero == 0;
+}
+
 static inline int has_half_axes(unsigned core) { return core == OVOID_SWEPT_SEGMENT || core == OVOID_SWEPT_BOX; }
 
 COMPILER_INLINED ovoid_verdict find(ovoid_swept_pair pair, swept_question asked, ovoid_witness *witness) {
@@ -194,6 +205,7 @@ COMPILER_INLINED ovoid_verdict find(ovoid_swept_pair pair, swept_question asked,
     if (!is_ellipsoid_or_points && (a == OVOID_SWEPT_POINT || b == OVOID_SWEPT_POINT))
         return measure_point(&p, asked, witness, &v) ? v : swept_undecided;
     if ((a == OVOID_SWEPT_SEGMENT) & (b == OVOID_SWEPT_SEGMENT) && measure_segments(&p, asked, witness, &v)) return v;
+    if (!has_finite_axes(pair.a) || !has_finite_axes(pair.b)) return swept_undecided;
     // Functions that are not inline get a copy, so that the closed forms before this have the pair in registers.
     const swept_placed shared = p;
     if ((a == OVOID_SWEPT_BOX) & (b == OVOID_SWEPT_BOX) & !(p.radii > 0) & !(asked & OF_DISTANCE)) {
