@@ -96,9 +96,9 @@ static inline double frame_compute_gain(const pair_frame *f, vec3 in_a, vec3 in_
     double a = frame_is_bare(f, f->a) ? 0 : shape_compute_gain(f->a, in_a, error);
     return a + (frame_is_bare(f, f->b) ? 0 : shape_compute_gain(f->b, in_b, error));
 }
-/// The bound with that gain.
+/// The bound with that gain; never below the bound, so that a check with a larger gain shows no less.
 static inline double frame_take_gain(double lower, double gain) {
-    return gain > 0 ? nextafter(lower + gain, -INFINITY) : lower;
+    return gain > 0 ? max2(lower, nextafter(lower + gain, -INFINITY)) : lower;
 }
 /// 1 if the limit says that a query was refused, so that its answer claims nothing.
 static inline int limit_is_refusal(ovoid_limit limit) {

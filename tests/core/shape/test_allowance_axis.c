@@ -417,7 +417,23 @@ static void test_shapes(void) {
     }
 }
 
+// A speck of a cylinder in a box: the gain along its axis is less than a rounding of the bound, which stays as it is.
+static void test_speck(void) {
+    uint64_t r = 6;
+    ovoid_shape_options o = {.allowance = {.inside = 1e-6}};
+    ovoid_shape *box = ovoid_shape_create_box((ovoid_vec3){1, 1, 1}, &o, NULL);
+    ovoid_shape *speck = ovoid_shape_create_cylinder(1e-17, 1e-9, NULL, NULL);
+    for (int i = 0; i < 600 && CHECK(box && speck); i++) {
+        ovoid_pair p = {box, speck, {{0, 0, 0}, random_quat(&r)}, {random_vec3(&r, i & 1 ? 0.3 : 0), random_quat(&r)}};
+        ovoid_answer x = ovoid_collide(&p, NULL, NULL);
+        CHECK(ovoid_answer_verify(&p, &x, NULL, NULL) == OVOID_OK);
+    }
+    ovoid_shape_destroy(box);
+    ovoid_shape_destroy(speck);
+}
+
 int main(void) {
+    test_speck();
     test_shapes();
     test_standing();
     test_leaning();
