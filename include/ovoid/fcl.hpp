@@ -92,7 +92,7 @@ template <class S> bool make_points_pair(const posed<S> &a, const posed<S> &b, o
     return is_one && make_swept_or_points<S>(a.self(), a.pose, to[0]) &&
            make_swept_or_points<S>(b.self(), b.pose, to[1]);
 }
-/// The same, with the shapes of convex polytopes.
+/// The swept spheres of make_points_pair, with the shapes of convex polytopes.
 template <class S>
 bool make_hull_pair(const posed<S> &a, const posed<S> &b, const body_couple &couple, ovoid_swept_sphere (&to)[2]) {
     if (!make_points_pair(a, b, to)) return false;

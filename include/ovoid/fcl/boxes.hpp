@@ -31,7 +31,7 @@ struct overlap_test {
         };
         return (is_beyond(a.min, b.max) | is_beyond(b.min, a.max)) == 0;
     }
-    /// The same of two pairs.
+    /// Whether the boxes of each of two pairs may meet.
     std::pair<bool, bool> operator()(const ovoid_box &a, const ovoid_box &b, const ovoid_box &c,
                                      const ovoid_box &d) const {
         return {(*this)(a, b), (*this)(c, d)};

@@ -61,27 +61,16 @@ static inline void edged_take(edged_search *q, double value, const double n[3], 
 /// A direction in which a corner goes straight to the axis of a cylinder, or to the side of a cone: v the corner from
 /// the round body's centre. 0 if the overlap of that corner alone is not above 0, or not less than the least so far.
 static inline int edged_aim_corner(const edged_search *q, const double v[3], double n[3]) {
+    const vec3 w = {q->axis[0], q->axis[1], q->axis[2]}, at = {v[0], v[1], v[2]};
     // Its depth is `most` less what it is off the axis.
-    const double along = dot3(v, q->axis), most = q->inside - q->sine * along, left = most - q->value;
-    double off[3];
-    for (int i = 0; i < 3; i++) off[i] = v[i] - along * q->axis[i];
-    // Twice, so that no more than roundings of what is left is along the axis.
-    for (int k = 0; k < 2; k++) {
-        const double again = dot3(off, q->axis);
-        for (int i = 0; i < 3; i++) off[i] -= again * q->axis[i];
-    }
-    double square = dot3(off, off);
-    const double squared = q->cosine * q->cosine * square;
+    const double along = vec3_dot(at, w), most = q->inside - q->sine * along, left = most - q->value;
+    vec3 off = patch_find_across(w, at, along, vec3_norm_squared(at));
+    const double square = vec3_norm_squared(off), squared = q->cosine * q->cosine * square;
     if (!(most > 0) || squared > most * most || (left > 0 && squared < left * left)) return 0;
     // On the axis all directions across it are as good.
-    if (!(square > 0x1p-100 * q->size * q->size)) {
-        const double *w = q->axis;
-        const int k = fabs(w[0]) < 0.6 ? 0 : 1;
-        for (int i = 0; i < 3; i++) off[i] = (i == k) - w[k] * w[i];
-        square = dot3(off, off);
-    }
-    const double across = q->cosine / sqrt(square);
-    for (int i = 0; i < 3; i++) n[i] = -(q->sine * q->axis[i] + across * off[i]);
+    off = square > 0 ? vec3_scale(off, q->cosine / sqrt(square)) : vec3_scale(vec3_orthogonal(w), q->cosine);
+    const vec3 to = vec3_neg(vec3_add_scaled(off, w, q->sine));
+    n[0] = to.x, n[1] = to.y, n[2] = to.z;
     return 1;
 }
 
