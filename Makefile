@@ -31,9 +31,9 @@ check: ## lint, then build and run the tests, in about 12 minutes on two cores
 check-all: check ## all that CI runs: check; then sanitizers, other processors, pages, static analysis, the manual
 	@JOBS=$(JOBS) scripts/check.sh rest
 
-test: ## the tests of one floor after a change: make test FLOOR=solid
+test: ## the tests of one floor, or more, after a change: make test FLOOR=solid
 	@scripts/setup.sh build
-	@JOBS=$(JOBS) scripts/test-floor.sh "$(FLOOR)"
+	@JOBS=$(JOBS) scripts/test-floor.sh $(FLOOR)
 
 abi: ## whether programs linked with the last release work with these libraries
 	@scripts/setup.sh check

@@ -43,7 +43,7 @@ def read_terminal(argv):
 
 
 tool = sys.argv[1]
-matrix = [tool, "robot", "matrix", "arm/arm.urdf", "--samples", "2000000"]
+matrix = [tool, "robot", "matrix", "arm/arm.urdf", "--samples", "300000"]
 spheres = [tool, "robot", "spheres", "arm/arm.urdf", "--count", "1", "--rounds", "10", "--cells", "4096"]
 LINES = {"matrix": (matrix, r"\r\d+ groups of states and cells of joint space, \d+ s(, \d+/s)? \x1b\[K"),
          "spheres": (spheres, r"\r\[[#.]{28}\] +\d+ %  \d of 5 links, \d+ s[^\x1b]* \x1b\[K")}
