@@ -61,7 +61,7 @@ tests_of() {
     floats) echo "test_simd_float test_query_floats test_query_batch test_judge_batch" ;;
     robot) echo "test_robot_depth test_robot_model test_robot_poses test_robot_balls test_robot_hits test_robot_collide test_robot_matrix test_robot_path test_robot_path_altered test_robot_path_bounds test_robot_judge test_robot_clearance test_robot_motion" ;;
     io) echo "test_io_numbers test_io_json test_io_convexity test_io_motion test_io_scene test_io_pairs test_io_mesh test_io_limits test_io_results test_io_solid" ;;
-    packed) echo "test_io_packed" ;;
+    packed) echo "test_io_packed test_cli.sh:solid_scene" ;;
     contact_faces) echo "test_io_contacts test_cli.sh:check:distance test_cli_lies.sh" ;;
     contact_python) echo "test_python_manifold test_python_pickle" ;;
     python_fcl) echo "test_python_fcl" ;;

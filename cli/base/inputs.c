@@ -190,3 +190,20 @@ int inputs_is_scene(const char *path) {
     return (length > 5 && strcmp(path + length - 5, ".json") == 0) ||
            (length > 7 && strcmp(path + length - 7, ".ovoids") == 0);
 }
+
+mesh_source inputs_find_mesh(const ovoid_scene *scene, size_t i) {
+    ovoid_scene_object o = ovoid_scene_get(scene, i);
+    return (mesh_source){.path = o.mesh, .read = o.read, .scene = scene, .object = i};
+}
+
+int inputs_has_mesh(const mesh_source *source) {
+    return source->path && !ovoid_path_is_shape(source->path) && strcmp(source->path, "-") != 0;
+}
+
+ovoid_mesh *inputs_read_mesh(const mesh_source *source) {
+    ovoid_error error;
+    ovoid_mesh *mesh = source->scene ? ovoid_scene_read_mesh(source->scene, source->object, &error)
+                                     : ovoid_mesh_read(source->path, &source->read, &error);
+    if (!mesh) message_error("%s", error.message);
+    return mesh;
+}

@@ -66,6 +66,21 @@ unsigned inputs_get_fields(const ovoid_scene *scene);
             "that its triangles enclose, an open one its surface); \"solid\" and \"hull\" in the scene come first"     \
     }
 
+/// Where the mesh of a body comes from, to be read again for a picture.
+typedef struct mesh_source {
+    const char *path; ///< NULL: the body has none
+    ovoid_read_options read;
+    const ovoid_scene *scene; ///< of an object of a scene, whose file must be the one that the scene was made from
+    size_t object;
+} mesh_source;
+
+/// Object i of the scene.
+mesh_source inputs_find_mesh(const ovoid_scene *scene, size_t i);
+/// 1 if it can be read: standard input cannot be read twice, and a shape file has no mesh.
+int inputs_has_mesh(const mesh_source *source);
+/// Reads it; the caller destroys it. NULL after a message.
+ovoid_mesh *inputs_read_mesh(const mesh_source *source);
+
 /// Copies the poses of its objects, which the caller frees; NULL after a message.
 ovoid_pose *inputs_copy_poses(const ovoid_scene *scene);
 

@@ -20,8 +20,7 @@ page_body *page_bodies_list(const ovoid_scene *scene) {
                                 .body = {.shape = o.shape, .compound = o.compound, .pose = o.pose},
                                 .solid = o.solid,
                                 .convexity = o.convexity,
-                                .mesh = o.mesh,
-                                .read = o.read};
+                                .mesh = inputs_find_mesh(scene, i)};
     }
     return bodies;
 }
@@ -83,7 +82,7 @@ static int add_shapes(cli_page *page, page_shapes *shapes, const page_body *bodi
     for (size_t i = 0; i < c->count && !code; i++) {
         const page_body *b = &bodies[c->near[i]];
         code = b->solid ? page_shapes_add_solid(shapes, page, b->body.shape, b->solid)
-                        : page_shapes_add_mesh(shapes, page, &b->body, b->mesh, &b->read);
+                        : page_shapes_add_mesh(shapes, page, &b->body, &b->mesh);
     }
     return code;
 }

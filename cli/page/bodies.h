@@ -2,6 +2,7 @@
 #ifndef OVOID_CLI_PAGE_BODIES_H
 #define OVOID_CLI_PAGE_BODIES_H
 
+#include "base/inputs.h"
 #include "page/page.h"
 
 #include <ovoid/ovoid.h>
@@ -12,8 +13,7 @@ typedef struct page_body {
     ovoid_body body;           ///< of a solid its hull
     const ovoid_solid *solid;  ///< NULL: the body is not a solid
     ovoid_convexity convexity; ///< of its mesh
-    const char *mesh;          ///< the path of its mesh; NULL: none
-    ovoid_read_options read;
+    mesh_source mesh;
 } page_body;
 
 /// The objects of a scene; the caller frees them. NULL after a message.

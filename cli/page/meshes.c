@@ -100,18 +100,15 @@ static const ovoid_shape *get_part(const ovoid_body *body, size_t i) {
     return body->shape ? body->shape : ovoid_compound_get_part(body->compound, i).shape;
 }
 
-int page_shapes_add_mesh(page_shapes *shapes, cli_page *page, const ovoid_body *body, const char *path,
-                         const ovoid_read_options *read) {
-    ovoid_error error;
+int page_shapes_add_mesh(page_shapes *shapes, cli_page *page, const ovoid_body *body, const mesh_source *source) {
     size_t number, count = body->shape ? 1 : ovoid_compound_get_part_count(body->compound);
-    // Standard input cannot be read twice, and a shape file has no mesh.
-    if (!path || ovoid_path_is_shape(path) || strcmp(path, "-") == 0) return 0;
+    if (!inputs_has_mesh(source)) return 0;
     // Bodies of one geometry share their shapes.
     if (!page_shapes_add(shapes, get_part(body, 0), &number)) return message_error("out of memory"), EXIT_INPUT;
     if (shapes->seen[number] & PAGE_SEEN_MESH) return 0;
     shapes->seen[number] |= PAGE_SEEN_MESH;
-    ovoid_mesh *mesh = ovoid_mesh_read(path, read, &error);
-    if (!mesh) return message_error("%s", error.message), EXIT_INPUT;
+    ovoid_mesh *mesh = inputs_read_mesh(source);
+    if (!mesh) return EXIT_INPUT;
     int code = 0;
     for (size_t i = 0; i < count && i < ovoid_mesh_get_part_count(mesh) && !code; i++)
         code = keep(shapes, page, mesh, i, get_part(body, i));

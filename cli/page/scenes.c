@@ -74,7 +74,8 @@ static int write_pair(page_pairs *list, const page_bodies_source *source) {
 int page_write_files(cli_page *page, const page_bodies_source *source) {
     if (!page->path) return 0;
     const page_body *bodies = source->bodies;
-    const page_head head = {bodies[0].mesh, source->count > 1 ? bodies[1].mesh : NULL, source->unit, source->margin};
+    const page_head head = {bodies[0].mesh.path, source->count > 1 ? bodies[1].mesh.path : NULL, source->unit,
+                            source->margin};
     const page_couples none = {NULL, 0, 0};
     page_choice choice;
     int code = page_choose(page, source->count, &none, &choice);

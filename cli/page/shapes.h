@@ -2,6 +2,7 @@
 #ifndef OVOID_CLI_PAGE_SHAPES_H
 #define OVOID_CLI_PAGE_SHAPES_H
 
+#include "base/inputs.h"
 #include "page/page.h"
 
 #include <ovoid/ovoid.h>
@@ -31,10 +32,9 @@ typedef struct page_shapes {
 /// The number of a shape, which is added if it is new. 0 if memory runs out.
 int page_shapes_add(page_shapes *shapes, const ovoid_shape *shape, size_t *number);
 
-/// Adds the meshes of a body that was read from a file, NULL for none: those of its parts that are not known to be
+/// Adds the meshes of a body that was read from a file: those of its parts that are not known to be
 /// their hulls. Above 30 MB of meshes they are left out and counted. 0, or EXIT_INPUT after a message.
-int page_shapes_add_mesh(page_shapes *shapes, cli_page *page, const ovoid_body *body, const char *path,
-                         const ovoid_read_options *read);
+int page_shapes_add_mesh(page_shapes *shapes, cli_page *page, const ovoid_body *body, const mesh_source *source);
 
 /// Adds the triangles of a solid, with its hull. Above 30 MB together they are left out and counted as meshes. 0, or
 /// EXIT_INPUT after a message.

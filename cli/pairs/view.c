@@ -125,14 +125,13 @@ static void add_body(drawing *d, const char *name, const ovoid_body *body, const
 #define POLYHEDRA_MOST 12
 
 /// Reads the mesh of the object that was added last, if it has one to draw. 0, or EXIT_INPUT after a message.
-static int add_mesh(drawing *d, unsigned layers, size_t drawn, const ovoid_scene_object *object) {
+static int add_mesh(drawing *d, unsigned layers, size_t drawn, const mesh_source *source) {
     int is_wanted = layers ? (layers & OVOID_PICTURE_MESHES) != 0 : drawn > POLYHEDRA_MOST;
     size_t number = d->body_count - 1, first = d->first[number];
     is_wanted |= d->drawn[first].is_mesh;
-    if (!is_wanted || !object->mesh || ovoid_path_is_shape(object->mesh) || strcmp(object->mesh, "-") == 0) return 0;
-    ovoid_error error;
-    ovoid_mesh *mesh = d->meshes[number] = ovoid_mesh_read(object->mesh, &object->read, &error);
-    if (!mesh) return message_error("%s", error.message), EXIT_INPUT;
+    if (!is_wanted || !inputs_has_mesh(source)) return 0;
+    ovoid_mesh *mesh = d->meshes[number] = inputs_read_mesh(source);
+    if (!mesh) return EXIT_INPUT;
     for (size_t i = first; i < d->drawn_count && i - first < ovoid_mesh_get_part_count(mesh); i++) {
         d->faces[i] = ovoid_mesh_get_part(mesh, i - first).faces;
         d->drawn[i].mesh = &d->faces[i];
@@ -282,7 +281,8 @@ static int draw_scene(const settings *s, const char *path, cli_page *page) {
         ovoid_scene_object object = ovoid_scene_get(scene, i);
         ovoid_body body = ovoid_scene_get_body(scene, i, &object.pose);
         add_body(&d, object.name, &body, object.shape);
-        if (is_drawn(s)) code = add_mesh(&d, s->layers, drawn, &object);
+        const mesh_source mesh = inputs_find_mesh(scene, i);
+        if (is_drawn(s)) code = add_mesh(&d, s->layers, drawn, &mesh);
     }
     if (!code) code = draw(&d, s, scene);
     if (!code) code = write_page(page, &d, s, scene, path);
@@ -317,16 +317,15 @@ static int draw_bodies(const settings *s, const cli_operands *paths, cli_page *p
     for (int i = 0; i < paths->count && !code; i++) {
         ovoid_body body = inputs_get_body(&bodies[i], &poses[i]);
         if (solids[i]) body = (ovoid_body){.solid = solids[i], .pose = poses[i]};
-        ovoid_scene_object object = {.mesh = paths->items[i], .read = inputs_make_options(&read)};
-        object.read.parts = s->choice.parts;
+        mesh_source mesh = {.path = paths->items[i], .read = inputs_make_options(&read)};
+        mesh.read.parts = s->choice.parts;
         add_body(&d, get_base(paths->items[i]), &body, bodies[i].shape);
         listed[i] = (page_body){.name = get_base(paths->items[i]),
                                 .body = inputs_get_body(&bodies[i], &poses[i]),
                                 .solid = solids[i],
-                                .mesh = paths->items[i],
-                                .read = object.read,
+                                .mesh = mesh,
                                 .convexity = ovoid_shapes_get(bodies[i].parts, 0).convexity};
-        if (is_drawn(s)) code = add_mesh(&d, s->layers, drawn, &object);
+        if (is_drawn(s)) code = add_mesh(&d, s->layers, drawn, &mesh);
     }
     if (!code) code = draw(&d, s, NULL);
     const page_bodies_source source = {listed, (size_t)paths->count, inputs_get_unit(&s->read), s->margin};

@@ -250,6 +250,13 @@ OVOID_API size_t ovoid_scene_get_count(const ovoid_scene *scene);
 OVOID_API const char *ovoid_scene_get_unit(const ovoid_scene *scene);
 /** Object i < count. */
 OVOID_API ovoid_scene_object ovoid_scene_get(const ovoid_scene *scene, size_t i);
+/**
+ * Reads the mesh of object i again, with all its triangles, as for a picture: a scene keeps only what is queried. The
+ * caller destroys it. NULL after an error: ARGUMENT (the object has no mesh, or a `.ovoid` file), FORMAT (the file is
+ * not the one that the scene was made from: it was changed since that was read or packed), and those of
+ * ovoid_mesh_read.
+ */
+OVOID_API ovoid_mesh *ovoid_scene_read_mesh(const ovoid_scene *scene, size_t i, ovoid_error *error);
 /** The object as a body at a pose: its solid, compound or shape. */
 OVOID_API ovoid_body ovoid_scene_get_body(const ovoid_scene *scene, size_t i, const ovoid_pose *pose);
 /** The number of hulls of meshes; each part of a file counts, and each scale. */

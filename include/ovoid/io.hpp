@@ -133,6 +133,11 @@ class scene : public detail::owner<detail::pointer<ovoid_scene>, ovoid_scene, ov
         const ovoid_pose at = ovoid_scene_get(get(), i).pose;
         return ovoid_scene_get_body(get(), i, &at);
     }
+    /** The mesh of object i < size, read again. Throws as ovoid_scene_read_mesh fails: a changed file is refused. */
+    ovoid::mesh read_mesh(std::size_t i) const {
+        ovoid_error e;
+        return ovoid::mesh(detail::require(ovoid_scene_read_mesh(get(), i, &e), e));
+    }
     /** The index of the object with a name; size() if there is none. */
     std::size_t find(const std::string &named) const noexcept {
         const std::size_t i = ovoid_scene_find(get(), named.c_str());

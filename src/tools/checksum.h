@@ -33,4 +33,13 @@ static inline uint64_t checksum_words(const void *from, size_t size) {
     return all;
 }
 
+/// The checksum of any number of bytes: of its words, the rest filled with zeros, and the number of bytes.
+static inline uint64_t checksum_bytes(const void *from, size_t size) {
+    size_t whole = size / 8 * 8;
+    uint8_t rest[16] = {0};
+    for (size_t i = whole; i < size; i++) rest[i - whole] = ((const uint8_t *)from)[i];
+    for (size_t i = 0; i < 8; i++) rest[8 + i] = (uint8_t)((uint64_t)size >> 8 * i);
+    return checksum_mix(checksum_words(from, whole), checksum_words(rest, sizeof rest));
+}
+
 #endif

@@ -76,6 +76,8 @@ void check_scenes() {
     CHECK(ovoid_scene_get(hulls.get(), 0).solid == nullptr && ovoid_scene_get(meshes.get(), 0).solid != nullptr);
     scene.write(folder + "/scene.ovoids");
     const auto packed = ovoid::scene::read(folder + "/scene.ovoids");
+    CHECK(meshes.read_mesh(0).size() == 1);
+    CHECK(throws(OVOID_ERROR_ARGUMENT, -1, "box: the object has no mesh", [&] { packed.read_mesh(0); }));
     CHECK(packed.size() == scene.size() && packed.is_ignored(0, 1) && std::string(packed.unit()) == "mm");
     CHECK(scene.pair_count() == ovoid_scene_get_pair_count(scene.get()));
     const ovoid::body_answer a = ovoid::distance(ovoid::body_pair(scene[0], scene[1]));

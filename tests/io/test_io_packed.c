@@ -341,6 +341,60 @@ static void check_numbers(void) {
     free(file.data);
 }
 
+// The checksum of bytes: each bit of each byte and their number count, zeros at the end too.
+static void check_checksum(void) {
+    uint8_t data[48] = {0};
+    for (size_t size = 0; size < 40; size++) {
+        uint64_t sum = checksum_bytes(data, size);
+        CHECK(sum != checksum_bytes(data, size + 1) && sum != checksum_bytes(data, size + 8));
+        for (size_t i = 0; i < 8 * size; i++) {
+            data[i / 8] ^= (uint8_t)(1 << i % 8);
+            CHECK(sum != checksum_bytes(data, size));
+            data[i / 8] ^= (uint8_t)(1 << i % 8);
+        }
+        data[size] = 1; // behind the end
+        CHECK_EQ(checksum_bytes(data, size), sum);
+        data[size] = 0;
+    }
+}
+
+// The mesh of an object, read again: of the file that the scene was made from, and no other. Each byte of that counts.
+static void check_meshes(const char *path, const char *word) {
+    ovoid_error error = {OVOID_OK, -1, ""};
+    ovoid_scene *scene = ovoid_scene_read(path, NULL, &error);
+    ovoid_mesh *mesh = ovoid_scene_read_mesh(scene, ovoid_scene_find(scene, "tetras"), &error);
+    // Without parts it would be one; in millimetres.
+    if (CHECK(mesh != NULL) && CHECK_EQ(ovoid_mesh_get_part_count(mesh), (size_t)2)) {
+        ovoid_faces faces = ovoid_mesh_get_part(mesh, 0).faces;
+        double largest = 0;
+        for (size_t i = 0; i < 3 * faces.vertex_count; i++) largest = fmax(largest, faces.vertices[i]);
+        CHECK_EQ(largest, 1000.0);
+    }
+    ovoid_mesh_destroy(mesh);
+    CHECK(ovoid_scene_read_mesh(scene, ovoid_scene_find(scene, "z"), &error) == NULL);
+    CHECK(error.code == OVOID_ERROR_ARGUMENT && strstr(error.message, "z: the object has no mesh"));
+    size_t angle_object = ovoid_scene_find(scene, "angle"), length = strlen(angle);
+    char *other = malloc(length + 2);
+    for (size_t i = 0; i <= length; i++) {
+        memcpy(other, angle, length + 1);
+        // Another blank in the place of one, or a line end behind all: the mesh is the same, the file is not.
+        if (i < length && other[i] != ' ') continue;
+        memcpy(other + i, i < length ? "\t" : "\n", i < length ? 1 : 2);
+        file_write_text("packed_angle.obj", other);
+        if (!CHECK(ovoid_scene_read_mesh(scene, angle_object, &error) == NULL && error.code == OVOID_ERROR_FORMAT &&
+                   strstr(error.message, word)))
+            printf("  byte %zu: %s\n", i, error.message);
+    }
+    free(other);
+    remove(file_path("packed_angle.obj"));
+    CHECK(ovoid_scene_read_mesh(scene, angle_object, &error) == NULL && error.code == OVOID_ERROR_FILE);
+    file_write_text("packed_angle.obj", angle);
+    mesh = ovoid_scene_read_mesh(scene, angle_object, &error);
+    CHECK(mesh != NULL);
+    ovoid_mesh_destroy(mesh);
+    ovoid_scene_destroy(scene);
+}
+
 int main(void) {
     char json[300], solids[300], hulls[300];
     file_write_text("packed_cube.obj", cube);
@@ -357,5 +411,8 @@ int main(void) {
     check_words(solids);
     check_open();
     check_numbers();
+    check_checksum();
+    check_meshes(json, "was changed since the scene was read");
+    check_meshes(solids, "was changed since the scene was packed; pack the scene again");
     return check_end();
 }

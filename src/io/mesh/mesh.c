@@ -1,6 +1,8 @@
 // Meshes as their users see them, and which reader a file gets.
 #include "io/mesh/cursor.h"
 #include "io/mesh/readers.h"
+#include "io/mesh_file.h"
+#include "tools/checksum.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -18,6 +20,8 @@ void ovoid_mesh_destroy(ovoid_mesh *mesh) {
     free(mesh->parts);
     free(mesh);
 }
+
+uint64_t mesh_get_checksum(const ovoid_mesh *mesh) { return mesh->checksum; }
 
 size_t ovoid_mesh_get_part_count(const ovoid_mesh *mesh) { return mesh->part_count; }
 
@@ -100,6 +104,7 @@ ovoid_mesh *ovoid_mesh_read(const char *path, const ovoid_read_options *options,
     reader.file = mesh_is_stl(file) ? file : bytes_skip_mark(file);
     reader.mesh = calloc(1, sizeof *reader.mesh);
     ovoid_code code = reader.mesh ? read_mesh(&reader) : io_fail_memory(error, path);
+    if (!code) reader.mesh->checksum = checksum_bytes(file.data, file.size);
     free(file.data);
     if (!code) return reader.mesh;
     ovoid_mesh_destroy(reader.mesh);

@@ -19,6 +19,7 @@ struct ovoid_mesh {
     mesh_part *parts;
     size_t part_count, part_capacity;
     size_t point_count, index_count; ///< of all parts, as they were read
+    uint64_t checksum;               ///< checksum_bytes of its file
 };
 
 /// Most indices of a mesh: a scene of many nodes that show one mesh could ask for any number.

@@ -2,6 +2,7 @@
 #include "io/mesh/mesh_build.h"
 
 #include "io/mesh/cursor.h"
+#include "io/mesh_file.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -35,6 +36,7 @@ typedef struct mesh_hull {
     ovoid_shape *shape;
     ovoid_convexity convexity;
     ovoid_solid *solid; ///< its triangles, where they are wanted
+    uint64_t checksum;  ///< of the file
 } mesh_hull;
 
 /// How a file's hulls are made.
@@ -77,7 +79,7 @@ static mesh_hull hull_of_part(const ovoid_mesh *mesh, size_t i, const hull_optio
     ovoid_mesh_part part = ovoid_mesh_get_part(mesh, i);
     ovoid_faces faces = part.faces;
     mesh_hull hull = {ovoid_shape_create_from_points(faces.vertices, faces.vertex_count, o->shape, error), no_mesh,
-                      NULL};
+                      NULL, mesh->checksum};
     int is_made = hull.shape != NULL;
     if (is_made && o->is_compared) {
         is_made = ovoid_mesh_part_compute_convexity(&part, hull.shape, &hull.convexity, error) == OVOID_OK;
@@ -88,18 +90,19 @@ static mesh_hull hull_of_part(const ovoid_mesh *mesh, size_t i, const hull_optio
     if (is_made) return hull;
     io_prefix_path(error, path);
     mesh_hull_clear(&hull);
-    return (mesh_hull){NULL, no_mesh, NULL};
+    return (mesh_hull){.convexity = no_mesh};
 }
 
 // The shape of a whole file.
 static mesh_hull read_hull(const char *path, const hull_options *o, ovoid_error *error) {
-    if (ovoid_path_is_shape(path)) return (mesh_hull){read_shape_bytes(path, o->read, o->shape, error), no_mesh, NULL};
+    if (ovoid_path_is_shape(path))
+        return (mesh_hull){.shape = read_shape_bytes(path, o->read, o->shape, error), .convexity = no_mesh};
     ovoid_read_options whole = {.scale = 0};
     if (o->read) whole = *o->read;
     whole.parts = 0;
     const hull_options options = {&whole, o->shape, o->is_compared, o->is_list};
     ovoid_mesh *mesh = ovoid_mesh_read(path, &whole, error);
-    if (!mesh) return (mesh_hull){NULL, no_mesh, NULL};
+    if (!mesh) return (mesh_hull){.convexity = no_mesh};
     mesh_hull hull = hull_of_part(mesh, 0, &options, path, error);
     ovoid_mesh_destroy(mesh);
     return hull;
@@ -171,6 +174,8 @@ ovoid_named_shape ovoid_shapes_get(const ovoid_shapes *shapes, size_t i) {
     const mesh_hull *hull = &shapes->entries[i].hull;
     return (ovoid_named_shape){shapes->entries[i].name, hull->shape, hull->convexity, hull->solid};
 }
+
+uint64_t shapes_get_checksum(const ovoid_shapes *shapes) { return shapes->entries[0].hull.checksum; }
 
 /// Shapes under construction, and how their files are read.
 typedef struct shapes_reader {

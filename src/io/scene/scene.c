@@ -1,6 +1,7 @@
 // Scenes: JSON of named bodies with poses, and pairs to ignore. Strict: anything unknown is refused with its line, so
 // that no misspelt key is silently without effect. docs/scene.md describes the format. Cost: linear in the file, plus
 // the shapes; n log n for the names.
+#include "io/mesh_file.h"
 #include "io/scene/scene_packed.h"
 
 #include <math.h>
@@ -281,6 +282,20 @@ ovoid_scene_object ovoid_scene_get(const ovoid_scene *scene, size_t i) {
         o.kind = body->compound ? OVOID_MESH_PARTS : OVOID_MESH_HULL;
     if (body->mesh && body->shape) o.convexity = scene_body_get_hull(body, 0).convexity;
     return o;
+}
+
+ovoid_mesh *ovoid_scene_read_mesh(const ovoid_scene *scene, size_t i, ovoid_error *error) {
+    const scene_body *body = &scene->bodies[scene->entries[i].body];
+    if (!body->mesh || ovoid_path_is_shape(body->mesh)) {
+        io_report(error, OVOID_ERROR_ARGUMENT, (where){scene->entries[i].name, 0, -1}, "the object has no mesh");
+        return NULL;
+    }
+    ovoid_mesh *mesh = ovoid_mesh_read(body->mesh, &body->read, error);
+    if (!mesh || mesh_get_checksum(mesh) == body->mesh_checksum) return mesh;
+    ovoid_mesh_destroy(mesh);
+    io_report(error, OVOID_ERROR_FORMAT, (where){body->mesh, 0, -1}, "the file was changed since the scene was %s",
+              scene->packed ? "packed; pack the scene again" : "read");
+    return NULL;
 }
 
 ovoid_body ovoid_scene_get_body(const ovoid_scene *scene, size_t i, const ovoid_pose *pose) {

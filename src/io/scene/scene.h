@@ -12,8 +12,9 @@ typedef struct scene_body {
     const ovoid_shape *shape; ///< made, or the only part
     ovoid_shape *made;        ///< of a body that is no mesh
     ovoid_compound *compound;
-    char *mesh;     ///< its path, NULL for none
-    size_t mesh_at; ///< where in the path the name begins that the scene has
+    char *mesh;             ///< its path, NULL for none
+    size_t mesh_at;         ///< where in the path the name begins that the scene has
+    uint64_t mesh_checksum; ///< of its file, as it was when the shapes were made
     ovoid_read_options read;
     ovoid_shapes *parts;      ///< the hulls of a mesh; other compounds have parts that are bodies of the scene
     ovoid_named_shape *hulls; ///< the same of a packed scene, which owns what they point to

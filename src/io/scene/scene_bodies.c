@@ -1,5 +1,6 @@
 // The geometry of a scene's objects: shapes and compounds. Equal geometries are made once and shared: they are found by
 // a text of all that they are made from, through a hash table. Cost: linear in the file, plus the shapes.
+#include "io/mesh_file.h"
 #include "io/scene/scene.h"
 #include "io/scene/scene_bytes.h"
 #include "tools/hash.h"
@@ -197,6 +198,7 @@ static ovoid_code read_mesh(scene_reader *r, const geometry *g, scene_body *body
     body->mesh_at = strlen(body->mesh) - strlen(json_string_value(g->value));
     body->parts = ovoid_shapes_read_file(g->mesh, &g->read, &g->options, &why);
     if (!body->parts) return fail_mesh(r, &why);
+    body->mesh_checksum = shapes_get_checksum(body->parts);
     if (!g->read.parts) {
         body->shape = ovoid_shapes_get(body->parts, 0).shape;
         return take_solid(r, g, body);

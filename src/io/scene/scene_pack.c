@@ -127,6 +127,7 @@ static void put_mesh(packer *p, const scene_body *body, uint64_t first_shape) {
     put_word(p, (read->parts ? PACKED_PARTS : 0) | (read->hull ? PACKED_HULL : 0) | (read->solid ? PACKED_SOLID : 0) |
                     (body->is_asked ? PACKED_ASKED : 0) | (body->solid ? PACKED_TRIANGLES : 0));
     put_number(p, read->scale);
+    put_word(p, body->mesh_checksum);
     put_text(p, body->mesh + body->mesh_at);
     for (size_t i = 0; i < count; i++) put_hull(p, body, i);
 }

@@ -10,7 +10,7 @@
 
 #include <string.h>
 
-enum { PACKED_VERSION = 1 };
+enum { PACKED_VERSION = 2 };
 /// What another byte order shows as another number.
 #define PACKED_ORDER 0x01020304u
 #define PACKED_MAGIC "\x89OVSCN\n\x1a"

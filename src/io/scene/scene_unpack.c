@@ -236,6 +236,7 @@ static ovoid_code read_mesh_head(unpacker *u, scene_body *body, uint64_t *first,
                                       .parts = (*flags & PACKED_PARTS) != 0,
                                       .hull = (*flags & PACKED_HULL) != 0,
                                       .solid = (*flags & PACKED_SOLID) != 0};
+    body->mesh_checksum = take_word(u, &good);
     const char *name = take_text(u);
     if (!good || !name || !name[0] || !(body->read.scale > 0 && isfinite(body->read.scale)) || !count ||
         *first >= scene->shape_count || count > scene->shape_count - *first || (!body->read.parts && count > 1))
