@@ -228,7 +228,7 @@ static int reserve_facets(builder *b, uint32_t capacity) {
 static list_head *get_head(const builder *b, uint32_t f) { return b->heads + f; }
 
 // A free facet, with nothing across yet. NOTHING if memory runs out.
-static uint32_t add_facet(builder *b, uint32_t u, uint32_t v, uint32_t w) {
+static inline __attribute__((always_inline)) uint32_t add_facet(builder *b, uint32_t u, uint32_t v, uint32_t w) {
     uint32_t index;
     if (b->free.count)
         index = ((uint32_t *)b->free.items)[--b->free.count];
@@ -306,6 +306,8 @@ static inline void place_point(builder *b, uint32_t p, const uint32_t *facets, u
     for (uint32_t i = 0; i < count; i++) {
         const facet *f = get_facet(b, facets[i]);
         double height = apex == NOTHING ? get_height(b, f, p) : vec3_dot(f->normal, offset);
+        // Most facets are clearly above the point.
+        if (-height > b->bound) continue;
         int side = get_side(b, f, p, height);
         if (side > 0) {
             list_point(b, facets[i], p, side, height);
@@ -375,7 +377,8 @@ static int find_horizon(builder *b, uint32_t start, uint32_t p) {
             }
             if (b->horizon.count == b->horizon.capacity && !array_grow(&b->horizon, sizeof(edge), b->allocator))
                 return 0;
-            ((edge *)b->horizon.items)[b->horizon.count++] = (edge){f->vertex[k], f->vertex[(k + 1) % 3], f->across[k]};
+            uint32_t to = f->vertex[k == 2 ? 0 : k + 1];
+            ((edge *)b->horizon.items)[b->horizon.count++] = (edge){f->vertex[k], to, f->across[k]};
         }
     }
     return 1;
@@ -496,36 +499,23 @@ static void mark_corners(builder *b, uint32_t count) {
 // From this number of triangles on the surface does not stay in the nearest cache.
 #define WALK_LEAST 1020
 
-// Renumbers the triangles in the order of a walk over edges from the first one, breadth first, so that a loop over them
-// finds their corners in the cache. 0 if memory runs out.
-static int order_by_walk(surface *s, const ovoid_allocator *allocator) {
-    uint32_t count = s->triangle_count;
-    if (count < WALK_LEAST) return 1;
-    // The array of the walk is its queue too.
-    uint32_t *walk = allocator_allocate(allocator, 2 * (size_t)count, sizeof *walk), met = 1;
-    uint32_t *place = walk ? walk + count : NULL;
-    uint32_t *triangles = allocator_allocate(allocator, count, 3 * sizeof *triangles);
-    uint32_t *across = allocator_allocate(allocator, count, 3 * sizeof *across);
-    int good = walk && triangles && across;
-    if (good) {
-        memset(place, 0xff, count * sizeof *place);
-        walk[0] = place[0] = 0;
+// Lists the facets in use and writes their numbers into their stamps: in the order in memory, but many in that of a
+// walk over edges from the first one, breadth first, so that a loop over them finds their corners in the cache.
+static void number_facets(const builder *b, uint32_t *list, uint32_t used) {
+    uint32_t met = 0;
+    for (uint32_t i = 0; i < b->facets.count; i++) {
+        facet *f = get_facet(b, i);
+        if (f->is_free) continue;
+        f->stamp = NOTHING;
+        if (used < WALK_LEAST || met == 0) f->stamp = met, list[met++] = i;
     }
-    for (uint32_t i = 0; good && i < met; i++)
-        for (size_t k = 0; k < 3; k++) {
-            uint32_t t = s->across[3 * (size_t)walk[i] + k];
-            if (place[t] == NOTHING) place[t] = met, walk[met++] = t;
+    // The list is the queue of the walk too.
+    for (uint32_t i = 0; i < met && met < used; i++)
+        for (int k = 0; k < 3; k++) {
+            uint32_t across = get_facet_of(get_facet(b, list[i])->across[k]);
+            facet *f = get_facet(b, across);
+            if (f->stamp == NOTHING) f->stamp = met, list[met++] = across;
         }
-    for (size_t i = 0; good && i < 3 * (size_t)count; i++) {
-        size_t from = 3 * (size_t)walk[i / 3] + i % 3;
-        triangles[i] = s->triangles[from];
-        across[i] = place[s->across[from]];
-    }
-    allocator_release(allocator, walk);
-    allocator_release(allocator, good ? s->triangles : triangles);
-    allocator_release(allocator, good ? s->across : across);
-    if (good) s->triangles = triangles, s->across = across;
-    return good;
 }
 
 // Copies the facets in use to plain arrays.
@@ -534,20 +524,20 @@ static int extract(builder *b, uint32_t count, surface *s) {
     s->triangles = allocator_allocate(b->allocator, used, 3 * sizeof *s->triangles);
     s->across = allocator_allocate(b->allocator, used, 3 * sizeof *s->across);
     if (!s->triangles || !s->across) return 0;
-    // Stores the new numbers of the facets in their stamps.
-    for (uint32_t i = 0; i < b->facets.count; i++)
-        if (!get_facet(b, i)->is_free) get_facet(b, i)->stamp = s->triangle_count++;
-    uint32_t t = 0;
-    for (uint32_t i = 0; i < b->facets.count; i++) {
-        const facet *f = get_facet(b, i);
-        if (f->is_free) continue;
-        for (int k = 0; k < 3; k++) {
-            s->triangles[t] = f->vertex[k];
-            s->across[t++] = get_facet(b, get_facet_of(f->across[k]))->stamp;
+    s->triangle_count = used;
+    // The list is in the last third of an array that is written from its start: each entry is read before its place is.
+    uint32_t *list = s->across + 2 * (size_t)used;
+    number_facets(b, list, used);
+    size_t i = 0;
+    for (uint32_t t = 0; t < used; t++) {
+        const facet *f = get_facet(b, list[t]);
+        for (int k = 0; k < 3; k++, i++) {
+            s->triangles[i] = f->vertex[k];
+            s->across[i] = get_facet(b, get_facet_of(f->across[k]))->stamp;
         }
     }
     mark_corners(b, count);
-    return order_by_walk(s, b->allocator);
+    return 1;
 }
 
 // Shewchuk's (7 + 56 u) u on the permanent, which is at most six times the volume of the points' box; rounded up
