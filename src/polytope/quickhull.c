@@ -392,10 +392,11 @@ static int join_across(builder *b, const edge *e, uint32_t index) {
     return g->vertex[k] == e->to && g->vertex[k == 2 ? 0 : k + 1] == e->from;
 }
 
-// The cone from the point over the horizon; the facets' indices replace the edges' `across`. OVOID_ERROR_HULL if the
-// horizon is not one closed loop, which exact signs exclude.
+// The cone from the point over the horizon; a plain list of the facets' indices replaces the edges. OVOID_ERROR_HULL if
+// the horizon is not one closed loop, which exact signs exclude.
 static ovoid_code make_cone(builder *b, uint32_t p) {
     edge *edges = b->horizon.items;
+    uint32_t *fresh = b->horizon.items;
     for (uint32_t i = 0; i < b->horizon.count; i++) {
         uint32_t index = add_facet(b, edges[i].from, edges[i].to, p);
         if (index == NOTHING) return OVOID_ERROR_MEMORY;
@@ -411,16 +412,14 @@ static ovoid_code make_cone(builder *b, uint32_t p) {
             return OVOID_ERROR_HULL;
         get_facet(b, index)->across[1] = make_side(after, 2);
         get_facet(b, after)->across[2] = make_side(index, 1);
+        fresh[i] = index;
     }
     return OVOID_OK;
 }
 
 // Distributes the points of the facets that the point replaces, and frees these facets.
 static int share_points(builder *b, uint32_t p) {
-    // The edges are no longer needed: their memory becomes a plain list of the new facets.
-    uint32_t *fresh = b->horizon.items;
-    const edge *edges = b->horizon.items;
-    for (uint32_t i = 0; i < b->horizon.count; i++) fresh[i] = edges[i].across;
+    const uint32_t *fresh = b->horizon.items;
     for (uint32_t i = 0; i < b->visible.count; i++) {
         uint32_t index = ((uint32_t *)b->visible.items)[i];
         facet *f = get_facet(b, index);
@@ -474,17 +473,19 @@ static void mark_corners(builder *b, uint32_t count) {
     memset(creases, 0xff, count * sizeof *creases);
     for (uint32_t i = 0; i < b->facets.count; i++) {
         const facet *f = get_facet(b, i);
-        for (int k = 0; k < 3 && !f->is_free; k++) creases[f->vertex[k]] = 0;
+        if (f->is_free) continue;
+        for (int k = 0; k < 3; k++) creases[f->vertex[k]] = 0;
     }
     for (uint32_t i = 0; i < b->facets.count; i++) {
         const facet *f = get_facet(b, i);
-        for (int k = 0; k < 3 && !f->is_free; k++) {
+        if (f->is_free) continue;
+        for (int k = 0; k < 3; k++) {
             // Each edge is counted at the first of its facets.
             if (get_facet_of(f->across[k]) < i) continue;
             uint32_t beyond = get_beyond(b, f, k);
             if (!get_side(b, f, beyond, get_height(b, f, beyond))) continue;
             creases[f->vertex[k]]++;
-            creases[f->vertex[(k + 1) % 3]]++;
+            creases[f->vertex[k == 2 ? 0 : k + 1]]++;
         }
     }
     for (uint32_t i = 0; i < count; i++) {
