@@ -72,7 +72,7 @@ void fit_write_report(FILE *file, const fitted *f) {
         fprintf(file, "  allowance %.9g outside, %.9g inside\n", f->allowance.outside, f->allowance.inside);
     const ovoid_vec3 axis = f->allowance.axis;
     if (has_axis(f)) fprintf(file, "  axis     (%.9g, %.9g, %.9g): nothing outside along it\n", axis.x, axis.y, axis.z);
-    if (f->is_lean) fputs("  lean     an inner ellipsoid of the moments, no table of supports\n", file);
+    if (f->is_lean) fputs("  lean     an inner ellipsoid of the moments, no table of supports, no Gauss map\n", file);
     fprintf(file, "\n  %-8s %-12s %8s  %-8s %-34s %8s\n", "", get_measure_name(r->rank), "of body", "gap", "radii",
             "time");
     for (int i = 0; i < FIT_STEPS; i++) write_step(file, f, i);

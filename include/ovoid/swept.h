@@ -41,7 +41,8 @@ typedef struct ovoid_swept_sphere {
     uint32_t count;       /**< of the points, >= 1; each query reads all of them 5 to 15 times */
     /** Of points: NULL, or what ovoid_shape_create_from_points made of them, borrowed; that they are the same is not
      * checked, and a depth is of neither body where they are not. Of a solid of up to 32 points
-     * its faces show the depth in a cylinder, a cone or an ellipsoid in half of the time, and leave less undecided. */
+     * its faces show the depth in a cylinder, a cone or an ellipsoid in half of the time, and leave less undecided,
+     * unless the shape is lean. */
     const ovoid_shape *shape;
 } ovoid_swept_sphere;
 

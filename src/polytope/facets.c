@@ -277,8 +277,8 @@ int neighbors_compute(const surface *s, uint32_t *starts, uint32_t *neighbors, c
         unsorted[end[t[2]]++] = t[0];
     }
     memcpy(end, starts, count * sizeof *end);
-    for (uint32_t v = 0; v < count; v++)
-        for (uint32_t i = starts[v]; i < starts[v + 1]; i++) neighbors[end[unsorted[i]]++] = v;
+    for (uint32_t v = 0, i = 0; v < count; v++)
+        for (uint32_t after = starts[v + 1]; i < after; i++) neighbors[end[unsorted[i]]++] = v;
     allocator_release(allocator, unsorted);
     return 1;
 }

@@ -4,6 +4,7 @@
 // 1) (d + 2)) (sum of v_i v_i' + s s'). Everything is computed in units of the body's size, a power of two, so that
 // only results can underflow.
 #include "base/environment.h"
+#include "linear/both.h"
 #include "linear/box.h"
 #include "linear/mat3.h"
 #include "ovoid/polytope.h"
@@ -48,17 +49,44 @@ static vec3 get_corner(const frame *f, uint32_t v) {
     return vec3_scale(vec3_sub(vec3_at(f->polytope->vertices, v), f->middle), f->inverse);
 }
 
+// The triangles of a flat body, which has two sides.
 static void add_triangles(moments *m, const frame *f) {
     const ovoid_polytope *p = f->polytope;
     for (uint32_t t = 0; t < p->triangle_count; t++) {
         vec3 v[3];
         for (size_t i = 0; i < 3; i++) v[i] = get_corner(f, p->triangles[3 * (size_t)t + i]);
         double area = vec3_norm(vec3_cross(vec3_sub(v[1], v[0]), vec3_sub(v[2], v[0]))) / 2;
-        m->area += p->rank == 3 ? area : 2 * area;
-        if (p->rank == 3)
-            add_simplex(m, vec3_dot(v[0], vec3_cross(v[1], v[2])) / 6, 3, v);
-        else
-            add_simplex(m, area, 2, v);
+        m->area += 2 * area;
+        add_simplex(m, area, 2, v);
+    }
+}
+
+// The pyramids over the triangles of a solid, two at a time, with the operations of add_simplex. They are added one
+// after the other.
+static void add_pyramids(moments *m, const frame *f) {
+    const ovoid_polytope *p = f->polytope;
+    for (uint32_t t = 0; t < p->triangle_count; t += 2) {
+        const uint32_t *one = p->triangles + 3 * (size_t)t, *two = t + 1 < p->triangle_count ? one + 3 : one;
+        both_vec3 v[3];
+        for (int i = 0; i < 3; i++) v[i] = both_vec3_make(get_corner(f, one[i]), get_corner(f, two[i]));
+        both_vec3 area = both_vec3_cross(both_vec3_sub(v[1], v[0]), both_vec3_sub(v[2], v[0]));
+        both square = both_vec3_dot(area, area),
+             volume = both_vec3_dot(v[0], both_vec3_cross(v[1], v[2])) / both_set(6);
+        both_vec3 s = {v[0].x + v[1].x + v[2].x, v[0].y + v[1].y + v[2].y, v[0].z + v[1].z + v[2].z};
+        both xx = s.x * s.x, xy = s.x * s.y, xz = s.x * s.z, yy = s.y * s.y, yz = s.y * s.z, zz = s.z * s.z;
+        for (int i = 0; i < 3; i++) {
+            xx += v[i].x * v[i].x, xy += v[i].x * v[i].y, xz += v[i].x * v[i].z;
+            yy += v[i].y * v[i].y, yz += v[i].y * v[i].z, zz += v[i].z * v[i].z;
+        }
+        both quarter = volume / both_set(4), part = volume / both_set(20);
+        s = (both_vec3){s.x * quarter, s.y * quarter, s.z * quarter};
+        xx *= part, xy *= part, xz *= part, yy *= part, yz *= part, zz *= part;
+        for (uint32_t k = 0; k < 2 && t + k < p->triangle_count; k++) {
+            m->area += sqrt(square[k]) / 2;
+            m->measure += volume[k];
+            m->first = vec3_add(m->first, both_vec3_get(s, (int)k));
+            m->second = sym3_add(m->second, (sym3){xx[k], xy[k], xz[k], yy[k], yz[k], zz[k]});
+        }
     }
 }
 
@@ -82,7 +110,8 @@ static ovoid_measures compute_measures(const ovoid_polytope *polytope) {
     double unit = ldexp(1, find_unit_exponent(vec3_max_abs(vec3_sub(result.box.max, result.box.min))));
     frame f = {polytope, compute_mean(polytope, s.center, unit), unit, 1 / unit};
     moments m = {0};
-    if (polytope->rank >= 2) add_triangles(&m, &f);
+    if (polytope->rank == 3) add_pyramids(&m, &f);
+    if (polytope->rank == 2) add_triangles(&m, &f);
     if (polytope->rank == 1) add_segment(&m, &f);
 
     int dimension = (int)polytope->rank;

@@ -78,6 +78,7 @@ typedef struct builder {
     array facets, free; // facet, with a list_head for each behind the last; uint32_t
     list_head *heads;
     array visible, horizon; // uint32_t, edge
+    array fresh;            // of the last point: pointers to its facets, as many as its horizon has edges
     uint32_t first, last;   // of the queue of facets with points above
     uint32_t top, few;      // of the stack of facets with at most `few` points above
     uint32_t stamp;
@@ -225,10 +226,11 @@ static int reserve_facets(builder *b, uint32_t capacity) {
     return 1;
 }
 
-static list_head *get_head(const builder *b, uint32_t f) { return b->heads + f; }
+static uint32_t get_index(const builder *b, const facet *f) { return (uint32_t)(f - (const facet *)b->facets.items); }
+static list_head *get_head(const builder *b, const facet *f) { return b->heads + get_index(b, f); }
 
 // A free facet, with nothing across yet. NOTHING if memory runs out.
-static uint32_t add_facet(builder *b, uint32_t u, uint32_t v, uint32_t w) {
+static inline __attribute__((always_inline)) uint32_t add_facet(builder *b, uint32_t u, uint32_t v, uint32_t w) {
     uint32_t index;
     if (b->free.count)
         index = ((uint32_t *)b->free.items)[--b->free.count];
@@ -244,7 +246,7 @@ static uint32_t add_facet(builder *b, uint32_t u, uint32_t v, uint32_t w) {
     f->vertex[1] = v;
     f->vertex[2] = w;
     f->across[0] = f->across[1] = f->across[2] = f->points = NOTHING;
-    get_head(b, index)->count = 0;
+    get_head(b, f)->count = 0;
     f->stamp = 0;
     f->is_free = 0;
     return index;
@@ -262,11 +264,11 @@ static int get_side(const builder *b, const facet *f, uint32_t p, double height)
                           get_point(b, p));
 }
 
-static void queue_facet(builder *b, uint32_t index) {
-    facet *f = get_facet(b, index);
+static void queue_facet(builder *b, facet *f) {
     if (f->is_queued) return;
+    uint32_t index = get_index(b, f);
     f->is_queued = 1;
-    if (get_head(b, index)->count <= b->few) {
+    if (b->heads[index].count <= b->few) {
         f->pending = b->top;
         b->top = index;
         return;
@@ -284,9 +286,8 @@ static int has_above(const builder *b, const facet *f) {
 }
 
 // Puts a point into a facet's list. Points above count as extreme until proven otherwise.
-static void list_point(builder *b, uint32_t index, uint32_t p, int side, double height) {
-    facet *f = get_facet(b, index);
-    list_head *head = get_head(b, index);
+static void list_point(builder *b, facet *f, uint32_t p, int side, double height) {
+    list_head *head = get_head(b, f);
     b->state[p] = side > 0 ? POINT_EXTREME : POINT_ON_FACE;
     int is_first = f->points == NOTHING || (side > 0 && (!has_above(b, f) || height > head->height));
     if (is_first) head->height = height;
@@ -294,59 +295,61 @@ static void list_point(builder *b, uint32_t index, uint32_t p, int side, double 
     b->next[p] = *link;
     *link = p;
     head->count++;
-    if (side > 0 && !b->few) queue_facet(b, index);
+    if (side > 0 && !b->few) queue_facet(b, f);
 }
 
 // Assigns a point to the first of the facets that it is above, else to one that it is on; else it is inside. Only a
 // point that was above a replaced facet can be above a new one. apex: the last corner of all of the facets; NOTHING:
 // they have none in common.
-static inline void place_point(builder *b, uint32_t p, const uint32_t *facets, uint32_t count, uint32_t apex) {
-    uint32_t on = NOTHING;
+static inline void place_point(builder *b, uint32_t p, facet *const *facets, uint32_t count, uint32_t apex) {
+    facet *on = NULL;
     vec3 offset = apex == NOTHING ? (vec3){0, 0, 0} : vec3_sub(get_point(b, p), get_point(b, apex));
     for (uint32_t i = 0; i < count; i++) {
-        const facet *f = get_facet(b, facets[i]);
+        facet *f = facets[i];
         double height = apex == NOTHING ? get_height(b, f, p) : vec3_dot(f->normal, offset);
+        // Most facets are clearly above the point.
+        if (-height > b->bound) continue;
         int side = get_side(b, f, p, height);
         if (side > 0) {
-            list_point(b, facets[i], p, side, height);
+            list_point(b, f, p, side, height);
             return;
         }
-        if (side == 0) on = facets[i];
+        if (side == 0) on = f;
     }
-    if (on != NOTHING)
+    if (on)
         list_point(b, on, p, 0, 0);
     else
         b->state[p] = POINT_INSIDE;
 }
 
 // Queues new facets, whose lists are complete; with few points each facet was queued with its first point.
-static void queue_facets(builder *b, const uint32_t *facets, uint32_t count) {
+static void queue_facets(builder *b, facet *const *facets, uint32_t count) {
     for (uint32_t i = 0; i < count && b->few; i++)
-        if (has_above(b, get_facet(b, facets[i]))) queue_facet(b, facets[i]);
+        if (has_above(b, facets[i])) queue_facet(b, facets[i]);
 }
 
-static int make_simplex(builder *b, uint32_t count, const uint32_t given[4]) {
-    uint32_t c[4] = {given[0], given[1], given[2], given[3]}, f[4];
+static void make_simplex(builder *b, uint32_t count, const uint32_t given[4]) {
+    uint32_t c[4] = {given[0], given[1], given[2], given[3]};
     // The fourth corner below the first three.
     if (orient3d_sign(get_point(b, c[0]), get_point(b, c[1]), get_point(b, c[2]), get_point(b, c[3])) < 0) {
         c[1] = given[2];
         c[2] = given[1];
     }
     static const int corners[4][3] = {{0, 1, 2}, {1, 0, 3}, {2, 1, 3}, {0, 2, 3}};
-    static const int across[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
+    static const uint32_t across[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
     static const uint32_t back[4][3] = {{0, 0, 0}, {0, 2, 1}, {1, 2, 1}, {2, 2, 1}};
-    for (int i = 0; i < 4; i++) {
-        f[i] = add_facet(b, c[corners[i][0]], c[corners[i][1]], c[corners[i][2]]);
-        if (f[i] == NOTHING) return 0;
+    // The first facets of all, which are numbered from 0 and whose memory there is.
+    facet *f[4];
+    for (uint32_t i = 0; i < 4; i++) {
+        (void)add_facet(b, c[corners[i][0]], c[corners[i][1]], c[corners[i][2]]);
+        f[i] = get_facet(b, i);
+        for (int k = 0; k < 3; k++) f[i]->across[k] = make_side(across[i][k], back[i][k]);
     }
-    for (int i = 0; i < 4; i++)
-        for (int k = 0; k < 3; k++) get_facet(b, f[i])->across[k] = make_side(f[across[i][k]], back[i][k]);
     for (uint32_t p = 0; p < count; p++) {
         b->state[p] = POINT_EXTREME;
         if (p != c[0] && p != c[1] && p != c[2] && p != c[3]) place_point(b, p, f, 4, NOTHING);
     }
     queue_facets(b, f, 4);
-    return 1;
 }
 
 // ---- adding a point ----
@@ -375,10 +378,18 @@ static int find_horizon(builder *b, uint32_t start, uint32_t p) {
             }
             if (b->horizon.count == b->horizon.capacity && !array_grow(&b->horizon, sizeof(edge), b->allocator))
                 return 0;
-            ((edge *)b->horizon.items)[b->horizon.count++] = (edge){f->vertex[k], f->vertex[(k + 1) % 3], f->across[k]};
+            uint32_t to = f->vertex[k == 2 ? 0 : k + 1];
+            ((edge *)b->horizon.items)[b->horizon.count++] = (edge){f->vertex[k], to, f->across[k]};
         }
     }
     return 1;
+}
+
+static int reserve_fresh(builder *b) {
+    allocator_release(b->allocator, b->fresh.items);
+    b->fresh.items = allocator_allocate(b->allocator, b->horizon.capacity, sizeof(facet *));
+    b->fresh.capacity = b->fresh.items ? b->horizon.capacity : 0;
+    return b->fresh.items != NULL;
 }
 
 // Links the facet across the edge to the new facet, of which that is edge 0.
@@ -389,10 +400,12 @@ static int join_across(builder *b, const edge *e, uint32_t index) {
     return g->vertex[k] == e->to && g->vertex[k == 2 ? 0 : k + 1] == e->from;
 }
 
-// The cone from the point over the horizon; the facets' indices replace the edges' `across`. OVOID_ERROR_HULL if the
-// horizon is not one closed loop, which exact signs exclude.
+// The cone from the point over the horizon; b->fresh has its facets. OVOID_ERROR_HULL if
+// the horizon is not one closed loop, which exact signs exclude.
 static ovoid_code make_cone(builder *b, uint32_t p) {
     edge *edges = b->horizon.items;
+    if (b->fresh.capacity < b->horizon.capacity && !reserve_fresh(b)) return OVOID_ERROR_MEMORY;
+    facet **fresh = b->fresh.items;
     for (uint32_t i = 0; i < b->horizon.count; i++) {
         uint32_t index = add_facet(b, edges[i].from, edges[i].to, p);
         if (index == NOTHING) return OVOID_ERROR_MEMORY;
@@ -408,16 +421,14 @@ static ovoid_code make_cone(builder *b, uint32_t p) {
             return OVOID_ERROR_HULL;
         get_facet(b, index)->across[1] = make_side(after, 2);
         get_facet(b, after)->across[2] = make_side(index, 1);
+        fresh[i] = get_facet(b, index);
     }
     return OVOID_OK;
 }
 
 // Distributes the points of the facets that the point replaces, and frees these facets.
 static int share_points(builder *b, uint32_t p) {
-    // The edges are no longer needed: their memory becomes a plain list of the new facets.
-    uint32_t *fresh = b->horizon.items;
-    const edge *edges = b->horizon.items;
-    for (uint32_t i = 0; i < b->horizon.count; i++) fresh[i] = edges[i].across;
+    facet *const *fresh = b->fresh.items;
     for (uint32_t i = 0; i < b->visible.count; i++) {
         uint32_t index = ((uint32_t *)b->visible.items)[i];
         facet *f = get_facet(b, index);
@@ -442,7 +453,7 @@ static ovoid_code add_point(builder *b, uint32_t start) {
 }
 
 static ovoid_code build(builder *b, uint32_t count, const uint32_t corner[4]) {
-    if (!make_simplex(b, count, corner)) return OVOID_ERROR_MEMORY;
+    make_simplex(b, count, corner);
     while (b->first != NOTHING || b->top != NOTHING) {
         uint32_t *list = b->first != NOTHING ? &b->first : &b->top, index = *list;
         facet *f = get_facet(b, index);
@@ -471,17 +482,19 @@ static void mark_corners(builder *b, uint32_t count) {
     memset(creases, 0xff, count * sizeof *creases);
     for (uint32_t i = 0; i < b->facets.count; i++) {
         const facet *f = get_facet(b, i);
-        for (int k = 0; k < 3 && !f->is_free; k++) creases[f->vertex[k]] = 0;
+        if (f->is_free) continue;
+        for (int k = 0; k < 3; k++) creases[f->vertex[k]] = 0;
     }
     for (uint32_t i = 0; i < b->facets.count; i++) {
         const facet *f = get_facet(b, i);
-        for (int k = 0; k < 3 && !f->is_free; k++) {
+        if (f->is_free) continue;
+        for (int k = 0; k < 3; k++) {
             // Each edge is counted at the first of its facets.
             if (get_facet_of(f->across[k]) < i) continue;
             uint32_t beyond = get_beyond(b, f, k);
             if (!get_side(b, f, beyond, get_height(b, f, beyond))) continue;
             creases[f->vertex[k]]++;
-            creases[f->vertex[(k + 1) % 3]]++;
+            creases[f->vertex[k == 2 ? 0 : k + 1]]++;
         }
     }
     for (uint32_t i = 0; i < count; i++) {
@@ -496,36 +509,23 @@ static void mark_corners(builder *b, uint32_t count) {
 // From this number of triangles on the surface does not stay in the nearest cache.
 #define WALK_LEAST 1020
 
-// Renumbers the triangles in the order of a walk over edges from the first one, breadth first, so that a loop over them
-// finds their corners in the cache. 0 if memory runs out.
-static int order_by_walk(surface *s, const ovoid_allocator *allocator) {
-    uint32_t count = s->triangle_count;
-    if (count < WALK_LEAST) return 1;
-    // The array of the walk is its queue too.
-    uint32_t *walk = allocator_allocate(allocator, 2 * (size_t)count, sizeof *walk), met = 1;
-    uint32_t *place = walk ? walk + count : NULL;
-    uint32_t *triangles = allocator_allocate(allocator, count, 3 * sizeof *triangles);
-    uint32_t *across = allocator_allocate(allocator, count, 3 * sizeof *across);
-    int good = walk && triangles && across;
-    if (good) {
-        memset(place, 0xff, count * sizeof *place);
-        walk[0] = place[0] = 0;
+// Lists the facets in use and writes their numbers into their stamps: in the order in memory, but many in that of a
+// walk over edges from the first one, breadth first, so that a loop over them finds their corners in the cache.
+static void number_facets(const builder *b, uint32_t *list, uint32_t used) {
+    uint32_t met = 0;
+    for (uint32_t i = 0; i < b->facets.count; i++) {
+        facet *f = get_facet(b, i);
+        if (f->is_free) continue;
+        f->stamp = NOTHING;
+        if (used < WALK_LEAST || met == 0) f->stamp = met, list[met++] = i;
     }
-    for (uint32_t i = 0; good && i < met; i++)
-        for (size_t k = 0; k < 3; k++) {
-            uint32_t t = s->across[3 * (size_t)walk[i] + k];
-            if (place[t] == NOTHING) place[t] = met, walk[met++] = t;
+    // The list is the queue of the walk too.
+    for (uint32_t i = 0; i < met && met < used; i++)
+        for (int k = 0; k < 3; k++) {
+            uint32_t across = get_facet_of(get_facet(b, list[i])->across[k]);
+            facet *f = get_facet(b, across);
+            if (f->stamp == NOTHING) f->stamp = met, list[met++] = across;
         }
-    for (size_t i = 0; good && i < 3 * (size_t)count; i++) {
-        size_t from = 3 * (size_t)walk[i / 3] + i % 3;
-        triangles[i] = s->triangles[from];
-        across[i] = place[s->across[from]];
-    }
-    allocator_release(allocator, walk);
-    allocator_release(allocator, good ? s->triangles : triangles);
-    allocator_release(allocator, good ? s->across : across);
-    if (good) s->triangles = triangles, s->across = across;
-    return good;
 }
 
 // Copies the facets in use to plain arrays.
@@ -534,20 +534,20 @@ static int extract(builder *b, uint32_t count, surface *s) {
     s->triangles = allocator_allocate(b->allocator, used, 3 * sizeof *s->triangles);
     s->across = allocator_allocate(b->allocator, used, 3 * sizeof *s->across);
     if (!s->triangles || !s->across) return 0;
-    // Stores the new numbers of the facets in their stamps.
-    for (uint32_t i = 0; i < b->facets.count; i++)
-        if (!get_facet(b, i)->is_free) get_facet(b, i)->stamp = s->triangle_count++;
-    uint32_t t = 0;
-    for (uint32_t i = 0; i < b->facets.count; i++) {
-        const facet *f = get_facet(b, i);
-        if (f->is_free) continue;
-        for (int k = 0; k < 3; k++) {
-            s->triangles[t] = f->vertex[k];
-            s->across[t++] = get_facet(b, get_facet_of(f->across[k]))->stamp;
+    s->triangle_count = used;
+    // The list is in the last third of an array that is written from its start: each entry is read before its place is.
+    uint32_t *list = s->across + 2 * (size_t)used;
+    number_facets(b, list, used);
+    size_t i = 0;
+    for (uint32_t t = 0; t < used; t++) {
+        const facet *f = get_facet(b, list[t]);
+        for (int k = 0; k < 3; k++, i++) {
+            s->triangles[i] = f->vertex[k];
+            s->across[i] = get_facet(b, get_facet_of(f->across[k]))->stamp;
         }
     }
     mark_corners(b, count);
-    return order_by_walk(s, b->allocator);
+    return 1;
 }
 
 // Shewchuk's (7 + 56 u) u on the permanent, which is at most six times the volume of the points' box; rounded up
@@ -573,6 +573,7 @@ static ovoid_code find_hull(builder *b, uint32_t count, surface *s) {
     allocator_release(b->allocator, b->free.items);
     allocator_release(b->allocator, b->visible.items);
     allocator_release(b->allocator, b->horizon.items);
+    allocator_release(b->allocator, b->fresh.items);
     return code;
 }
 

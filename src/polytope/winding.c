@@ -1,5 +1,5 @@
 // The winding number of a closed surface: the signed crossings of a ray from the point, by exact orientations. The
-// first ray runs along z, and most triangles are beside it by their coordinates alone.
+// first ray runs up along z, and most triangles are beside it, or below its start, by their coordinates alone.
 #include "polytope/winding.h"
 
 #include "linear/both.h"
@@ -18,20 +18,21 @@ static int count_crossing(vec3 c, vec3 q, const vec3 corner[3]) {
     return side == 0 ? 2 : side == -s0 ? side : 0;
 }
 
-// Which of a triangle and the next one the line through the point along z passes beside, as bits of their lanes: all
-// corners lie to one side of it along x, or along y. The comparisons are exact. Each by itself follows no pattern, so
-// there is no branch between them.
+// Which of a triangle and the next one the ray from the point up along z passes beside, as bits of their lanes: all
+// corners lie to one side of it along x, or along y, or below the point. The comparisons are exact. Each by itself
+// follows no pattern, so there is no branch between them.
 static both_bits find_beside(const ovoid_polytope *p, uint32_t t, vec3 point) {
     const uint32_t *first = p->triangles + 3 * (size_t)t, *second = t + 1 < p->triangle_count ? first + 3 : first;
-    both x = both_set(point.x), y = both_set(point.y);
-    both_bits right = {-1, -1}, left = right, above = right, below = right;
+    both x = both_set(point.x), y = both_set(point.y), z = both_set(point.z);
+    both_bits right = {-1, -1}, left = right, above = right, below = right, under = right;
     for (int i = 0; i < 3; i++) {
         const double *a = p->vertices + 3 * (size_t)first[i], *b = p->vertices + 3 * (size_t)second[i];
-        both along_x = both_make(a[0], b[0]), along_y = both_make(a[1], b[1]);
+        both along_x = both_make(a[0], b[0]), along_y = both_make(a[1], b[1]), along_z = both_make(a[2], b[2]);
         right &= along_x > x, left &= along_x < x;
         above &= along_y > y, below &= along_y < y;
+        under &= along_z < z;
     }
-    return (right | left) | (above | below);
+    return (right | left) | (above | below) | under;
 }
 
 // A point on the ray of an attempt: up along z at first; then through points inside a triangle, at weights of no

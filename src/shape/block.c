@@ -185,5 +185,5 @@ ovoid_report ovoid_shape_get_report(const ovoid_shape *shape) { return shape->re
 ovoid_fit ovoid_shape_get_outer(const ovoid_shape *shape) { return shape->outer_fit; }
 ovoid_fit ovoid_shape_get_inner(const ovoid_shape *shape) { return shape->inner_fit; }
 ovoid_measures ovoid_shape_get_measures(const ovoid_shape *shape) { return shape->measures; }
-int ovoid_shape_is_lean(const ovoid_shape *shape) { return shape->is_lean != 0; }
+int ovoid_shape_is_lean(const ovoid_shape *shape) { return shape->counts.is_lean != 0; }
 size_t ovoid_shape_get_size(const ovoid_shape *shape) { return shape->at.size; }

@@ -12,7 +12,7 @@
 typedef struct block_offsets {
     uint64_t x, y, z;         ///< vertices as structure of arrays, padded_count doubles each; padding repeats vertex 0
     uint64_t floats;          ///< float_shape (floats.h); none for bodies of many vertices
-    uint64_t gauss;           ///< gauss_map (gauss_map.h); none for bodies of many vertices
+    uint64_t gauss;           ///< gauss_map (gauss_map.h); none for bodies of many vertices, and lean ones
     uint64_t vertices;        ///< xyz, 3 vertex_count doubles
     uint64_t planes;          ///< ovoid_plane, facet_count
     uint64_t triangles;       ///< uint32, 3 triangle_count
@@ -27,9 +27,10 @@ typedef struct block_offsets {
     uint64_t size;                      ///< of the whole block
 } block_offsets;
 
-/// The counts that decide the layout.
+/// What decides the layout.
 typedef struct block_counts {
     uint32_t vertices, triangles, facets, neighbors, cells;
+    uint32_t is_lean; ///< made by OVOID_INNER_LEAN: there is no table of supports and no Gauss map
 } block_counts;
 
 /// The inner ellipsoid as queries use it: |W (x - c)| (1 + 1e-7) is at least the norm in which it is the unit ball.
@@ -68,7 +69,6 @@ struct ovoid_shape {
     parallelepiped box;
     // The rest.
     block_counts counts;
-    uint32_t is_lean; ///< made by OVOID_INNER_LEAN: there is no table of supports
     ovoid_fit outer_fit, inner_fit;
     ovoid_report report;
     ovoid_measures measures;

@@ -184,13 +184,13 @@ ovoid_shape *shape_create_block(const hull *polytope, const block_making *how, o
         error_write(error, code, -1, "no memory for the table of supports of %u vertices", p.vertex_count);
         return NULL;
     }
-    block_counts counts = {polytope->vertex_count, polytope->triangle_count, polytope->facet_count,
-                           polytope->neighbor_starts[polytope->vertex_count], support.cell_count};
+    block_counts counts = {polytope->vertex_count, polytope->triangle_count,
+                           polytope->facet_count,  polytope->neighbor_starts[polytope->vertex_count],
+                           support.cell_count,     how->is_lean};
     uint32_t *room = allocator_allocate(how->work, loops_get_room(counts), sizeof *room);
     if (!room) error_write(error, OVOID_ERROR_MEMORY, -1, "no memory for the loops of %u facets", counts.facets);
     ovoid_shape *shape = room ? block_create(counts, how->allocator, error) : NULL;
     if (shape) {
-        shape->is_lean = how->is_lean;
         block_fill(shape, &p, &polytope->form, room);
         shape->support = support;
         support_table_fill(p.vertices, blocks, support.cell_count, (simd_cell *)((char *)shape + shape->at.cells));

@@ -20,7 +20,7 @@ int allowance_is_normal(const ovoid_allowance *allowance);
 /// How a block is made.
 typedef struct block_making {
     const ovoid_allocator *allocator, *work; ///< of the block; of working memory
-    uint32_t is_lean;                        ///< without a table of supports
+    uint32_t is_lean;                        ///< without a table of supports and a Gauss map
 } block_making;
 
 /// A block with everything that follows from the hull; radius, report and ellipsoids are not set. NULL with MEMORY.

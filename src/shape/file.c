@@ -138,7 +138,7 @@ size_t shape_write_version(const ovoid_shape *shape, uint32_t written, void *buf
     put_integer(&w, shape->report.coplanar, 8);
     put_integer(&w, shape->report.faces, 8);
     put_fit(&w, &shape->outer_fit, 0);
-    put_fit(&w, &shape->inner_fit, shape->is_lean);
+    put_fit(&w, &shape->inner_fit, shape->counts.is_lean);
     if (version > 1) {
         put_double(&w, shape->allowance.outside);
         put_double(&w, shape->allowance.inside);

@@ -43,7 +43,8 @@ static uint64_t get_row(uint64_t count) { return (count + GAUSS_ROW - 1) / GAUSS
 
 uint64_t gauss_map_get_size(const block_counts *c) {
     uint64_t arcs = c->neighbors / 2;
-    if (c->vertices < 4 || c->vertices > GAUSS_POINTS || c->facets > GAUSS_FACETS || arcs > GAUSS_ARCS) return 0;
+    if (c->is_lean || c->vertices < 4 || c->vertices > GAUSS_POINTS || c->facets > GAUSS_FACETS || arcs > GAUSS_ARCS)
+        return 0;
     return sizeof(gauss_map) + 4 * simd_get_padded(c->facets) * sizeof(double) + 4 * get_row(arcs);
 }
 

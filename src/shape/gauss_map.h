@@ -1,5 +1,5 @@
-// A shape's Gauss map (simd/gauss.h). Solids of at most GAUSS_POINTS vertices have room for one; it is there where the
-// normals around each vertex are the corners of a convex cell, clearly.
+// A shape's Gauss map (simd/gauss.h). Solids of at most GAUSS_POINTS vertices have room for one, but for lean ones; it
+// is there where the normals around each vertex are the corners of a convex cell, clearly.
 #ifndef OVOID_SHAPE_GAUSS_MAP_H
 #define OVOID_SHAPE_GAUSS_MAP_H
 

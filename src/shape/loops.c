@@ -52,7 +52,9 @@ static void number_corners(tables *t) {
             heads[at] = corner[i + (k == 2 ? 0 : k + 1)];
         }
     start_lists(t);
-    for (uint32_t i = 0; i < count; i++) t->corners[ordered[i]] = t->reverse[t->places[heads[i]]++];
+    uint32_t *corners = t->corners, *places = t->places;
+    const uint32_t *reverse = t->reverse;
+    for (uint32_t i = 0; i < count; i++) corners[ordered[i]] = reverse[places[heads[i]]++];
 }
 
 // 1 if each facet is one triangle.
@@ -60,7 +62,9 @@ static int has_triangles_alone(const tables *t) { return t->p->rank == 3 && t->p
 
 static void link_solid(tables *t) {
     start_lists(t);
-    for (uint32_t i = 0; i < t->shape->counts.neighbors; i++) t->reverse[i] = t->places[t->p->neighbors[i]]++;
+    uint32_t count = t->shape->counts.neighbors, *reverse = t->reverse, *places = t->places;
+    const uint32_t *neighbors = t->p->neighbors;
+    for (uint32_t i = 0; i < count; i++) reverse[i] = places[neighbors[i]]++;
     number_corners(t);
     int needs_next = !has_triangles_alone(t);
     for (uint32_t i = 0; i < t->p->triangle_count; i++) {

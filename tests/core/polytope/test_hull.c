@@ -198,11 +198,11 @@ static void check_states(size_t count, size_t extreme) {
     points_destroy(&p, &allocator);
 }
 
-// The corner beyond each edge of a surface is the third one of the triangle across. Returns 0 where one is not, since
-// facets that are found by such a corner need not come to an end.
-static int check_beyond(void) {
+// The corner beyond each edge of a surface is the third one of the triangle across, which has both of the edge's ends.
+// Returns 0 where one is not, since facets that are found by such a corner need not come to an end.
+static int check_beyond(size_t count) {
     uint64_t seed = 78;
-    size_t n = put_sphere(&seed, 100, 1);
+    size_t n = put_sphere(&seed, count, 1);
     points p;
     surface s;
     int is_right = 0;
@@ -422,7 +422,8 @@ static void check_errors(void) {
 
 int main(void) {
     allocator = allocator_make(NULL);
-    if (!check_beyond()) return check_end();
+    // The triangles of 600 points are numbered along a walk.
+    if (!check_beyond(100) || !check_beyond(600)) return check_end();
     check_boxes();
     check_scales();
     check_far();

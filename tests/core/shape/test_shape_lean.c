@@ -10,6 +10,7 @@
 #include "places.h"
 #include "proofs/covers.h"
 #include "shape/block.h"
+#include "shape/gauss_map.h"
 #include "shape_files.h"
 
 #include <ovoid/ovoid.h>
@@ -47,6 +48,8 @@ static double check_lean(const ovoid_shape *s, const ovoid_shape *full) {
     CHECK(ovoid_shape_is_lean(s));
     CHECK(!ovoid_shape_is_lean(full));
     CHECK_EQ(s->support.k, 0);
+    CHECK(!shape_get_gauss_map(s));
+    CHECK_EQ(s->at.gauss, s->at.vertices);
     CHECK(ellipsoid_is_enclosing(&p, &outer.ellipsoid));
     CHECK_LE(outer.gap, 0.1);
     if (p.rank < 3) return 1;
