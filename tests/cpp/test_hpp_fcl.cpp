@@ -256,6 +256,32 @@ static void test_balls() {
     for (const auto &x : others) CHECK_EQ(is_left(ball, *x.geometry, grown), x.name != "sphere");
 }
 
+/// A matrix that is off a rotation by some roundings is read as one that is not, and is not far from it, mirrored or
+/// not; one that is off by more is not read.
+static void test_straightened() {
+    using namespace ovoid::fcl::detail;
+    random_poses poses(11);
+    const Boxd box(0.9, 0.8, 0.7);
+    long straightened = 0;
+    for (int n = 0; n < 300; n++) {
+        Transform3d t = poses.make<double>(0.5);
+        if (n % 2) t.linear().col(n % 3) *= -1;
+        t.linear()(n / 3 % 3, n % 3) += 3e-15;
+        ovoid_swept_sphere of{};
+        const double before =
+            off_rotation({get_column<double>(t, 0), get_column<double>(t, 1), get_column<double>(t, 2)});
+        const bool is_read = make_swept<double>({&box, box.getNodeType()}, t, of);
+        CHECK_EQ(is_read, before <= 1e-14);
+        if (!is_read) continue;
+        straightened += before > columns_rounding;
+        CHECK_LE(off_rotation(of.axis), columns_rounding);
+        for (int k = 0; k < 3; k++) CHECK_LE(sum_abs(add_scaled(of.axis[k], get_column<double>(t, k), -1)), 2e-14);
+        t.linear()(0, 0) += 1e-13;
+        CHECK(!make_swept<double>({&box, box.getNodeType()}, t, of));
+    }
+    CHECK_LE(100, straightened);
+}
+
 /// The rotation of a sphere changes no bit of an answer, whatever the matrix is.
 static void test_turned_spheres() {
     random_poses poses(8);
@@ -609,6 +635,7 @@ int main() {
     test_beside_fcl();
     test_spheres();
     test_balls();
+    test_straightened();
     test_turned_spheres();
     test_meshes();
     test_planes();

@@ -29,7 +29,7 @@ template <class S> OVOID_FCL_INLINE bool set_axis(const ::fcl::Transform3<S> &t,
 /// The axes of a box, an ellipsoid or a convex polytope; false if they are not those of a rotation.
 template <class S> OVOID_FCL_INLINE bool set_axes(const ::fcl::Transform3<S> &t, ovoid_swept_sphere &to) {
     for (int k = 0; k < 3; k++) to.axis[k] = get_column<S>(t, k);
-    return off_rotation(to.axis) <= columns_rounding;
+    return off_rotation(to.axis) <= columns_rounding || straighten(to.axis);
 }
 
 /// A cylinder or a cone around its own z axis, but for its centre.

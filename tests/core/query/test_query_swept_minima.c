@@ -377,6 +377,8 @@ static void check_ellipsoid_pairs(uint64_t *r) {
         // Of some the axes are the other one's, or the centre is on one.
         for (int k = 0; k < 3 && kind == 6; k++) a.axis[k] = b.axis[(k + i) % 3];
         if (kind == 7) d = vec3_scale(a.axis[0], random_uniform(r, -0.5, 0.5));
+        // Of many an end is in the ellipsoid.
+        if (kind > 8) d = vec3_add(vec3_scale(a.axis[0], a.half[0]), random_vec3(r, 0.2));
         const cores p = {i & 2 ? &a : &b, i & 2 ? &b : &a, i & 2 ? d : vec3_neg(d), 4 + vec3_norm(d)};
         count[1 + check_search(&p, search_cells, r)]++;
         const double least = sample_minima(&p, r);
