@@ -195,6 +195,93 @@ static void test_spheres() {
     CHECK_LE(20, hits);
 }
 
+/// Yes or no of a sphere and another geometry, of which balls decide some, are those of the library, in both orders and
+/// for bodies that all but touch along the way to the centre.
+static void test_balls() {
+    random_poses poses(9);
+    const std::vector<named<double>> others = {{"sphere", std::make_shared<Sphered>(0.3)},
+                                               {"capsule", std::make_shared<Capsuled>(0.2, 1.1)},
+                                               {"box", std::make_shared<Boxd>(1.2, 0.3, 0.8)},
+                                               {"disc", std::make_shared<Cylinderd>(0.7, 0.2)},
+                                               {"rod", std::make_shared<Cylinderd>(0.2, 1.4)}};
+    const Sphered ball(0.4);
+    const auto read = [](const CollisionGeometryd *g, const Transform3d &t, ovoid_swept_sphere &to) {
+        return ovoid::fcl::detail::make_swept<double>({g, g->getNodeType()}, t, to);
+    };
+    long hits = 0, misses = 0;
+    for (int n = 0; n < 400; n++)
+        for (const auto &x : others) {
+            Transform3d s = poses.make<double>(0.5);
+            const Transform3d t = poses.make<double>(0.5);
+            ovoid_swept_sphere of_x{}, of_ball{};
+            ovoid_witness at;
+            // Few of the rotations are not those of a rotation to the last digits.
+            if (!read(&ball, s, of_ball) || !read(x.geometry.get(), t, of_x)) continue;
+            const ovoid_verdict found = ovoid_swept_distance({&of_ball, &of_x}, &at);
+            if (n % 2 == 0 && found.status == OVOID_SEPARATED) {
+                const double gap = (found.lower + found.upper) / 2 + (n % 4 == 0 ? 1e-9 : -1e-9);
+                s.translation() += gap * Vector3d(at.normal.x, at.normal.y, at.normal.z);
+                CHECK(read(&ball, s, of_ball));
+            }
+            const bool is_hit = ovoid_swept_collide({&of_ball, &of_x}).status != OVOID_SEPARATED;
+            (is_hit ? hits : misses)++;
+            for (const bool is_detailed : {false, true}) {
+                const CollisionRequestd request(1, is_detailed);
+                CollisionResultd first, second;
+                CHECK_EQ(ovoid::fcl::collide<double>(&ball, s, x.geometry.get(), t, request, first), is_hit);
+                CHECK_EQ(ovoid::fcl::collide<double>(x.geometry.get(), t, &ball, s, request, second), is_hit);
+            }
+        }
+    CHECK_LE(600, hits);
+    CHECK_LE(600, misses);
+    // Sizes and transforms that are left to FCL.
+    const Sphered wrong(-1);
+    const Capsuled wrong_capsule(0.2, -1);
+    const Boxd wrong_box(1, 1, -1);
+    const Cylinderd wrong_cylinder(-1, 1);
+    const Transform3d here = Transform3d::Identity(), far(Eigen::Translation3d(9, 0, 0));
+    Transform3d grown = far;
+    grown.linear() *= 2;
+    const auto is_left = [&](const CollisionGeometryd &x, const CollisionGeometryd &y, const Transform3d &t) {
+        const long before = counting_fcl::calls;
+        CollisionResultd result;
+        ovoid::fcl::collide<double>(&x, here, &y, t, CollisionRequestd(), result);
+        return counting_fcl::calls > before;
+    };
+    for (const CollisionGeometryd *y :
+         {static_cast<const CollisionGeometryd *>(&wrong), static_cast<const CollisionGeometryd *>(&wrong_capsule),
+          static_cast<const CollisionGeometryd *>(&wrong_box),
+          static_cast<const CollisionGeometryd *>(&wrong_cylinder)})
+        CHECK(is_left(ball, *y, far));
+    for (const auto &x : others) CHECK_EQ(is_left(ball, *x.geometry, grown), x.name != "sphere");
+}
+
+/// A matrix that is off a rotation by some roundings is read as one that is not, and is not far from it, mirrored or
+/// not; one that is off by more is not read.
+static void test_straightened() {
+    using namespace ovoid::fcl::detail;
+    random_poses poses(11);
+    const Boxd box(0.9, 0.8, 0.7);
+    long straightened = 0;
+    for (int n = 0; n < 300; n++) {
+        Transform3d t = poses.make<double>(0.5);
+        if (n % 2) t.linear().col(n % 3) *= -1;
+        t.linear()(n / 3 % 3, n % 3) += 3e-15;
+        ovoid_swept_sphere of{};
+        const double before =
+            off_rotation({get_column<double>(t, 0), get_column<double>(t, 1), get_column<double>(t, 2)});
+        const bool is_read = make_swept<double>({&box, box.getNodeType()}, t, of);
+        CHECK_EQ(is_read, before <= 1e-14);
+        if (!is_read) continue;
+        straightened += before > columns_rounding;
+        CHECK_LE(off_rotation(of.axis), columns_rounding);
+        for (int k = 0; k < 3; k++) CHECK_LE(sum_abs(add_scaled(of.axis[k], get_column<double>(t, k), -1)), 2e-14);
+        t.linear()(0, 0) += 1e-13;
+        CHECK(!make_swept<double>({&box, box.getNodeType()}, t, of));
+    }
+    CHECK_LE(100, straightened);
+}
+
 /// The rotation of a sphere changes no bit of an answer, whatever the matrix is.
 static void test_turned_spheres() {
     random_poses poses(8);
@@ -547,6 +634,8 @@ int main() {
     test_shapes();
     test_beside_fcl();
     test_spheres();
+    test_balls();
+    test_straightened();
     test_turned_spheres();
     test_meshes();
     test_planes();

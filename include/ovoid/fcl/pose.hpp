@@ -46,6 +46,22 @@ OVOID_FCL_INLINE double off_rotation(const ovoid_vec3 (&column)[3]) {
     return off_unit(column[0]) + off_unit(column[1]) + off_unit(column[2]) + std::fabs(dot(column[0], column[1])) +
            std::fabs(dot(column[1], column[2])) + std::fabs(dot(column[2], column[0]));
 }
+/// Makes columns those of a rotation that are off by less than a part in 1e14, as a matrix of a quaternion is at times:
+/// no point of a body is moved by more than that part of its size. False of others.
+OVOID_FCL_APART inline bool straighten(ovoid_vec3 (&column)[3]) {
+    constexpr double most = 1e-14;
+    if (!(off_rotation(column) <= most)) return false;
+    const auto scale = [](const ovoid_vec3 &v) {
+        const double part = 1 / std::sqrt(dot(v, v));
+        return ovoid_vec3{part * v.x, part * v.y, part * v.z};
+    };
+    const ovoid_vec3 a = scale(column[0]), b = scale(add_scaled(column[1], a, -dot(a, column[1])));
+    const ovoid_vec3 c = {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+    const double hand = dot(c, column[2]) < 0 ? -1 : 1;
+    column[0] = a, column[1] = b;
+    column[2] = {hand * c.x, hand * c.y, hand * c.z};
+    return true;
+}
 /// Are the columns those of a rotation, to a few roundings?
 template <class S> OVOID_FCL_INLINE bool is_rotation(const ::fcl::Transform3<S> &t) {
     return off_rotation({get_column<S>(t, 0), get_column<S>(t, 1), get_column<S>(t, 2)}) <= columns_rounding;

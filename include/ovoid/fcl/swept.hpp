@@ -29,7 +29,7 @@ template <class S> OVOID_FCL_INLINE bool set_axis(const ::fcl::Transform3<S> &t,
 /// The axes of a box, an ellipsoid or a convex polytope; false if they are not those of a rotation.
 template <class S> OVOID_FCL_INLINE bool set_axes(const ::fcl::Transform3<S> &t, ovoid_swept_sphere &to) {
     for (int k = 0; k < 3; k++) to.axis[k] = get_column<S>(t, k);
-    return off_rotation(to.axis) <= columns_rounding;
+    return off_rotation(to.axis) <= columns_rounding || straighten(to.axis);
 }
 
 /// A cylinder or a cone around its own z axis, but for its centre.
@@ -109,6 +109,41 @@ OVOID_FCL_INLINE bool make_swept(const typed<S> &g, const ::fcl::Transform3<S> &
     to.center = to_vec3<S>(t.translation());
     return true;
 }
+/// Balls around the centre of a geometry: one in it, and one around it.
+struct center_balls {
+    double inner, outer;
+};
+/// Those of a sphere, a capsule, a box or a cylinder; false of others, and of a size that make_swept refuses.
+template <class S> OVOID_FCL_INLINE bool find_center_balls(const typed<S> &g, center_balls &to) {
+    if (g.type == ::fcl::GEOM_SPHERE) {
+        to.inner = to.outer = static_cast<double>(static_cast<const ::fcl::Sphere<S> *>(g.of)->radius);
+        return to.inner >= 0;
+    }
+    if (g.type == ::fcl::GEOM_BOX) {
+        const auto &side = static_cast<const ::fcl::Box<S> *>(g.of)->side;
+        const double x = static_cast<double>(side[0]) / 2, y = static_cast<double>(side[1]) / 2,
+                     z = static_cast<double>(side[2]) / 2;
+        to = {std::min(x, std::min(y, z)), std::sqrt(x * x + y * y + z * z)};
+        return to.inner > 0;
+    }
+    if (g.type == ::fcl::GEOM_CYLINDER) {
+        const auto *s = static_cast<const ::fcl::Cylinder<S> *>(g.of);
+        const double r = static_cast<double>(s->radius), half = static_cast<double>(s->lz) / 2;
+        to = {std::min(r, half), std::sqrt(r * r + half * half)};
+        return to.inner > 0;
+    }
+    if (g.type != ::fcl::GEOM_CAPSULE) return false;
+    const auto *s = static_cast<const ::fcl::Capsule<S> *>(g.of);
+    to.inner = static_cast<double>(s->radius);
+    to.outer = to.inner + static_cast<double>(s->lz) / 2;
+    return s->lz > 0 && to.inner >= 0;
+}
+/// Is a transform one at which make_swept reads a geometry of that type?
+template <class S> OVOID_FCL_INLINE bool is_rigid_for(::fcl::NODE_TYPE type, const ::fcl::Transform3<S> &t) {
+    if (type == ::fcl::GEOM_SPHERE) return true;
+    return type == ::fcl::GEOM_BOX ? is_rotation<S>(t) : off_unit(get_column<S>(t, 2)) <= columns_rounding;
+}
+
 /// A convex polytope that is a box, at its transform; false if that is not rigid to a few roundings, or the centre
 /// would be rounded by a translation that is large beside the box. What is rounded is less than 50 u of the size.
 template <class S> bool make_corner_box(const corner_box &box, const ::fcl::Transform3<S> &t, ovoid_swept_sphere &to) {

@@ -14,8 +14,6 @@
 // moves no point by more than 10 u s; a value is summed to 40 u s; that of a direction that is off by some u is by as
 // many u s. |n x w| is computed from the product, so that nothing is lost near the axis. The cosines and sines of the
 // arcs' proofs add the slope that is left.
-#include "query/swept/circles.h"
-
 #include "query/swept/arcs.h"
 
 // A box beside a round body.

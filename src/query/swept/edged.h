@@ -83,4 +83,13 @@ typedef struct edged_direction {
 /// Of *at the direction, the overlap along it and its points. 0 if these are not found.
 int edged_set_points(const cores *p, const edged_search *q, const edged_direction *of, least_overlap *at);
 
+// ---- a box (query/swept/circles.c)
+
+/// 1 if one core is a box and the other one a cylinder or a cone.
+int cores_have_circles(const cores *p);
+
+/// The least overlap of such cores: of *at the direction, the value and both points are set. 0 if it is not found. Else
+/// no overlap is less than the value by more than `tolerance` and 100 u of the size.
+int cores_search_circles(const cores *p, double tolerance, least_overlap *at);
+
 #endif

@@ -10,8 +10,6 @@
 
 #include "query/swept/divide.h"
 
-// How far a point of the ellipsoid is off, in parts of the square of the greatest half axis over the least one.
-#define ROOT (32 * 0x1p-53)
 // The most points that a search asks for before it is left.
 enum { MOST_POINTS = 600 };
 
@@ -23,18 +21,8 @@ int cores_have_hull_cells(const cores *p) {
 
 // The ellipsoid's farthest point against n, of any length, reversed.
 static inline vec3 find_point(const hull_cells *c, vec3 n) {
-    const vec3 at = {vec3_dot(c->q[0], n), vec3_dot(c->q[1], n), vec3_dot(c->q[2], n)};
+    const vec3 at = ellipsoid_apply_form(&c->form, n);
     return vec3_sub(vec3_scale(at, 1 / sqrt(vec3_dot(at, n))), c->center);
-}
-
-static void set_form(const ovoid_swept_sphere *ellipsoid, const ovoid_swept_sphere *hull, vec3 q[3]) {
-    q[0] = q[1] = q[2] = (vec3){0, 0, 0};
-    for (int k = 0; k < 3; k++) {
-        const vec3 a = vec3_scale(patch_turn(hull, ellipsoid->axis[k]), ellipsoid->half[k]);
-        q[0] = vec3_add_scaled(q[0], a, a.x);
-        q[1] = vec3_add_scaled(q[1], a, a.y);
-        q[2] = vec3_add_scaled(q[2], a, a.z);
-    }
 }
 
 // A direction from the hull to the ellipsoid, in the hull's frame, is one from A to B in the world.
@@ -48,12 +36,10 @@ double hull_cells_make(const cores *p, hull_cells *to, vec3 *n) {
     hull_map *h = &to->hull;
     hull_map_set(p, h);
     const ovoid_swept_sphere *hull = h->of, *ellipsoid = h->is_b ? p->a : p->b;
-    const double *half = ellipsoid->half, most = max2(half[0], max2(half[1], half[2])),
-                 least = min2(half[0], min2(half[1], half[2]));
-    to->doubt = hull_map_find_doubt(h, p->size) + ROOT * most * (most / least);
+    to->doubt = hull_map_find_doubt(h, p->size) + ellipsoid_find_doubt(ellipsoid);
     if (!(to->doubt <= HULL_DOUBT * p->size)) return INFINITY;
     to->center = vec3_sub(patch_turn(hull, h->is_b ? vec3_neg(p->d) : p->d), hull->shape->origin);
-    set_form(ellipsoid, hull, to->q);
+    to->form = ellipsoid_make_form(ellipsoid, hull->axis);
     h->least = INFINITY, h->least_facet = 0;
     for (uint32_t f = 0; f < h->map->facets; f++) hull_map_take_point(h, f, find_point(to, hull_map_get_normal(h, f)));
     *n = turn_out(h, hull_map_get_normal(h, h->least_facet));

@@ -8,7 +8,7 @@
 typedef struct hull_cells {
     hull_map hull;
     vec3 center; ///< the ellipsoid's
-    vec3 q[3];   ///< the rows of its form: its farthest point along n is Q n / |n.Q n|
+    ellipsoid_form form;
     double doubt;
 } hull_cells;
 

@@ -6,13 +6,16 @@
 // - a polytope in the difference body holds a ball of that radius (query/swept/enclose.c); where its faces become
 //   slivers, directions are divided until none is open (query/swept/divide.c).
 // A cylinder or a cone with a box (query/swept/circles.c), a hull with faces (query/swept/hull_arcs.c) or another one
-// (query/swept/revolved.c) has a proof of its own, which comes before these.
+// (query/swept/revolved.c) has a proof of its own, which comes before these. Beside an ellipsoid the first two are
+// tried, and then the directions are shown cell by cell, of a hull with faces (query/swept/hull_cells.c) or of another
+// body (query/swept/ellipsoid_cells.c).
 #include "query/swept/overlap.h"
 
-#include "query/swept/circles.h"
+#include "query/swept/edged.h"
+#include "query/swept/ellipsoid_cells.h"
 #include "query/swept/enclose.h"
 #include "query/swept/hull_cells.h"
-#include "query/swept/revolved.h"
+#include "query/swept/profile.h"
 
 enum { EXCHANGES = 1, DESCENTS = 3 };
 
@@ -101,24 +104,49 @@ static int is_least(overlap_search *s, const least_overlap *at) {
     return radius - vec3_norm(center) >= at->value - s->tolerance;
 }
 
-// Of a hull and an ellipsoid, from the best of the hull's facets on, and from what is less. 0 if none is shown to be
-// the least: then *s has the last direction.
+// An ellipsoid beside a hull with faces, or beside another body.
+typedef struct least_cells {
+    int is_hull;
+    double doubt;
+    union {
+        hull_cells hull;
+        ellipsoid_cells bodies;
+    } of;
+} least_cells;
+
+static int have_cells(const cores *p) { return cores_have_hull_cells(p) || cores_have_ellipsoid_cells(p); }
+
+// The overlap along the direction in which the search begins, which is set.
+static double make_cells(const cores *p, least_cells *to, vec3 *n) {
+    to->is_hull = cores_have_hull_cells(p);
+    const double value = to->is_hull ? hull_cells_make(p, &to->of.hull, n) : ellipsoid_cells_make(p, &to->of.bodies, n);
+    to->doubt = to->is_hull ? to->of.hull.doubt : to->of.bodies.doubt;
+    return value;
+}
+
+static int hold_cells(least_cells *c, const cores *p, const least_overlap *at, double wanted, vec3 *less) {
+    return c->is_hull ? hull_cells_hold(&c->of.hull, p, at, wanted, less)
+                      : ellipsoid_cells_hold(&c->of.bodies, at, wanted, less);
+}
+
+// From the direction of the cells, and from what is less or about as low. 0 if no minimum is shown to be the least:
+// then *s has the last direction.
 static int search_cells(overlap_search *s, double claim, least_overlap *to, double *doubt) {
-    hull_cells cells;
-    s->value = hull_cells_make(&s->of, &cells, &s->n);
+    least_cells cells;
+    least_overlap next, *now = to;
+    s->value = make_cells(&s->of, &cells, &s->n);
     *doubt = cells.doubt;
-    int is_facet = 1;
-    for (int i = 0; i < DESCENTS && s->value > 4 * claim && s->value < INFINITY; i++) {
-        to->count = 0;
-        if (!(is_facet && hull_cells_find_facet(&cells, &s->of, to)) && !cores_descend(&s->of, s->n, s->value, to))
+    for (int i = 0; i < DESCENTS && s->value > 4 * claim && s->value < INFINITY; i++, now = &next) {
+        now->count = 0;
+        if (!(i == 0 && cells.is_hull && hull_cells_find_facet(&cells.of.hull, &s->of, now)) &&
+            !cores_descend(&s->of, s->n, s->value, now))
             return 0;
-        is_facet = 0;
+        s->value = now->value, s->n = now->of.n;
+        if (!(s->value > 4 * claim)) return 0;
+        if (now->value < to->value) *to = *now;
         vec3 less;
-        if (to->value > 4 * claim &&
-            (is_least(s, to) || hull_cells_hold(&cells, &s->of, to, to->value - 0.5 * s->tolerance, &less)))
-            return 1;
-        s->value = to->value, s->n = to->of.n;
-        if (!(s->value > 4 * claim && vec3_norm_squared(less) > 0)) return 0;
+        if (is_least(s, to) || hold_cells(&cells, &s->of, now, to->value - 0.5 * s->tolerance, &less)) return 1;
+        if (!(vec3_norm_squared(less) > 0)) return 0;
         s->n = less, s->value = vec3_dot(less, cores_find_ends(&s->of, less).v);
     }
     return 0;
@@ -142,8 +170,10 @@ ovoid_verdict swept_measure_overlap(const swept_placed *p, ovoid_witness *witnes
     if (cores_have_hull_arcs(&s.of) && cores_search_hull_arcs(&s.of, s.tolerance, &least, &doubt))
         return answer(p, &least, least.value - s.tolerance - doubt - 4 * p->claim, witness);
     s.value = INFINITY;
-    if (cores_have_hull_cells(&s.of) && search_cells(&s, p->claim, &least, &doubt))
+    if (have_cells(&s.of) && search_cells(&s, p->claim, &least, &doubt))
         return answer(p, &least, least.value - s.tolerance - doubt - 4 * p->claim, witness);
+    // What cells left open begins anew from the middles.
+    if (cores_have_ellipsoid_cells(&s.of)) s.value = INFINITY;
     if (cores_are_revolved(&s.of)) {
         if (cores_search_revolved(&s.of, s.tolerance, &least))
             return answer(p, &least, least.value - s.tolerance - 4 * p->claim, witness);

@@ -73,6 +73,43 @@ COMPILER_INLINED vec3 patch_find_end(const ovoid_swept_sphere *s, vec3 n, double
     return patch_turn_back(s, m);
 }
 
+// ---- an ellipsoid in other axes
+
+/// The rows of its form Q in these axes: its farthest point along n, from its centre, is Q n / sqrt(n.Q n).
+typedef struct ellipsoid_form {
+    vec3 row[3];
+} ellipsoid_form;
+
+/// axis: three at right angles.
+static inline ellipsoid_form ellipsoid_make_form(const ovoid_swept_sphere *s, const vec3 axis[3]) {
+    ellipsoid_form to = {{{0, 0, 0}, {0, 0, 0}, {0, 0, 0}}};
+    for (int k = 0; k < 3; k++) {
+        const vec3 turned = {vec3_dot(axis[0], s->axis[k]), vec3_dot(axis[1], s->axis[k]),
+                             vec3_dot(axis[2], s->axis[k])},
+                   a = vec3_scale(turned, s->half[k]);
+        to.row[0] = vec3_add_scaled(to.row[0], a, a.x);
+        to.row[1] = vec3_add_scaled(to.row[1], a, a.y);
+        to.row[2] = vec3_add_scaled(to.row[2], a, a.z);
+    }
+    return to;
+}
+
+/// Q n.
+COMPILER_INLINED vec3 ellipsoid_apply_form(const ellipsoid_form *form, vec3 n) {
+    return (vec3){vec3_dot(form->row[0], n), vec3_dot(form->row[1], n), vec3_dot(form->row[2], n)};
+}
+
+/// The least half axis.
+static inline double ellipsoid_find_least(const ovoid_swept_sphere *s) {
+    return min2(s->half[0], min2(s->half[1], s->half[2]));
+}
+
+/// How far the farthest points by the form are off: with the half axes a, the least b, by 16 u a^2 / b, twice.
+static inline double ellipsoid_find_doubt(const ovoid_swept_sphere *s) {
+    const double most = max2(s->half[0], max2(s->half[1], s->half[2]));
+    return 32 * 0x1p-53 * most * (most / ellipsoid_find_least(s));
+}
+
 // ---- smooth pieces
 
 /// Two unit vectors across a unit direction.

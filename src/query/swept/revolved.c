@@ -22,10 +22,9 @@
 // Errors, in parts u s as in swept.c: those of profile.h, 260; a factor t is at most 32 times the size and the sine of
 // the axes, so that a line is off by 400; chords, ends and values by 100 each; slopes that are none by 200. Together
 // they are below what the caller allows: 1400, and half of the tolerance.
-#include "query/swept/revolved.h"
+#include "query/swept/profile.h"
 
 #include "query/swept/points.h"
-#include "query/swept/profile.h"
 
 enum { MOST_CELLS = 100, MOST_HALVES = 14, MOST_SPOTS = 4, EXTENTS = 6, BOWLS = 6 };
 // What is kept of an interval that is too wide, and of a cell that is not halved.

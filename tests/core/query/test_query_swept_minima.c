@@ -3,14 +3,15 @@
 // from these find: supports are those of the library, which test_query_swept.c holds against shapes. A box and a
 // cylinder or a cone have the least of all along circles of directions (query/swept/circles.c), a hull with faces and a
 // cylinder or a cone along arcs (query/swept/hull_arcs.c), two of the latter as query/swept/revolved.c says, beside the
-// same; of a hull with faces and an ellipsoid a local minimum is shown to be the least by cells
-// (query/swept/hull_cells.c).
+// same; of an ellipsoid and a hull with faces, or another body, a local minimum is shown to be the least by cells
+// (query/swept/hull_cells.c, query/swept/ellipsoid_cells.c).
 #include "ovoid/shape.h"
-#include "query/swept/circles.h"
 #include "query/swept/divide.h"
+#include "query/swept/edged.h"
+#include "query/swept/ellipsoid_cells.h"
 #include "query/swept/hull_cells.h"
 #include "query/swept/pair.h"
-#include "query/swept/revolved.h"
+#include "query/swept/profile.h"
 
 #include "check.h"
 #include "places.h"
@@ -20,6 +21,7 @@ enum {
     ROUND_PAIRS = 2000,
     HULL_PAIRS = 3000,
     REVOLVED_PAIRS = 8000,
+    ELLIPSOID_PAIRS = 2000,
     DIRECTIONS = 400,
     STARTS = 8,
     POINTS = 12
@@ -222,32 +224,59 @@ static int search_hull_arcs(const cores *p, double tolerance, least_overlap *at)
     return is_found;
 }
 
-static int search_hull_cells(const cores *p, double tolerance, least_overlap *at) {
-    hull_cells cells;
+/// The cells of an ellipsoid and a hull with faces, or another body.
+typedef struct either_cells {
+    hull_cells hull;
+    ellipsoid_cells other;
+    int is_hull;
+} either_cells;
+
+static double make_cells(const cores *p, either_cells *c, vec3 *n) {
+    c->is_hull = cores_have_hull_cells(p);
+    CHECK(c->is_hull != cores_have_ellipsoid_cells(p));
+    const double height = c->is_hull ? hull_cells_make(p, &c->hull, n) : ellipsoid_cells_make(p, &c->other, n);
+    if (height < INFINITY) CHECK_LE(c->is_hull ? c->hull.doubt : c->other.doubt, 3e-13 * p->size);
+    return height;
+}
+
+static int hold_cells(either_cells *c, const cores *p, const least_overlap *at, double wanted, vec3 *less) {
+    return c->is_hull ? hull_cells_hold(&c->hull, p, at, wanted, less)
+                      : ellipsoid_cells_hold(&c->other, at, wanted, less);
+}
+
+/// From the first direction, and from where the overlap is less, or beside other bodies than hulls about as low.
+static int search_cells(const cores *p, double tolerance, least_overlap *at) {
+    either_cells cells;
+    least_overlap now;
     vec3 n, less;
-    const double height = hull_cells_make(p, &cells, &n);
+    const double height = make_cells(p, &cells, &n);
+    at->value = INFINITY;
     if (!(height > 0 && height < INFINITY)) return 0;
-    CHECK_LE(cells.doubt, 3e-13 * p->size);
     CHECK_NEAR(measure(p, n), height, 1e-12 * p->size);
-    at->count = 0;
-    if (!hull_cells_find_facet(&cells, p, at) && !(cores_descend(p, n, height, at) && at->value > 0)) return 0;
-    if (hull_cells_hold(&cells, p, at, at->value - 0.5 * tolerance, &less)) return 1;
-    // Less is less.
-    if (vec3_norm_squared(less) > 0) CHECK_LE(measure(p, less), at->value);
+    for (int i = 0; i < 3; i++) {
+        now.count = 0;
+        const int is_facet = i == 0 && cells.is_hull && hull_cells_find_facet(&cells.hull, p, &now);
+        if (!is_facet && !(cores_descend(p, n, measure(p, n), &now) && now.value > 0)) return 0;
+        if (now.value < at->value) *at = now;
+        if (hold_cells(&cells, p, &now, at->value - 0.5 * tolerance, &less)) return 1;
+        if (!(vec3_norm_squared(less) > 0)) return 0;
+        CHECK_LE(measure(p, less), at->value * (cells.is_hull ? 1 : 1.01));
+        n = less;
+    }
     return 0;
 }
 
 /// A local minimum that is held is the least of all.
 static void check_cells(const cores *p, double least, uint64_t *r, int count[2]) {
-    hull_cells cells;
-    vec3 n, less;
-    if (!(hull_cells_make(p, &cells, &n) < INFINITY)) return;
     for (int i = 0; i < 4; i++) {
+        either_cells cells;
         least_overlap at;
+        vec3 n, less;
         at.count = 0;
+        if (!(make_cells(p, &cells, &n) < INFINITY)) return;
         n = vec3_unit((vec3){random_normal(r), random_normal(r), random_normal(r)});
         if (!cores_descend(p, n, measure(p, n), &at) || !(at.value > 0)) continue;
-        const int is_held = hull_cells_hold(&cells, p, &at, at.value - 1e-13 * p->size, &less);
+        const int is_held = hold_cells(&cells, p, &at, at.value - 1e-13 * p->size, &less);
         count[is_held]++;
         if (is_held) CHECK_LE(at.value, least + 1e-12 * p->size);
     }
@@ -278,7 +307,7 @@ static void check_hull_pairs(uint64_t *r) {
                          6 + vec3_norm(b.center)};
         if (cores_have_hull_arcs(&p)) count[1 + check_search(&p, search_hull_arcs, r)]++;
         if (cores_have_hull_cells(&p)) {
-            of_cells[1 + check_search(&p, search_hull_cells, r)]++;
+            of_cells[1 + check_search(&p, search_cells, r)]++;
             const double least = sample_minima(&p, r);
             if (least > 0.01) check_cells(&p, least, r, shown);
         }
@@ -333,6 +362,35 @@ static void check_revolved_pairs(uint64_t *r) {
     CHECK_LE(REVOLVED_PAIRS / 3, spots[1]);
 }
 
+/// An ellipsoid and another body, of which some are flat and some are needles.
+static void check_ellipsoid_pairs(uint64_t *r) {
+    static const ovoid_swept_core types[] = {OVOID_SWEPT_SEGMENT, OVOID_SWEPT_CYLINDER, OVOID_SWEPT_CONE,
+                                             OVOID_SWEPT_BOX, OVOID_SWEPT_ELLIPSOID};
+    int count[3] = {0, 0, 0}, shown[2] = {0, 0};
+    for (int i = 0; i < ELLIPSOID_PAIRS; i++) {
+        double none[3 * POINTS];
+        ovoid_swept_sphere a = make_core(types[i % 5], none, r), b = make_core(OVOID_SWEPT_ELLIPSOID, none, r);
+        vec3 d = random_vec3(r, i & 1 ? 0.5 : 0.8);
+        const unsigned kind = random_next(r) % 16;
+        if (kind < 3) b.half[kind] *= 0.3;
+        if (kind > 2 && kind < 5) a.half[kind - 3] *= 0.1;
+        // Of some the axes are the other one's, or the centre is on one.
+        for (int k = 0; k < 3 && kind == 6; k++) a.axis[k] = b.axis[(k + i) % 3];
+        if (kind == 7) d = vec3_scale(a.axis[0], random_uniform(r, -0.5, 0.5));
+        // Of many an end is in the ellipsoid.
+        if (kind > 8) d = vec3_add(vec3_scale(a.axis[0], a.half[0]), random_vec3(r, 0.2));
+        const cores p = {i & 2 ? &a : &b, i & 2 ? &b : &a, i & 2 ? d : vec3_neg(d), 4 + vec3_norm(d)};
+        count[1 + check_search(&p, search_cells, r)]++;
+        const double least = sample_minima(&p, r);
+        if (least > 0.01) check_cells(&p, least, r, shown);
+    }
+    // Nearly all are found, but those that are apart along a direction that was not among the samples.
+    CHECK_LE(ELLIPSOID_PAIRS / 2, count[2]);
+    CHECK_LE(40 * count[0], count[2]);
+    CHECK_LE(ELLIPSOID_PAIRS / 2, shown[0]);
+    CHECK_LE(ELLIPSOID_PAIRS / 2, shown[1]);
+}
+
 int main(void) {
     static const ovoid_swept_core types[] = {OVOID_SWEPT_SEGMENT, OVOID_SWEPT_CYLINDER,  OVOID_SWEPT_BOX,
                                              OVOID_SWEPT_CONE,    OVOID_SWEPT_ELLIPSOID, OVOID_SWEPT_POINTS};
@@ -352,5 +410,6 @@ int main(void) {
     check_round_pairs(&r);
     check_hull_pairs(&r);
     check_revolved_pairs(&r);
+    check_ellipsoid_pairs(&r);
     return check_end();
 }
