@@ -3,14 +3,24 @@
 #include "base/error.h"
 #include "query/batch_simd.h"
 
-// The first couple that names a body past the last; couple_count where there is none. No branch for each couple.
+// 1 if surely each couple names bodies. Without a branch or a comparison: what is past the last of at most 2^31 bodies
+// has the highest bit, or the last body less that number has it.
+static int names_bodies(const ovoid_batch *batch) {
+    uint32_t last = (uint32_t)batch->body_count - 1, bad = 0;
+    if (batch->body_count - 1 > INT32_MAX) return 0;
+    for (size_t i = 0; i < batch->couple_count; i++) {
+        uint32_t a = batch->couples[i].a, b = batch->couples[i].b;
+        bad |= (a | b) | ((last - a) | (last - b));
+    }
+    return !(bad >> 31);
+}
+
+// The first couple that names a body past the last; couple_count where there is none.
 static size_t find_bad_couple(const ovoid_batch *batch) {
-    size_t bad = 0;
-    for (size_t i = 0; i < batch->couple_count; i++)
-        bad |= (size_t)(batch->couples[i].a >= batch->body_count) | (size_t)(batch->couples[i].b >= batch->body_count);
-    if (!bad) return batch->couple_count;
-    size_t i = 0;
-    while (batch->couples[i].a < batch->body_count && batch->couples[i].b < batch->body_count) i++;
+    size_t i = names_bodies(batch) ? batch->couple_count : 0;
+    while (i < batch->couple_count && batch->couples[i].a < batch->body_count &&
+           batch->couples[i].b < batch->body_count)
+        i++;
     return i;
 }
 

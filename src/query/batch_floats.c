@@ -1,19 +1,26 @@
-// Soundness (docs/error-analysis.md): all bounds of the lanes are lowered or raised by FLOAT_CLAIM z and by what the
-// doubles that the lanes' numbers are made of can be off; they are turned into doubles and out of the couple's unit
-// without rounding.
+// Soundness (docs/error-analysis.md): all bounds of the lanes are lowered or raised by FLOAT_CLAIM z and by what B can
+// be off its place; they are turned into doubles and out of the couple's unit without rounding.
 #include "query/batch_floats.h"
 
 #include "base/compiler.h"
+#include "query/lane_group.h"
 
-static void begin(batch_floats *s) {
-    s->is_begun = 1;
+void batch_floats_begin(batch_floats *s) {
+    s->few.count = s->next.count = 0;
+    s->is_wide = s->options->absolute_tolerance == 0 && s->options->relative_tolerance < 0x1p-24;
+    s->few.rows.far = s->next.rows.far = (float)(s->goal->far * (1 + 0x1p-22) + 0x1p-126);
+    s->few.rows.near = s->next.rows.near = (float)(s->goal->near * (1 - 0x1p-22) - 0x1p-126);
     s->entry.count = 0;
     for (unsigned i = 0; i < FLOAT_GJK_BLOCKS; i++) s->queues[i].count = 0;
     s->group.blocks = 1;
     s->group.live = 0;
     s->group.most = (float)(s->goal->iterations < 24 ? s->goal->iterations : 24);
-    for (unsigned i = 0; i < FLOAT_COUPLES; i++) s->free[i] = (uint8_t)i;
-    s->free_count = FLOAT_COUPLES;
+    s->used = s->free_count = 0;
+}
+
+// The lanes that kernels read for the first `count`.
+static unsigned get_end(const float_gjk_kernels *kernels, unsigned count) {
+    return (count + kernels->width - 1) & ~(kernels->width - 1);
 }
 
 static unsigned get_id(const float_query *q, unsigned k) { return (unsigned)q->id.lane[k]; }
@@ -27,21 +34,42 @@ static void free_couple(batch_floats *s, const float_query *q, unsigned k) {
     s->free[s->free_count++] = (uint8_t)get_id(q, k);
 }
 
-static void write_verdict(const batch_floats *s, const float_couple *couple, const small_end *end) {
-    query_goal goal = *s->goal;
-    goal.tolerance = couple->tolerance;
-    s->verdicts[couple->index] = answer_make_small_verdict(end, &goal);
+// How a couple ended.
+typedef struct float_end {
+    double lower, upper;
+    float size; // s
+    ovoid_stage stage;
+    uint32_t iterations;
+} float_end;
+
+static int is_narrow(const batch_floats *s, const float_end *end) {
+    return !s->is_wide &&
+           end->upper - end->lower <= options_compute_tolerance(s->options, (double)end->size, OVOID_LENGTH_MIN);
+}
+
+// The sign is known, and the query asked for no more.
+static void write_verdict(const batch_floats *s, size_t index, const float_end *end) {
+    s->verdicts[index] = (ovoid_verdict){
+        end->lower > 0 ? OVOID_SEPARATED : OVOID_OVERLAPPING,
+        end->stage,
+        is_narrow(s, end) ? OVOID_LIMIT_NONE : OVOID_LIMIT_ANSWERED,
+        end->iterations,
+        end->lower,
+        end->upper,
+    };
 }
 
 static void write_end(batch_floats *s, const float_gjk *g, unsigned k, int is_inside) {
     const float_couple *couple = get_couple(s, &g->query, k);
-    small_end end;
-    end.lower = is_inside ? couple->lower : (double)g->lower.lane[k] * couple->unit;
-    end.upper = (double)g->upper.lane[k] * couple->unit;
-    end.iterations = (uint32_t)g->steps.lane[k];
-    end.stage = end.iterations > 0 ? OVOID_STAGE_GJK : OVOID_STAGE_SUPPORT;
-    end.kind = is_inside ? OVOID_PROOF_HULL : OVOID_PROOF_POINTS;
-    write_verdict(s, couple, &end);
+    uint32_t steps = (uint32_t)g->steps.lane[k];
+    const float_end end = {
+        .lower = (double)(is_inside ? couple->lower : g->lower.lane[k] * couple->unit),
+        .upper = (double)(g->upper.lane[k] * couple->unit),
+        .size = couple->size,
+        .stage = steps > 0 ? OVOID_STAGE_GJK : OVOID_STAGE_SUPPORT,
+        .iterations = steps,
+    };
+    write_verdict(s, couple->index, &end);
     free_couple(s, &g->query, k);
 }
 
@@ -123,14 +151,14 @@ static void search_queue(batch_floats *s, uint32_t blocks, unsigned least) {
 
 static void write_bounds(batch_floats *s, const float_query *q, const float_bounds *found, unsigned k) {
     const float_couple *couple = get_couple(s, q, k);
-    small_end end;
     int is_inside = (int)(found->inside >> k & 1);
-    end.lower = is_inside ? couple->lower : (double)found->lower.lane[k] * couple->unit;
-    end.upper = is_inside ? (double)found->upper.lane[k] * couple->unit : couple->upper;
-    end.iterations = 0;
-    end.stage = is_inside ? OVOID_STAGE_INNER : OVOID_STAGE_OUTER;
-    end.kind = is_inside ? OVOID_PROOF_INNER : OVOID_PROOF_POINTS;
-    write_verdict(s, couple, &end);
+    const float_end end = {
+        .lower = (double)(is_inside ? couple->lower : found->lower.lane[k] * couple->unit),
+        .upper = (double)(is_inside ? found->upper.lane[k] * couple->unit : couple->upper),
+        .size = couple->size,
+        .stage = is_inside ? OVOID_STAGE_INNER : OVOID_STAGE_OUTER,
+    };
+    write_verdict(s, couple->index, &end);
     free_couple(s, q, k);
 }
 
@@ -139,81 +167,207 @@ static uint32_t get_blocks(const float_couple *couple) {
     return (a > b ? a : b) / 8;
 }
 
-// Takes the last couples of a queue as a query. Of one couple the numbers may have been stored just now: a load of
-// sixteen would wait for them.
-static void take_last(float_queue *q, unsigned count, float_query *to) {
-    float_column *columns = (float_column *)to;
-    q->count -= count;
-    if (count == 1)
-        for (int i = 0; i < FLOAT_GIVEN; i++) columns[i].lane[0] = q->columns[i][q->count];
-    else
-        for (int i = 0; i < FLOAT_GIVEN; i++) memcpy(columns[i].lane, q->columns[i] + q->count, sizeof columns[i].lane);
+// There is no search of so many vertices in floats: it begins where theirs would.
+static void search_alone(batch_floats *s, const float_query *q, unsigned k) {
+    const float n[3] = {q->start[0].lane[k], q->start[1].lane[k], q->start[2].lane[k]};
+    s->search_alone(s->self, get_couple(s, q, k)->index, n);
+    free_couple(s, q, k);
 }
 
-// Takes couples through the ellipsoids to the queues of the search.
-static void enter(batch_floats *s) {
-    float_query query;
+// Takes the lanes of a query through the ellipsoids to the queues of the search.
+static void try_ellipsoids(batch_floats *s, const float_gjk_kernels *kernels, float_query *query, unsigned lanes) {
     float_bounds found;
     float_shapes shapes;
-    unsigned count = s->entry.count < FLOATS ? s->entry.count : FLOATS, all = (1u << count) - 1;
-    unsigned of[FLOAT_GJK_BLOCKS] = {0};
-    const float_gjk_kernels *kernels = count == 1 ? s->alone : s->kernels;
-    take_last(&s->entry, count, &query);
-    for (unsigned k = 0; k < (count == 1 ? 1 : FLOATS); k++) {
-        const float_couple *couple = get_couple(s, &query, k < count ? k : 0);
+    unsigned any = compiler_count_low_zeros(lanes), end = get_end(kernels, 32 - compiler_count_high_zeros(lanes));
+    for (unsigned k = 0; k < end; k++) {
+        const float_couple *couple = get_couple(s, query, lanes >> k & 1 ? k : any);
         shapes.a[k] = shape_get_floats(couple->a);
         shapes.b[k] = shape_get_floats(couple->b);
-        of[get_blocks(couple) - 1] |= 1u << k;
     }
-    kernels->ellipsoids(&shapes, all, &query, &found);
-    unsigned ended = found.apart | found.inside;
-    for (unsigned rest = ended; rest; rest &= rest - 1) write_bounds(s, &query, &found, compiler_count_low_zeros(rest));
+    kernels->ellipsoids(&shapes, lanes, query, &found);
+    unsigned ended = found.apart | found.inside, of[FLOAT_GJK_BLOCKS] = {0};
+    for (unsigned rest = ended; rest; rest &= rest - 1) write_bounds(s, query, &found, compiler_count_low_zeros(rest));
+    for (unsigned rest = lanes & ~ended; rest; rest &= rest - 1) {
+        unsigned k = compiler_count_low_zeros(rest);
+        uint32_t blocks = get_blocks(get_couple(s, query, k));
+        if (blocks <= FLOAT_GJK_BLOCKS)
+            of[blocks - 1] |= 1u << k;
+        else
+            search_alone(s, query, k);
+    }
     for (uint32_t i = 0; i < FLOAT_GJK_BLOCKS; i++) {
-        unsigned open = of[i] & all & ~ended;
-        if (!open) continue;
-        kernels->append(&query, open, &s->queues[i]);
+        if (!of[i]) continue;
+        kernels->append(query, of[i], &s->queues[i]);
         if (s->queues[i].count >= FLOATS) search_queue(s, i + 1, FLOATS);
     }
 }
 
-// ---- couples
-
-static void put_couple(batch_floats *s, const lane_group *e, unsigned k, const pair8_floats *numbers) {
+// Takes the last couples of the entry. Of one couple the numbers may have been stored just now: a load of sixteen would
+// wait for them.
+static void try_last(batch_floats *s) {
+    float_query query;
+    float_column *columns = (float_column *)&query;
     float_queue *q = &s->entry;
-    const ovoid_shape *a = get_a(e, k)->shape, *b = get_b(e, k)->shape;
-    const pair8 *o = e->lanes;
-    unsigned at = q->count++, id = s->free[--s->free_count];
-    double scale = numbers->scale.lane[k];
-    q->columns[FLOAT_NUMBERS][at] = (float)(shape_get_floats(a)->unit * scale);
-    q->columns[FLOAT_NUMBERS + 1][at] = (float)(shape_get_floats(b)->unit * scale);
-    q->columns[FLOAT_NUMBERS + 2][at] = (float)id;
-    float_couple *to = &s->couples[id];
-    to->index = e->index[k];
-    to->a = a;
-    to->b = b;
-    to->unit = numbers->unit.lane[k];
-    to->lower = o->lower.lane[k];
-    to->upper = o->upper.lane[k];
-    to->tolerance = o->tolerance.lane[k];
+    unsigned count = q->count < FLOATS ? q->count : FLOATS;
+    q->count -= count;
+    for (int i = 0; i < FLOAT_GIVEN; i++)
+        if (count == 1)
+            columns[i].lane[0] = q->columns[i][q->count];
+        else
+            memcpy(columns[i].lane, q->columns[i] + q->count, sizeof columns[i].lane);
+    try_ellipsoids(s, count == 1 ? s->alone : s->kernels, &query, (1u << count) - 1);
 }
 
-void batch_floats_add(batch_floats *s, const lane_group *e, unsigned some, const pair8_floats *numbers) {
-    float_queue *q = &s->entry;
-    if (!s->is_begun) begin(s);
-    if (some == PAIR8_ALL)
-        for (int i = 0; i < FLOAT_NUMBERS; i++)
-            memcpy(q->columns[i] + q->count, numbers->numbers[i], sizeof numbers->numbers[i]);
-    for (unsigned rest = some; rest; rest &= rest - 1) {
-        unsigned k = compiler_count_low_zeros(rest);
-        for (int i = 0; i < FLOAT_NUMBERS && some != PAIR8_ALL; i++) q->columns[i][q->count] = numbers->numbers[i][k];
-        put_couple(s, e, k, numbers);
+// ---- the spheres
+
+static const ovoid_shape *get_shape(const double *row) { return (const void *)row; }
+
+static void write_spheres(const batch_floats *s, const float_block *b, const float_spheres *found, unsigned k) {
+    const float_end end = {
+        .lower = (double)found->lower.lane[k],
+        .upper = (double)found->upper.lane[k],
+        .size = found->size.lane[k],
+        .stage = OVOID_STAGE_SPHERE,
+    };
+    write_verdict(s, b->index[k], &end);
+}
+
+static void fetch_floats(const double *shape) {
+    const char *floats = (const char *)shape_get_floats(get_shape(shape));
+    compiler_prefetch(floats);
+    compiler_prefetch(floats + 64);
+}
+
+// Couples go on to the ellipsoids, at once if they are nearly as many as there are lanes.
+static void go_on(batch_floats *s, const float_block *b, const float_spheres *found, float_query *query) {
+    const float_gjk_kernels *kernels = b->count == 1 ? s->alone : s->kernels;
+    for (unsigned rest = found->open; rest; rest &= rest - 1) {
+        unsigned k = compiler_count_low_zeros(rest), id = s->free_count ? s->free[--s->free_count] : s->used++;
+        query->id.lane[k] = (float)id;
+        s->couples[id] = (float_couple){
+            .index = b->index[k],
+            .a = get_shape(b->rows.shape_a[k]),
+            .b = get_shape(b->rows.shape_b[k]),
+            .unit = found->unit.lane[k],
+            .lower = found->lower.lane[k],
+            .upper = found->upper.lane[k],
+            .size = found->size.lane[k],
+        };
+        fetch_floats(b->rows.shape_a[k]);
+        fetch_floats(b->rows.shape_b[k]);
     }
-    if (q->count >= FLOATS) enter(s);
+    if (count_lanes(found->open) >= FLOATS - FLOATS / 4) {
+        try_ellipsoids(s, kernels, query, found->open);
+        return;
+    }
+    kernels->append(query, found->open, &s->entry);
+    if (s->entry.count >= FLOATS) try_last(s);
+}
+
+// Takes a block through the spheres. The lanes that are none repeat one of its couples.
+static void enter(batch_floats *s, float_block *b) {
+    float_query query;
+    float_spheres found;
+    unsigned all = (1u << b->count) - 1;
+    const float_gjk_kernels *kernels = b->count == 1 ? s->alone : s->kernels;
+    for (unsigned k = b->count; k < get_end(kernels, b->count); k++) {
+        b->rows.pose_a[k] = b->rows.pose_a[0];
+        b->rows.pose_b[k] = b->rows.pose_b[0];
+        b->rows.shape_a[k] = b->rows.shape_a[0];
+        b->rows.shape_b[k] = b->rows.shape_b[0];
+        b->rows.extents[k] = b->rows.extents[0];
+    }
+    kernels->spheres(&b->rows, all, &query, &found);
+    for (unsigned rest = found.apart; rest; rest &= rest - 1)
+        write_spheres(s, b, &found, compiler_count_low_zeros(rest));
+    for (unsigned rest = all & ~(found.apart | found.open); rest; rest &= rest - 1)
+        s->pass_on(s->self, b->index[compiler_count_low_zeros(rest)]);
+    if (found.open) go_on(s, b, &found, &query);
+    b->count = 0;
+}
+
+// ---- couples
+
+// Stands for a body without a shape, whose couple is passed on.
+static const ovoid_shape no_shape;
+
+// Finds the couples from `first` on, a block at most, and prefetches what the spheres around the origins read.
+static void find_block(const batch_floats *s, size_t first, float_block *b) {
+    const ovoid_batch *batch = s->batch;
+    size_t left = first < batch->couple_count ? batch->couple_count - first : 0;
+    b->count = left < FLOATS ? (unsigned)left : FLOATS;
+    for (unsigned k = 0; k < b->count; k++) {
+        const ovoid_couple *couple = &batch->couples[first + k];
+        const ovoid_posed_shape *one = &batch->bodies[couple->a], *other = &batch->bodies[couple->b];
+        const ovoid_shape *shape_a = one->shape ? one->shape : &no_shape;
+        const ovoid_shape *shape_b = other->shape ? other->shape : &no_shape;
+        compiler_prefetch(shape_a);
+        compiler_prefetch(shape_b);
+        b->index[k] = first + k;
+        b->rows.pose_a[k] = &one->pose.position.x;
+        b->rows.pose_b[k] = &other->pose.position.x;
+        b->rows.shape_a[k] = (const void *)shape_a;
+        b->rows.shape_b[k] = (const void *)shape_b;
+    }
+}
+
+static void fetch_bodies(const ovoid_batch *batch, size_t first) {
+    for (size_t i = first; i < first + FLOATS && i < batch->couple_count; i++) {
+        compiler_prefetch(&batch->bodies[batch->couples[i].a]);
+        compiler_prefetch(&batch->bodies[batch->couples[i].b]);
+    }
+}
+
+// 1 for a couple that is for floats.
+static int fits(const ovoid_shape *a, const ovoid_shape *b) {
+    int is_thin = (a->vertex_count <= 2) | (b->vertex_count <= 2);
+    return (a->is_plain & b->is_plain) && !(is_thin && closed_fits(a, b));
+}
+
+// The couples that are for floats.
+static unsigned find_fit(float_block *b) {
+    unsigned fit = 0;
+    for (unsigned k = 0; k < b->count; k++) {
+        const ovoid_shape *one = get_shape(b->rows.shape_a[k]), *other = get_shape(b->rows.shape_b[k]);
+        b->rows.extents[k] = one->extent + other->extent;
+        fit |= (unsigned)fits(one, other) << k;
+    }
+    return fit;
+}
+
+// Adds lane k of a block to the few that wait.
+static void add(batch_floats *s, const float_block *b, unsigned k) {
+    float_block *to = &s->few;
+    unsigned at = to->count++;
+    to->index[at] = b->index[k];
+    to->rows.pose_a[at] = b->rows.pose_a[k];
+    to->rows.pose_b[at] = b->rows.pose_b[k];
+    to->rows.shape_a[at] = b->rows.shape_a[k];
+    to->rows.shape_b[at] = b->rows.shape_b[k];
+    to->rows.extents[at] = b->rows.extents[k];
+    if (to->count == FLOATS) enter(s, to);
+}
+
+void batch_floats_take(batch_floats *s, size_t first) {
+    float_block *b = &s->next;
+    if (!b->count) find_block(s, first, b);
+    unsigned count = b->count, fit = find_fit(b);
+    if (fit == (1u << count) - 1) {
+        enter(s, b);
+    } else {
+        for (unsigned k = 0; k < count; k++)
+            if (fit >> k & 1)
+                add(s, b, k);
+            else
+                s->pass_on(s->self, b->index[k]);
+    }
+    find_block(s, first + FLOATS, b);
+    fetch_bodies(s->batch, first + 2 * FLOATS);
 }
 
 void batch_floats_end(batch_floats *s) {
-    if (!s->is_begun) return;
-    if (s->entry.count) enter(s);
+    if (s->few.count) enter(s, &s->few);
+    if (s->entry.count) try_last(s);
     for (uint32_t blocks = 1; blocks <= FLOAT_GJK_BLOCKS; blocks++)
         if (s->queues[blocks - 1].count) search_queue(s, blocks, 1);
     run(s, s->kernels, 0);

@@ -1,14 +1,14 @@
 // Most couples of a batch are decided by their enclosing spheres or ellipsoids, which cost the same for every couple:
 // so a lane group of eight couples is taken at once, without a branch. Couples that the spheres leave open are packed
 // into full lane groups before they go on to the ellipsoids. Small ones are then searched in their group
-// (batch_group.h); of a yes or no without evidence they go on in single precision instead (batch_floats.h), and of a
-// distance, before any ellipsoid, too (batch_nearest.h). Others go on to the exact search, one by
-// one, where the supports along the ellipsoids' direction leave them open. A couple that is in any way unusual (a far
-// origin, a quaternion to be scaled, a refused pose) is queried alone, from the start; so is one with an earlier proof
-// that the spheres leave open.
+// (batch_group.h); of a distance, before any ellipsoid, in single precision (batch_nearest.h). The yes or no of plain
+// bodies without evidence is in single precision from the start (batch_floats.h). Others go on to the exact search, one
+// by one, where the supports along the ellipsoids' direction leave them open. A couple that is in any way unusual (a
+// far origin, a quaternion to be scaled, a refused pose) is queried alone, from the start; so is one with an earlier
+// proof that the spheres leave open.
 //
 // No lane depends on the others, so nothing depends on which couples share a group, and a batch may be cut anywhere.
-// Working memory: six lane groups on the stack, 31 KB, and what is in single precision, 36 KB; they are gone while the
+// Working memory: six lane groups on the stack, 31 KB, and what is in single precision, 37 KB; they are gone while the
 // couples that they left open are searched, which takes more.
 #include "query/batch_simd.h"
 
@@ -23,19 +23,20 @@
 // A couple that the lanes leave open, with what they found.
 typedef struct open_couple {
     size_t index;
-    double tolerance, lower, upper;
+    double lower, upper;
     vec3 n, w; ///< the direction of `lower`; the difference of the vertices a and b
     uint32_t a, b;
 } open_couple;
 
-// A lane group leaves at most eight open, and those that wait are at most PAIR8_GROUPS groups and one of few small
-// ones; those that are queried alone may also be of the couples in single precision.
+// Couples that wait when a block of FLOATS is taken: PAIR8_GROUPS groups, and less than one each of few small ones, far
+// ones, large ones and the next; in single precision less than two blocks before its search, FLOAT_COUPLES in all. The
+// block itself may be left open, too. What its search leaves open is queried alone.
 enum {
-    WAITING_MOST = (PAIR8_GROUPS + 2) * PAIR8,
-    OPEN_MOST = 88,
+    WAITING_MOST = (PAIR8_GROUPS + 4) * PAIR8 + 3 * FLOATS,
+    OPEN_MOST = 136,
     OPEN_FULL = OPEN_MOST - WAITING_MOST,
-    ALONE_MOST = OPEN_MOST + FLOAT_WAITING,
-    ALONE_FULL = ALONE_MOST - WAITING_MOST - FLOAT_WAITING
+    ALONE_MOST = OPEN_MOST + FLOAT_COUPLES,
+    ALONE_FULL = ALONE_MOST - WAITING_MOST - FLOAT_COUPLES
 };
 
 typedef struct open_list {
@@ -55,12 +56,16 @@ typedef struct batch_state {
     const ovoid_batch *batch;
     const pair8_kernels *kernels;
     const query_goal *goal; ///< without the tolerance, which is each couple's own
+    const ovoid_options *options;
     pair8_query numbers;
-    int wants_evidence;                ///< answers, proofs or points, not only verdicts
+    int wants_evidence; ///< answers, proofs or points, not only verdicts
+    size_t next[PAIR8]; ///< the couples of the next group
+    unsigned next_count;
     lane_group *own;                   ///< the group that is taken through the spheres, where none of these has room
     lane_group *waiting[PAIR8_GROUPS]; ///< couples on their way to the ellipsoids
     unsigned waiting_count;
     few_couples few, far;
+    few_couples large;      // in the group of `few`: one of them is empty
     batch_floats *floats;   ///< of a yes or no without evidence; else NULL
     batch_nearest *nearest; ///< of a distance without a cap; else NULL
     open_list *open;
@@ -204,14 +209,8 @@ static void end_small(void *self, size_t index, const placed_query *q, const sma
 // The supports left it open: the exact search goes on from their corner, later.
 static void leave_open(const batch_state *c, group_lane at, uint32_t a, uint32_t b) {
     const pair8 *o = at.e->lanes;
-    c->open->items[c->open->count++] = (open_couple){at.e->index[at.k],
-                                                     o->tolerance.lane[at.k],
-                                                     o->lower.lane[at.k],
-                                                     o->upper.lane[at.k],
-                                                     get3(o->n, at.k),
-                                                     get3(o->w, at.k),
-                                                     a,
-                                                     b};
+    c->open->items[c->open->count++] = (open_couple){
+        at.e->index[at.k], o->lower.lane[at.k], o->upper.lane[at.k], get3(o->n, at.k), get3(o->w, at.k), a, b};
 }
 
 // What is known after the supports.
@@ -249,25 +248,24 @@ static void end_at_support(const batch_state *c, group_lane at, uint32_t a, uint
 }
 
 // The exact search of a couple that was left open.
-static void search_open(const ovoid_batch *batch, const query_goal *of_all, int wants_evidence,
-                        const open_couple *couple) {
-    ovoid_pair pair = get_pair(batch, couple->index);
+static void search_open(const batch_state *c, const open_couple *couple) {
+    ovoid_pair pair = get_pair(c->batch, couple->index);
     pair_frame frame;
     search s;
     simplex start;
-    query_goal goal = *of_all;
+    query_goal goal = *c->goal;
     (void)frame_make(&pair, &frame);
-    goal.tolerance = couple->tolerance;
+    goal.tolerance = options_compute_tolerance(c->options, frame.size, frame.hidden);
     search_make(&s, &frame, &goal);
     take_supports(&s, couple, &start);
     answer_search(&s, &pair, &start);
-    end_search(batch, wants_evidence, couple->index, &s);
+    end_search(c->batch, c->wants_evidence, couple->index, &s);
 }
 
-COMPILER_NOINLINE static void search_all_open(const ovoid_batch *batch, const query_goal *goal, int wants_evidence,
-                                              const open_list *open) {
-    for (unsigned i = 0; i < open->count; i++) search_open(batch, goal, wants_evidence, &open->items[i]);
-    for (unsigned i = 0; i < open->alone_count; i++) batch_query_single(batch, open->alone[i], goal);
+COMPILER_NOINLINE static void search_all_open(const batch_state *c) {
+    const open_list *open = c->open;
+    for (unsigned i = 0; i < open->count; i++) search_open(c, &open->items[i]);
+    for (unsigned i = 0; i < open->alone_count; i++) batch_query_single(c->batch, open->alone[i], c->goal);
 }
 
 // ---- a lane group
@@ -376,6 +374,17 @@ static void search_few(batch_state *c, few_couples *few) {
     search_lanes(c, &few->group, some, few->is_far);
 }
 
+// The supports of the large couples that wait, along the directions that floats found.
+static void meet_large(batch_state *c) {
+    lane_group *e = c->large.group;
+    unsigned some = (1u << c->large.count) - 1;
+    fill(e, c->large.count);
+    place_again(c, e);
+    c->large.count = 0;
+    c->kernels->relate(&c->numbers, e->lanes);
+    meet(c, e, some);
+}
+
 // Fewer lanes of a group do not pay for its search.
 enum { FEW = 6 };
 
@@ -386,6 +395,7 @@ static void search_or_wait(batch_state *c, lane_group **place, unsigned some, fe
         search_lanes(c, place, some, few->is_far);
         return;
     }
+    if (c->large.count) meet_large(c);
     for (; some; some &= some - 1) {
         unsigned k = compiler_count_low_zeros(some);
         if (c->goal->far < INFINITY) put3(few->group->lanes->n, few->count, get3(e->lanes->n, k));
@@ -492,23 +502,24 @@ static unsigned is_unusual(const ovoid_shape *a, const ovoid_shape *b) {
 static const ovoid_shape no_shape;
 static const ovoid_posed_shape no_body = {&no_shape, {{0, 0, 0}, {1, 0, 0, 0}}};
 
-// Fills a lane group with `count` couples, at most 8, from `first` on. The mask of unusual couples.
-static unsigned find_places(const batch_state *c, size_t first, unsigned count, lane_group *e) {
-    const ovoid_batch *batch = c->batch;
+// Lane k of a group becomes a couple. 1 for an unusual one.
+static unsigned put_place(const ovoid_batch *batch, size_t i, lane_group *e, unsigned k) {
+    const ovoid_posed_shape *a = &batch->bodies[batch->couples[i].a], *b = &batch->bodies[batch->couples[i].b];
+    unsigned is_missing = !a->shape || !b->shape;
+    if (is_missing) a = b = &no_body;
+    e->index[k] = i;
+    e->at.pose_a[k] = &a->pose.position.x;
+    e->at.pose_b[k] = &b->pose.position.x;
+    e->at.shape_a[k] = (const void *)a->shape;
+    e->at.shape_b[k] = (const void *)b->shape;
+    return is_missing | is_unusual(a->shape, b->shape);
+}
+
+// Fills a lane group with the next couples. The mask of unusual couples.
+static unsigned find_places(const batch_state *c, lane_group *e) {
     unsigned odd = 0;
-    for (unsigned k = 0; k < count; k++) {
-        size_t i = first + k;
-        const ovoid_posed_shape *a = &batch->bodies[batch->couples[i].a], *b = &batch->bodies[batch->couples[i].b];
-        unsigned is_missing = !a->shape || !b->shape;
-        if (is_missing) a = b = &no_body;
-        e->index[k] = i;
-        e->at.pose_a[k] = &a->pose.position.x;
-        e->at.pose_b[k] = &b->pose.position.x;
-        e->at.shape_a[k] = (const void *)a->shape;
-        e->at.shape_b[k] = (const void *)b->shape;
-        odd |= (is_missing | is_unusual(a->shape, b->shape)) << k;
-    }
-    fill(e, count);
+    for (unsigned k = 0; k < c->next_count; k++) odd |= put_place(c->batch, c->next[k], e, k) << k;
+    fill(e, c->next_count);
     return odd;
 }
 
@@ -608,39 +619,22 @@ static unsigned add_small(batch_state *c, lane_group **place, unsigned open) {
     return small;
 }
 
-// A couple that floats leave open (batch_floats).
-static void leave_float_open(void *self, size_t index) { leave_alone(self, index); }
-
-// Begins the yes or no in single precision of those of the lanes `open` that allow it; their mask.
-static unsigned add_floats(const batch_state *c, const lane_group *e, unsigned open) {
-    unsigned fits = 0;
-    for (unsigned rest = open; rest; rest &= rest - 1) {
-        unsigned k = compiler_count_low_zeros(rest);
-        fits |= (unsigned)batch_floats_fit(get_a(e, k)->shape, get_b(e, k)->shape) << k;
-    }
-    if (!fits) return 0;
-    pair8_floats numbers;
-    fits &= c->kernels->floats(e->lanes, &c->numbers, &numbers);
-    if (fits) batch_floats_add(c->floats, e, fits, &numbers);
-    return fits;
-}
-
-// Takes couples through the spheres. They are placed where they would wait, so that a group that the spheres leave open
-// stays there.
-static void take_group(batch_state *c, size_t first, unsigned count) {
+// Takes the next couples through the spheres. They are placed where they would wait, so that a group that the spheres
+// leave open stays there.
+static void take_next(batch_state *c) {
     lane_group **place = c->waiting_count % PAIR8 ? &c->own : &c->waiting[c->waiting_count / PAIR8], *e = *place;
-    unsigned odd = find_places(c, first, count, e), all = (1u << count) - 1;
+    unsigned count = c->next_count, odd = find_places(c, e), all = (1u << count) - 1;
+    c->next_count = 0;
     pair8_found found = c->kernels->spheres(&e->at, &c->numbers, e->lanes);
     odd |= found.odd;
     unsigned apart = found.apart & ~odd & all, open = all & ~(odd | apart);
     unsigned warm = c->batch->proofs ? find_warm(c->batch, e, open) : 0;
     open &= ~warm;
     for (unsigned rest = (odd & all) | warm; rest; rest &= rest - 1)
-        leave_alone(c, first + compiler_count_low_zeros(rest));
+        leave_alone(c, e->index[compiler_count_low_zeros(rest)]);
     for (unsigned rest = apart; rest; rest &= rest - 1)
         end_at_spheres(c, (group_lane){e, compiler_count_low_zeros(rest)}, &found);
     if (open) open &= ~add_small(c, place, open);
-    if (open && c->floats) open &= ~add_floats(c, e, open);
     for (unsigned rest = open; rest; rest &= rest - 1) {
         unsigned k = compiler_count_low_zeros(rest);
         fetch_ellipsoids((const void *)e->at.shape_a[k]);
@@ -655,6 +649,28 @@ static void take_group(batch_state *c, size_t first, unsigned count) {
     if (c->waiting_count > PAIR8 * (PAIR8_GROUPS - 1)) settle(c);
 }
 
+static void take(batch_state *c, size_t index) {
+    c->next[c->next_count++] = index;
+    if (c->next_count == PAIR8) take_next(c);
+}
+
+// ---- single precision
+
+// Couples that floats leave open, or that are not for them (batch_floats).
+static void leave_float_open(void *self, size_t index) { leave_alone(self, index); }
+static void take_float_odd(void *self, size_t index) { take(self, index); }
+
+static void take_large(void *self, size_t index, const float n[3]) {
+    batch_state *c = self;
+    lane_group *e = c->large.group;
+    if (c->few.count) search_few(c, &c->few);
+    unsigned k = c->large.count++;
+    (void)put_place(c->batch, index, e, k);
+    e->is_placed = 0;
+    put3(e->lanes->n, k, (vec3){(double)n[0], (double)n[1], (double)n[2]});
+    if (c->large.count == PAIR8) meet_large(c);
+}
+
 // A yes or no of which only the verdicts are wanted.
 static int wants_floats(const batch_state *c) {
     return !c->wants_evidence && c->batch->verdicts && c->goal->far < INFINITY &&
@@ -665,10 +681,14 @@ static void begin_floats(batch_state *c, batch_floats *floats) {
     floats->kernels = float_gjk_get_kernels(c->batch->couple_count);
     floats->alone = float_gjk_get_kernels(1);
     floats->goal = c->goal;
+    floats->options = c->options;
+    floats->batch = c->batch;
     floats->verdicts = c->batch->verdicts;
     floats->leave_open = leave_float_open;
+    floats->pass_on = take_float_odd;
+    floats->search_alone = take_large;
     floats->self = c;
-    floats->is_begun = 0;
+    batch_floats_begin(floats);
     c->floats = floats;
 }
 
@@ -677,6 +697,18 @@ typedef union single_room {
     batch_floats floats;
     batch_nearest nearest;
 } single_room;
+
+// The couples from `first` on, as many as floats take at once.
+static void take_some(batch_state *c, size_t first) {
+    size_t left = c->batch->couple_count - first, end = first + (left < FLOATS ? left : FLOATS);
+    for (size_t i = first; i < end; i++) {
+        if (i % PAIR8 == 0) fetch_ahead(c->batch, i);
+        take(c, i);
+    }
+}
+
+// 1 if there is room for what these, and those that wait, may leave open.
+static int has_room(const open_list *open) { return open->count <= OPEN_FULL && open->alone_count <= ALONE_FULL; }
 
 // Runs from couple `first` on, until enough couples are left open or all are done; returns the next one. The working
 // memory of the state is here.
@@ -687,23 +719,25 @@ COMPILER_NOINLINE static size_t run_lanes(batch_state *c, size_t first) {
     for (unsigned i = 0; i < PAIR8_GROUPS + 2; i++) groups[i].lanes = &lanes[i];
     for (unsigned i = 0; i < PAIR8_GROUPS; i++) c->waiting[i] = next++;
     c->own = next++;
-    c->few = (few_couples){next, 0, 0};
+    c->few = c->large = (few_couples){next, 0, 0};
     c->far = (few_couples){&room.nearest.far, 0, 1};
-    c->waiting_count = 0;
+    c->waiting_count = c->next_count = 0;
     const group_search task = get_search_task(c);
     if (wants_floats(c)) begin_floats(c, &room.floats);
     if (c->goal->far == INFINITY) batch_nearest_begin(c->nearest = &room.nearest, &task, c->kernels);
     size_t count = c->batch->couple_count;
-    for (; first < count && c->open->count <= OPEN_FULL && c->open->alone_count <= ALONE_FULL; first += PAIR8) {
-        size_t left = count - first;
-        fetch_ahead(c->batch, first);
-        take_group(c, first, left < PAIR8 ? (unsigned)left : PAIR8);
-    }
+    for (; first < count && has_room(c->open); first += FLOATS)
+        if (c->floats)
+            batch_floats_take(c->floats, first);
+        else
+            take_some(c, first);
+    if (c->floats) batch_floats_end(c->floats);
+    if (c->large.count) meet_large(c);
+    if (c->next_count) take_next(c);
     if (c->waiting_count) settle(c);
     search_few(c, &c->far);
     search_few(c, &c->few);
     if (c->nearest) batch_nearest_end(c->nearest);
-    if (c->floats) batch_floats_end(c->floats);
     c->floats = NULL;
     c->nearest = NULL;
     return first;
@@ -715,6 +749,7 @@ void batch_run(const ovoid_batch *batch, query_goal *goal, const ovoid_options *
     batch_state c = {.batch = batch,
                      .kernels = pair8_get_kernels(batch->couple_count),
                      .goal = goal,
+                     .options = options,
                      .numbers = {goal->far, goal->near, options->absolute_tolerance, options->relative_tolerance,
                                  FRAME_REJECT, FRAME_CLAIM, OVOID_LENGTH_MIN, OVOID_LENGTH_MAX, options->iterations,
                                  goal->far < INFINITY ? 1 : 2, wants_evidence},
@@ -724,6 +759,6 @@ void batch_run(const ovoid_batch *batch, query_goal *goal, const ovoid_options *
     for (size_t next = 0; next < batch->couple_count;) {
         open.count = open.alone_count = 0;
         next = run_lanes(&c, next);
-        search_all_open(batch, goal, wants_evidence, &open);
+        search_all_open(&c);
     }
 }

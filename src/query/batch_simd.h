@@ -8,8 +8,8 @@
 #include <stddef.h>
 
 /// Shapes lie in memory as the kernels read them, as rows of doubles; so do poses, which have nothing but numbers.
-_Static_assert(sizeof(ovoid_pose) == 7 * sizeof(double) && offsetof(ovoid_shape, radius) == 8 &&
-                   offsetof(ovoid_shape, center) == 16 && offsetof(ovoid_shape, extent) == 40 &&
+_Static_assert(sizeof(ovoid_pose) == 7 * sizeof(double) && offsetof(ovoid_shape, extent) == 8 &&
+                   offsetof(ovoid_shape, center) == 16 && offsetof(ovoid_shape, reach) == 40 &&
                    offsetof(ovoid_shape, first) == 64 &&
                    offsetof(ovoid_shape, inner) == offsetof(ovoid_shape, outer) + 9 * sizeof(double) &&
                    sizeof(shape_inner) == 8 * sizeof(double),

@@ -24,11 +24,12 @@ static inline void put3(lane_column *c, unsigned k, vec3 v) {
 }
 static inline mat3 get9(const lane_column *c, unsigned k) { return (mat3){get3(c, k), get3(c + 3, k), get3(c + 6, k)}; }
 
-/// How many lanes a mask has.
+/// How many lanes a mask has, of 16 at most.
 static inline unsigned count_lanes(unsigned some) {
-    unsigned count = 0;
-    for (; some; some &= some - 1) count++;
-    return count;
+    some -= some >> 1 & 0x5555;
+    some = (some & 0x3333) + (some >> 2 & 0x3333);
+    some = (some + (some >> 4)) & 0x0f0f;
+    return (some + (some >> 8)) & 0x1f;
 }
 
 /// The body whose pose begins at a row of numbers.

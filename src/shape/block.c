@@ -21,11 +21,10 @@ static uint64_t advance(uint64_t *at, uint64_t size) {
 
 block_offsets block_compute_offsets(block_counts c) {
     block_offsets o;
-    uint64_t at = (sizeof(ovoid_shape) + 63) / 64 * 64, lane = simd_get_padded(c.vertices) * sizeof(double);
+    uint64_t at = SHAPE_FLOATS + shape_floats_get_size(c.vertices), lane = simd_get_padded(c.vertices) * sizeof(double);
     o.x = advance(&at, lane);
     o.y = advance(&at, lane);
     o.z = advance(&at, lane);
-    o.floats = advance(&at, shape_floats_get_size(c.vertices));
     o.gauss = advance(&at, gauss_map_get_size(&c));
     o.vertices = advance(&at, (uint64_t)c.vertices * 3 * sizeof(double));
     o.planes = advance(&at, (uint64_t)c.facets * sizeof(ovoid_plane));
@@ -46,13 +45,13 @@ block_offsets block_compute_offsets(block_counts c) {
 // Clears the header and the padding between arrays, less than 64 bytes before each, so that equal shapes are equal
 // blocks.
 static void clear_padding(ovoid_shape *shape, const block_offsets *at) {
-    const uint64_t ends[] = {at->y,      at->z,          at->floats,          at->gauss,           at->vertices,
-                             at->planes, at->triangles,  at->triangle_facets, at->neighbor_starts, at->neighbors,
-                             at->cells,  at->edge_tails, at->edge_facets,     at->loop_starts};
+    const uint64_t ends[] = {at->y,          at->z,         at->gauss,           at->vertices,
+                             at->planes,     at->triangles, at->triangle_facets, at->neighbor_starts,
+                             at->neighbors,  at->cells,     at->edge_tails,      at->edge_facets,
+                             at->loop_starts};
     memset(shape, 0, at->x);
     for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) memset((char *)shape + ends[i] - 64, 0, 64);
     memset((char *)shape + at->loop_starts, 0, at->size - at->loop_starts);
-    if (at->gauss > at->floats) memset((char *)shape + at->floats, 0, sizeof(float_shape));
     if (at->vertices > at->gauss) memset((char *)shape + at->gauss, 0, sizeof(gauss_map));
 }
 
@@ -90,7 +89,7 @@ void block_fill(ovoid_shape *shape, const ovoid_polytope *p, const closed_form *
                        (double *)((char *)shape + at->z)};
     for (uint32_t i = 0; i < shape->padded_count; i++)
         for (int k = 0; k < 3; k++) lane[k][i] = p->vertices[3 * (size_t)(i < c->vertices ? i : 0) + k];
-    shape->rank = p->rank;
+    shape->rank = (uint16_t)p->rank;
     shape->origin = p->origin;
     shape->has_origin = p->origin.x != 0 || p->origin.y != 0 || p->origin.z != 0;
     int has_form = form->kind != FORM_NONE;
@@ -120,6 +119,7 @@ void block_set_radius(ovoid_shape *s, double radius, ovoid_allowance allowance) 
     double inside = s->allowance.inside;
     s->has_allowance = allowance.outside + inside > 0 ? ALLOWANCE_ANY : 0;
     if (vec3_norm_squared(allowance.axis) > 0) s->has_allowance |= ALLOWANCE_AXIS;
+    s->is_plain = !(radius > 0) && !s->has_allowance && !s->has_origin;
     if (!(inside > 0)) return;
     s->upper_radius = nextafter(radius - inside, -INFINITY);
     s->span += 2 * inside;

@@ -11,7 +11,6 @@
 /// Bytes from the block's start to an array.
 typedef struct block_offsets {
     uint64_t x, y, z;         ///< vertices as structure of arrays, padded_count doubles each; padding repeats vertex 0
-    uint64_t floats;          ///< float_shape (floats.h); none for bodies of many vertices
     uint64_t gauss;           ///< gauss_map (gauss_map.h); none for bodies of many vertices, and lean ones
     uint64_t vertices;        ///< xyz, 3 vertex_count doubles
     uint64_t planes;          ///< ovoid_plane, facet_count
@@ -45,12 +44,13 @@ enum { ALLOWANCE_ANY = 1, ALLOWANCE_AXIS = 2 };
 
 struct ovoid_shape {
     // Read by the first rejections: one cache line, and the beginning of the next.
-    double reach;      ///< no vertex is farther than this from `center`, rounding included
     double radius;     ///< rounding radius
-    ovoid_vec3 center; ///< of the enclosing sphere of radius reach, body frame
     double extent;     ///< no vertex is farther than this from the body frame's origin, rounding included
+    ovoid_vec3 center; ///< of the enclosing sphere of radius reach, body frame
+    double reach;      ///< no vertex is farther than this from `center`, rounding included
     uint32_t vertex_count, padded_count;
-    uint32_t rank;
+    uint16_t rank;
+    uint16_t is_plain;      ///< no radius, no allowance, no origin
     uint16_t has_origin;    ///< origin is not zero
     uint16_t has_allowance; ///< ALLOWANCE_ANY if there is one, and ALLOWANCE_AXIS if it is along an axis
     ovoid_vec3 first;       ///< vertex 0

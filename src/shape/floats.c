@@ -9,10 +9,11 @@
 
 uint64_t shape_floats_get_size(uint32_t vertex_count) {
     uint64_t column = simd_get_padded(vertex_count) * sizeof(float);
-    return vertex_count <= FLOAT_GJK_POINTS ? sizeof(float_shape) + 3 * column : 0;
+    uint64_t size = sizeof(float_shape) + (vertex_count <= FLOAT_GJK_POINTS ? 3 * column : 0);
+    return (size + 63) / 64 * 64;
 }
 
-static float_shape *get_floats(ovoid_shape *s) { return (float_shape *)((char *)s + s->at.floats); }
+static float_shape *get_floats(ovoid_shape *s) { return (float_shape *)((char *)s + SHAPE_FLOATS); }
 
 // No coordinate about the centre is above the radius of the sphere around it.
 static double find_unit(double reach) {
@@ -22,12 +23,12 @@ static double find_unit(double reach) {
 }
 
 void shape_floats_fill_vertices(ovoid_shape *s) {
-    if (!shape_has_floats(s)) return;
     float_shape *floats = get_floats(s);
     const double *from[3] = {shape_x(s), shape_y(s), shape_z(s)};
     const double center[3] = {s->center.x, s->center.y, s->center.z};
     float *to = (float *)(floats + 1);
     floats->unit = find_unit(s->reach);
+    if (!shape_has_columns(s)) return;
     double scale = 1 / floats->unit;
     for (uint32_t d = 0; d < 3; d++)
         for (uint32_t i = 0; i < s->padded_count; i++)
@@ -42,7 +43,6 @@ static void put_vec3(float *to, vec3 v, double scale) {
 
 // Of an inner ellipsoid thinner than 2^-20 of the unit floats would prove nothing.
 void shape_floats_fill_ellipsoids(ovoid_shape *s) {
-    if (!shape_has_floats(s)) return;
     float_shape *floats = get_floats(s);
     double scale = 1 / floats->unit;
     const ovoid_sym3 *q = &s->outer.q;
@@ -50,6 +50,7 @@ void shape_floats_fill_ellipsoids(ovoid_shape *s) {
     int is_thick = s->inside.least * scale > 0x1p-20;
     float *row = floats->row;
     put_vec3(row + FLOAT_OUTER, vec3_sub(s->outer.center, s->center), scale);
+    row[FLOAT_UNIT] = (float)floats->unit;
     put_vec3(row + FLOAT_INNER, vec3_sub(s->inner.center, s->center), scale);
     for (int i = 0; i < 6; i++) row[FLOAT_OUTER_Q + i] = (float)(outer[i] * scale * scale);
     for (int i = 0; i < 6; i++) row[FLOAT_INNER_W + i] = is_thick ? (float)(s->inside.w[i] * floats->unit) : 0;

@@ -1,20 +1,25 @@
-// A shape in single precision, for the lanes of simd/float_gjk.h: ellipsoids, and columns of vertices, around the
-// centre of the enclosing sphere. Shapes of at most FLOAT_GJK_POINTS vertices have them.
+// A shape in single precision, for the lanes of simd/float_gjk.h: ellipsoids and, of shapes of at most FLOAT_GJK_POINTS
+// vertices, columns of these, around the centre of the enclosing sphere. They stand behind the header of each block,
+// where they are found without reading it.
 #ifndef OVOID_SHAPE_FLOATS_H
 #define OVOID_SHAPE_FLOATS_H
 
 #include "shape/block.h"
 #include "simd/float_gjk.h"
 
-static inline int shape_has_floats(const ovoid_shape *s) { return s->vertex_count <= FLOAT_GJK_POINTS; }
+/// Where they begin.
+enum { SHAPE_FLOATS = (sizeof(ovoid_shape) + 63) / 64 * 64 };
+
+/// 1 if there are columns of the vertices.
+static inline int shape_has_columns(const ovoid_shape *s) { return s->vertex_count <= FLOAT_GJK_POINTS; }
 static inline const float_shape *shape_get_floats(const ovoid_shape *s) {
-    return (const float_shape *)((const char *)s + s->at.floats);
+    return (const float_shape *)((const char *)s + SHAPE_FLOATS);
 }
 static inline const float *shape_get_float_columns(const ovoid_shape *s) {
     return (const float *)(shape_get_floats(s) + 1);
 }
 
-/// Bytes of the array, of a shape with so many vertices.
+/// Bytes of all that, in whole cache lines, of a shape with so many vertices.
 uint64_t shape_floats_get_size(uint32_t vertex_count);
 
 /// Writes the vertices, of a block with its sphere; the ellipsoids, of one that has these too.

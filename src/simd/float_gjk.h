@@ -1,6 +1,6 @@
-// Small bodies in single precision, sixteen couples side by side. A yes or no: ellipsoids, then GJK; each couple ends
-// proven apart, proven within the margin, proven to overlap, or open. The vertices are columns too, so a support is a
-// maximum over them without an index: no gather, no load that waits for an index.
+// Bodies in single precision, sixteen couples side by side. A yes or no: spheres, ellipsoids, then GJK of small bodies,
+// which ends each couple proven apart, proven within the margin, proven to overlap, or open. The vertices are columns
+// too, so a support is a maximum over them without an index: no gather, no load that waits for an index.
 //
 // Nearest points: GJK that proves nothing, but counts which vertices its corners are of. Each couple ends near, at a
 // simplex whose support is one of its own corners or is no nearer; with the origin inside of four corners; or open. The
@@ -11,7 +11,9 @@
 // point of B is M x + t. Nothing overflows, and what underflows is below 2^-100.
 //
 // Errors, in parts of u z with u = 2^-24, |n| = 1 (docs/error-analysis.md has the sums): a gap along n 19, a difference
-// 11, a convex combination of differences and its norm 22. FLOAT_CLAIM is above each.
+// 11, a convex combination of differences and its norm 22. FLOAT_CLAIM is above each. Where the numbers of a couple are
+// made in floats too (`spheres`), B is off its place by 51 rb + 29 |t| + 29 (ea + eb) + |p_b - p_a| more: ea, eb are
+// the extents around the frames' origins, which are at p_a and p_b, and s is ea + eb + |p_b - p_a|.
 //
 // Cost, a couple, one core at 2.8 GHz, AVX-512: 6 ns and 1 ns a step at 8 vertices, 9 ns and 3 ns at 32.
 #ifndef OVOID_SIMD_FLOAT_GJK_H
@@ -26,8 +28,13 @@ enum { FLOATS = 16, FLOATS_ALL = 0xffff };
 /// Most vertices of a body, and most eights of them.
 enum { FLOAT_GJK_POINTS = 32, FLOAT_GJK_BLOCKS = FLOAT_GJK_POINTS / 8 };
 
-/// The error of all bounds, of the size.
+/// The error of all bounds, of z.
 #define FLOAT_CLAIM (32 * 0x1p-24)
+
+/// What is beyond these lengths, or of z below that part of s, is not for `spheres`.
+#define FLOAT_LENGTH_MIN 0x1p-40
+#define FLOAT_LENGTH_MAX 0x1p40
+#define FLOAT_PART_MIN 0.0625
 
 /// One number of each couple.
 typedef struct float_column {
@@ -39,16 +46,17 @@ typedef struct float_query {
     float_column rotation[9], translation[3]; ///< M by rows, t
     float_column claim;                       ///< FLOAT_CLAIM z, and what doubles add to it
     float_column far, near;                   ///< ends apart when lower > far, near when 0 < lower and upper <= near
-    float_column factor_a, factor_b;          ///< from the shapes' units: powers of two, or 0
     float_column id;                          ///< of the caller; is only moved
+    float_column size, scale;                 ///< z; into the couple's unit; read by `ellipsoids` alone
+    float_column factor_a, factor_b;          ///< from the shapes' units: powers of two, or 0; written by `ellipsoids`
     float_column start[3];                    ///< the first direction; written by `ellipsoids`
 } float_query;
 
-/// The columns of a query, those that the caller sets at first, and of these the first ones.
+/// The columns of a query; of these those from the rotation to the claim, and those that `ellipsoids` reads.
 enum {
     FLOAT_COLUMNS = sizeof(float_query) / sizeof(float_column),
-    FLOAT_GIVEN = FLOAT_COLUMNS - 3,
-    FLOAT_NUMBERS = FLOAT_GIVEN - 3
+    FLOAT_NUMBERS = 13,
+    FLOAT_GIVEN = FLOAT_COLUMNS - 5
 };
 
 /// Columns of couples that wait, the first `count`: room for a group, and for those that are added to fifteen.
@@ -64,9 +72,9 @@ typedef struct float_shape {
     double unit;                ///< a power of two
 } float_shape;
 
-/// The places of the ellipsoids' numbers: outer: centre xyz, Q (xx xy xz yy yz zz); inner: centre, W (shape_inner), a
-/// lower bound of its least radius or, where W must not be used, 0.
-enum { FLOAT_OUTER = 0, FLOAT_OUTER_Q = 3, FLOAT_INNER = 9, FLOAT_INNER_W = 12, FLOAT_LEAST = 18 };
+/// The places of the ellipsoids' numbers: outer: centre xyz, Q (xx xy xz yy yz zz); the unit, where floats have it;
+/// inner: centre, W (shape_inner), a lower bound of its least radius or, where W must not be used, 0.
+enum { FLOAT_OUTER = 0, FLOAT_OUTER_Q = 3, FLOAT_UNIT = 9, FLOAT_INNER = 10, FLOAT_INNER_W = 13, FLOAT_LEAST = 19 };
 
 /// The shapes of the lanes at work; the others repeat some of them.
 typedef struct float_shapes {
@@ -78,6 +86,23 @@ typedef struct float_points {
     const float *a[FLOATS], *b[FLOATS];
     uint32_t blocks_a[FLOATS], blocks_b[FLOATS];
 } float_points;
+
+/// The places of the numbers of the lanes' bodies and shapes, as in pair8_places, and the sums of the shapes' extents;
+/// the other lanes repeat some of them. What is asked, rounded outward.
+typedef struct float_rows {
+    const double *pose_a[FLOATS], *pose_b[FLOATS], *shape_a[FLOATS], *shape_b[FLOATS];
+    double extents[FLOATS];
+    float far, near;
+} float_rows;
+
+/// What the enclosing spheres say, in the bodies' unit of length. The bounds are of the lanes apart or open.
+typedef struct float_spheres {
+    float_column lower, upper;
+    float_column size; ///< s
+    float_column unit; ///< of lanes that are open, a power of two
+    unsigned apart;    ///< lower > far
+    unsigned open;     ///< the others that may go on
+} float_spheres;
 
 /// What the ellipsoids say. The bounds of the others are not written.
 typedef struct float_bounds {
@@ -113,7 +138,11 @@ typedef struct float_ends {
 /// Kernels of one instruction set; `lanes` is a mask. Lanes cost nothing where a whole vector of them is idle. Those
 /// for one couple have its lane 0 alone, and `advance` searches it to its end.
 typedef struct float_gjk_kernels {
-    /// The ellipsoids of the lanes, and the directions from which their searches begin.
+    unsigned width; ///< so many lanes are read at once, whichever of them are at work
+    /// The enclosing spheres of the lanes, first those around the frames' origins, which need no rotation; of lanes
+    /// that are open the query, down to the scale without the id. For bodies without radii.
+    void (*spheres)(const float_rows *from, unsigned lanes, float_query *query, float_spheres *out);
+    /// The ellipsoids of the lanes, the factors from the shapes' units, and the directions from which searches begin.
     void (*ellipsoids)(const float_shapes *from, unsigned lanes, float_query *query, float_bounds *out);
     /// Appends the lanes to a queue of less than FLOATS couples.
     void (*append)(const float_query *from, unsigned lanes, float_queue *to);

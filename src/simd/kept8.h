@@ -9,8 +9,8 @@
 
 #include "simd/pair8.h"
 
-/// The places of the numbers of a lane group. Pose: position xyz, rotation wxyz, one that is not read. Shape: reach,
-/// radius, centre xyz, one that is not read. Lengths: lower_radius, upper_radius, span, one that is not read.
+/// The places of the numbers of a lane group. Pose: position xyz, rotation wxyz, one that is not read. Shape: two
+/// that are not read, centre xyz, reach. Lengths: lower_radius, upper_radius, span, one that is not read.
 typedef struct kept8_places {
     const double *pose_a[PAIR8], *pose_b[PAIR8], *shape_a[PAIR8], *shape_b[PAIR8], *lengths_a[PAIR8], *lengths_b[PAIR8];
     const double *normal[PAIR8];                           ///< read by `gaps`: the cached normal, world

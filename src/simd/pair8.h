@@ -44,8 +44,8 @@ typedef struct pair8 {
     unsigned count; ///< set by the caller: the lanes in use are the first so many, 1 to 8
 } pair8;
 
-/// The places of the numbers of a lane group's bodies and shapes. Pose: position xyz, rotation wxyz. Shape: reach,
-/// radius, centre xyz, extent, two that are not read, first vertex xyz, one that is not read.
+/// The places of the numbers of a lane group's bodies and shapes. Pose: position xyz, rotation wxyz. Shape: radius,
+/// extent, centre xyz, reach, two that are not read, first vertex xyz, one that is not read.
 typedef struct pair8_places {
     const double *pose_a[PAIR8], *pose_b[PAIR8], *shape_a[PAIR8], *shape_b[PAIR8];
 } pair8_places;
@@ -88,8 +88,8 @@ typedef struct pair8_group {
     pair8_found found;
 } pair8_group;
 
-/// The pairs in single precision, each in its own unit, for bodies without radii: the first columns of float_query; the
-/// factors are left to the caller.
+/// The pairs in single precision, each in its own unit, for bodies without radii: the first columns of float_query,
+/// from the rotation to the claim.
 typedef struct pair8_floats {
     _Alignas(32) float numbers[FLOAT_NUMBERS][PAIR8];
     lane_column unit, scale; ///< a power of two; 1 / unit
@@ -106,6 +106,8 @@ typedef struct pair8_kernels {
     /// B in the frame of A, inner and outer ellipsoids: lower and upper where these decide, the direction for the other
     /// lanes. For `count` lane groups, at most PAIR8_GROUPS: together they are faster.
     void (*ellipsoids)(pair8_group *groups, unsigned count, const pair8_query *query);
+    /// B in the frame of A, after `spheres`, and the directions n, which are given with lengths near 1.
+    void (*relate)(const pair8_query *query, pair8 *o);
     /// The bounds of the supports' gap and of their difference w.
     void (*supports)(pair8 *o);
     /// The pairs in single precision, after `spheres`. The mask of those whose lengths allow it.

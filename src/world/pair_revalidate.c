@@ -189,8 +189,8 @@ static void set_places(const revalidation *r, kept_group *g, const world_pair *p
     compiler_prefetch(at->lengths_a[k]);
     compiler_prefetch(at->lengths_b[k]);
     if (is_gap) {
-        at->shape_a[k] = &a->shape->reach;
-        at->shape_b[k] = &b->shape->reach;
+        at->shape_a[k] = &a->shape->radius;
+        at->shape_b[k] = &b->shape->radius;
         at->normal[k] = &cache->normal.x;
         return;
     }

@@ -6,6 +6,8 @@
 #define LANES 1
 #include "simd/kernels/float_ellipsoids.h"
 #include "simd/kernels/float_rounds.h"
+#include "simd/kernels/float_spheres.h"
 
-const float_gjk_kernels float_gjk_scalar = {run_float_ellipsoids, run_float_append,  run_float_fill,
-                                            run_float_load,       run_float_advance, run_float_approach};
+const float_gjk_kernels float_gjk_scalar = {
+    LANES,          run_float_spheres, run_float_ellipsoids, run_float_append,
+    run_float_fill, run_float_load,    run_float_advance,    run_float_approach};

@@ -6,20 +6,26 @@
 #define SPREAD_A (16 * 0x1p-24)
 #define SPREAD_B (64 * 0x1p-24)
 
-// The ellipsoids of one body of each lane.
+// The ellipsoids of one body of each lane, times the factor into the couple's unit.
 typedef struct float_body {
     float_column row[24];
 } float_body;
 
-LANES_INLINE void read_body(const float_shape *const bodies[FLOATS], lane factor, float_body *to, int at,
-                            int is_inner) {
+LANES_INLINE void read_part(const float_shape *const bodies[FLOATS], int i, int at, lane c[8]) {
     const float *rows[FLOATS];
-    for (int i = 0; i < (is_inner ? 3 : 2); i++) {
-        lane c[8];
-        for (int k = at; k < at + LANES; k++) rows[k] = bodies[k]->row + 8 * i;
-        read_eight(rows, at, c);
-        for (int j = 0; j < 8; j++) put(&to->row[8 * i + j], at, c[j] * factor);
-    }
+    for (int k = at; k < at + LANES; k++) rows[k] = bodies[k]->row + 8 * i;
+    read_eight(rows, at, c);
+}
+
+// Returns the factor.
+LANES_INLINE lane read_body(const float_shape *const bodies[FLOATS], lane scale, float_body *to, int at, int is_inner) {
+    lane c[24];
+    read_part(bodies, 1, at, c + 8);
+    lane factor = c[FLOAT_UNIT] * scale;
+    read_part(bodies, 0, at, c);
+    if (is_inner) read_part(bodies, 2, at, c + 16);
+    for (int j = 0; j < (is_inner ? 24 : 16); j++) put(&to->row[j], at, c[j] * factor);
+    return factor;
 }
 
 LANES_INLINE lane6 get6(const float_column *c, int at) {
@@ -142,13 +148,12 @@ LANES_TARGET static void run_float_ellipsoids(const float_shapes *from, unsigned
     for (int at = 0; has_more(lanes, at); at += LANES) {
         unsigned open = get_lanes(lanes, at);
         if (!open) continue;
-        // The inner ones are worth a look where the spheres overlap by 0.4 of their radii: |t| < 0.6 (z - |t|), and z
-        // is claim / FLOAT_CLAIM or a little less.
+        // The inner ones are worth a look where the spheres overlap by 0.4 of their radii: |t| < 0.6 (z - |t|).
         lane3 t = get3(q->translation, at);
-        lane size = get(&q->claim, at) * lane_set(1 / FLOAT_CLAIM), upper = lane_set(0);
+        lane size = get(&q->size, at), upper = lane_set(0);
         unsigned deep = lane_bits(lane_less(lane3_norm(t), lane_set(0.375) * size)) & open;
-        read_body(from->a, get(&q->factor_a, at), &a, at, deep != 0);
-        read_body(from->b, get(&q->factor_b, at), &b, at, deep != 0);
+        put(&q->factor_a, at, read_body(from->a, get(&q->scale, at), &a, at, deep != 0));
+        put(&q->factor_b, at, read_body(from->b, get(&q->scale, at), &b, at, deep != 0));
         unsigned inside = 0;
         if (deep) {
             inside = lane_bits(find_common(q, &a, &b, &upper, at)) & deep;

@@ -36,6 +36,9 @@ LANES_INLINE lane_mask lane_sign(lane v) {
 LANES_INLINE void lane_store_mask(float *x, lane_mask m) {
     _mm512_store_ps(x, _mm512_castsi512_ps(_mm512_maskz_set1_epi32(m, INT32_MIN)));
 }
+LANES_INLINE lane lane_get_power(lane v) {
+    return _mm512_castsi512_ps(_mm512_and_si512(_mm512_castps_si512(v), _mm512_set1_epi32(LANES_EXPONENT)));
+}
 LANES_INLINE lane lane_top(lane a, lane b) { return _mm512_max_ps(a, b); }
 LANES_INLINE lane lane_min(lane a, lane b) { return _mm512_min_ps(a, b); }
 
@@ -69,6 +72,9 @@ LANES_INLINE lane_mask lane_none(void) { return _mm256_setzero_ps(); }
 // Only the sign bits of a mask are read.
 LANES_INLINE lane_mask lane_sign(lane v) { return v; }
 LANES_INLINE void lane_store_mask(float *x, lane_mask m) { _mm256_store_ps(x, m); }
+LANES_INLINE lane lane_get_power(lane v) {
+    return _mm256_and_ps(v, _mm256_castsi256_ps(_mm256_set1_epi32(LANES_EXPONENT)));
+}
 LANES_INLINE lane lane_top(lane a, lane b) { return _mm256_max_ps(a, b); }
 LANES_INLINE lane lane_min(lane a, lane b) { return _mm256_min_ps(a, b); }
 
@@ -98,6 +104,13 @@ LANES_INLINE lane_mask lane_from_bits(unsigned bits) { return (int)(bits & 1); }
 LANES_INLINE lane_mask lane_none(void) { return 0; }
 LANES_INLINE lane_mask lane_sign(lane v) { return signbit(v) != 0; }
 LANES_INLINE void lane_store_mask(float *x, lane_mask m) { *x = m ? -0.0f : 0.0f; }
+LANES_INLINE lane lane_get_power(lane v) {
+    int32_t bits;
+    memcpy(&bits, &v, sizeof bits);
+    bits &= LANES_EXPONENT;
+    memcpy(&v, &bits, sizeof v);
+    return v;
+}
 LANES_INLINE lane lane_top(lane a, lane b) { return a > b ? a : b; }
 LANES_INLINE lane lane_min(lane a, lane b) { return a < b ? a : b; }
 

@@ -91,16 +91,16 @@ LANES_INLINE lane3 find_kept_difference(const kept_pair *p, lane3 a, lane3 b) {
 LANES_TARGET static unsigned run_gaps(const kept8_places *from, const kept8_errors *errors, kept8_gaps *out) {
     int end = from->count > LANES ? PAIR8 : LANES;
     kept_columns a, b;
-    lane_column head_a[6], head_b[6], normal[4];
+    lane_column ball_a[4], ball_b[4], normal[4];
     read_kept(from->pose_a, from->lengths_a, end, &a);
     read_kept(from->pose_b, from->lengths_b, end, &b);
-    read_columns((lane_rows){from->shape_a, 0, end}, 6, head_a);
-    read_columns((lane_rows){from->shape_b, 0, end}, 6, head_b);
+    read_columns((lane_rows){from->shape_a, 2, end}, 4, ball_a);
+    read_columns((lane_rows){from->shape_b, 2, end}, 4, ball_b);
     read_columns((lane_rows){from->normal, 0, end}, 4, normal);
     unsigned odd = 0;
     for (int at = 0; at < end; at += LANES) {
         kept_pair p = place_kept(&a, &b, at);
-        lane3 between = find_kept_difference(&p, get3(head_a + 2, at), get3(head_b + 2, at));
+        lane3 between = find_kept_difference(&p, get3(ball_a, at), get3(ball_b, at));
         lane distance = lane3_norm(between);
         lane claim = lane_set(errors->reject) * p.size + lane_set(3 * errors->hidden);
         lane3 n = lane3_unit(get3(normal, at), &p.good);
@@ -112,7 +112,7 @@ LANES_TARGET static unsigned run_gaps(const kept8_places *from, const kept8_erro
         put(&out->along, at, lane3_dot(n, p.offset));
         put(&out->radii, at, p.lower_radii);
         put(&out->claim, at, claim);
-        put(&out->sphere, at, distance - (get(head_a, at) + get(head_b, at)) - p.lower_radii - claim);
+        put(&out->sphere, at, distance - (get(ball_a + 3, at) + get(ball_b + 3, at)) - p.lower_radii - claim);
         odd |= lane_bits(lane_not(p.good)) << at;
     }
     return odd & ((1u << end) - 1);

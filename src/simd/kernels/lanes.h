@@ -12,8 +12,12 @@
 #include <stdint.h>
 #include <string.h>
 
-/// The exponent's bits of a double.
+/// The exponent's bits of a number.
+#ifdef LANES_ARE_FLOATS
+#define LANES_EXPONENT 0x7f800000
+#else
 #define LANES_EXPONENT 0x7ff0000000000000
+#endif
 
 #ifdef LANES_ARE_FLOATS
 

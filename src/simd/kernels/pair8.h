@@ -143,7 +143,7 @@ LANES_INLINE pair8_found compute_origins(const pair_columns *from, const pair8_q
     lane_mask good = lane_and(is_in_reach(origin, query->length_most), is_in_reach(origin_b, query->length_most));
     good = lane_and(good, lane_and(is_plain(a->rotation, at), is_plain(b->rotation, at)));
     lane3 offset = lane3_sub(origin_b, origin);
-    lane radii = get(a->head + 1, at) + get(b->head + 1, at), extents = get(a->head + 5, at) + get(b->head + 5, at);
+    lane radii = get(a->head, at) + get(b->head, at), extents = get(a->head + 1, at) + get(b->head + 1, at);
     lane distance = lane3_norm(offset), size = extents + distance + radii, claim = compute_claim(query, size);
     lane lower = distance - extents - radii - claim, upper = distance + extents - radii + claim;
     lane tolerance =
@@ -165,7 +165,7 @@ LANES_INLINE pair8_found compute_spheres(const pair_columns *from, const pair8_q
     lane far = lane_set(query->far), size = get(&o->size, at), radii = get(&o->radii, at);
     lane3 offset = get3(o->offset, at);
     lane9 world = make_rotation(a->rotation, at), world_b = make_rotation(b->rotation, at);
-    lane reach = get(a->head, at) + get(b->head, at), claim = compute_claim(query, size);
+    lane reach = get(a->head + 5, at) + get(b->head + 5, at), claim = compute_claim(query, size);
 
     // The enclosing spheres.
     lane3 center_a = get3(a->head + 2, at), center_b = get3(b->head + 2, at);
@@ -207,13 +207,11 @@ LANES_INLINE pair8_found find_spheres(const pair8_places *from, const pair8_quer
     read_columns((lane_rows){from->pose_b, 3, end}, 4, c.b.rotation);
     read_columns((lane_rows){from->shape_a, 0, end}, 2, c.a.head);
     read_columns((lane_rows){from->shape_b, 0, end}, 2, c.b.head);
-    read_columns((lane_rows){from->shape_a, 4, end}, 2, c.a.head + 4);
-    read_columns((lane_rows){from->shape_b, 4, end}, 2, c.b.head + 4);
     pair8_found origins = {0, 0, 0, 0, 0}, all = {0, 0, 0, 0, 0};
     for (int at = 0; at < end; at += LANES) add_found(&origins, compute_origins(&c, query, o, at), at);
     if (!query->keeps_all && origins.apart == (1u << end) - 1) return origins;
-    read_columns((lane_rows){from->shape_a, 2, end}, 2, c.a.head + 2);
-    read_columns((lane_rows){from->shape_b, 2, end}, 2, c.b.head + 2);
+    read_columns((lane_rows){from->shape_a, 2, end}, 4, c.a.head + 2);
+    read_columns((lane_rows){from->shape_b, 2, end}, 4, c.b.head + 2);
     read_columns((lane_rows){from->shape_a, 8, end}, 4, c.a.first);
     read_columns((lane_rows){from->shape_b, 8, end}, 4, c.b.first);
     for (int at = 0; at < end; at += LANES) add_found(&all, compute_spheres(&c, query, o, at), at);
@@ -257,16 +255,20 @@ LANES_INLINE void put_mask(lane_column *c, int at, lane_mask m) {
     put(c, at, lane_select(m, lane_set(1), lane_set(0)));
 }
 
-// frame_relate, and the outer ellipsoids in the frame. a, b: outer centre and Q of A, of B.
-LANES_INLINE void relate(ellipsoid_work *w, const lane_column *a, const lane_column *b, int at) {
-    const pair8_query *query = w->query;
-    pair8 *o = w->o;
+// frame_relate.
+LANES_INLINE related make_related(const pair8_query *query, pair8 *o, int at) {
     lane9 world = get9(o->world_a, at);
     related f = {lane9_mul_transposed(world, get9(o->world_b, at)), lane9_mul3_transposed(world, get3(o->offset, at)),
                  get(&o->radii, at), lane_set(query->claim) * get(&o->size, at) + lane_set(2 * query->hidden)};
     put9(o->rotation, at, f.rotation);
     put3(o->translation, at, f.translation);
     put(&o->claim, at, f.claim);
+    return f;
+}
+
+// frame_relate, and the outer ellipsoids in the frame. a, b: outer centre and Q of A, of B.
+LANES_INLINE void relate(ellipsoid_work *w, const lane_column *a, const lane_column *b, int at) {
+    related f = make_related(w->query, w->o, at);
     put3(w->d, at, lane3_sub(get_b(&f, get3(b, at)), get3(a, at)));
     put6(w->qa, at, get6(a + 3, at));
     put6(w->qb, at, lane6_rotate(get6(b + 3, at), f.rotation));
@@ -491,6 +493,16 @@ LANES_TARGET static void run_ellipsoids(pair8_group *groups, unsigned count, con
 
 // ---- supports
 
+LANES_TARGET static void run_relate(const pair8_query *query, pair8 *o) {
+    for (int at = 0; at < get_end(o); at += LANES) {
+        related f = make_related(query, o, at);
+        lane_mask good = lane_none();
+        lane3 n = lane3_unit(get3(o->n, at), &good);
+        put3(o->n, at, n);
+        put3(o->low, at, lane3_neg(lane9_mul3_transposed(f.rotation, n)));
+    }
+}
+
 // stage_support: the gap along n, and the length of the difference.
 LANES_INLINE void compute_supports(pair8 *o, int at) {
     related f = get_related(o, at);
@@ -525,7 +537,7 @@ LANES_INLINE void put_floats3(float (*to)[PAIR8], int at, lane3 v) {
     put_floats(to[2] + at, v.z);
 }
 
-// B in the axes of A, about the spheres' centres, and the numbers of the query in a unit of the pair's own. Of sizes
+// B in the axes of A, about the spheres' centres, and the claim, in a unit of the pair's own. Of sizes
 // far above the bodies' doubles' own errors are above those of floats.
 LANES_INLINE unsigned compute_floats(const pair8 *o, const pair8_query *query, pair8_floats *out, int at) {
     lane9 a = get9(o->world_a, at), m = lane9_mul_transposed(a, get9(o->world_b, at));
@@ -536,17 +548,12 @@ LANES_INLINE unsigned compute_floats(const pair8 *o, const pair8_query *query, p
     length = lane_select(good, length, lane_set(1));
     lane unit = lane_get_power(length), scale = lane_set(1) / unit;
     lane claim = lane_set(FLOAT_CLAIM) * length + (lane_set(query->reject) * size + lane_set(2 * query->hidden));
-    // Rounded outward, and in the range of floats: a pair's bounds are below 4.
-    lane far = lane_min(lane_set(query->far) * scale * lane_set(1 + 0x1p-22), lane_set(8));
-    lane near = lane_max(lane_min(lane_set(query->near) * scale * lane_set(1 - 0x1p-22), lane_set(8)), lane_set(-1));
     float(*numbers)[PAIR8] = out->numbers;
     put_floats3(numbers, at, m.r0);
     put_floats3(numbers + 3, at, m.r1);
     put_floats3(numbers + 6, at, m.r2);
     put_floats3(numbers + 9, at, lane3_scale(lane9_mul3_transposed(a, between), scale));
     put_floats(numbers[12] + at, lane_select(good, claim * scale * lane_set(1 + 0x1p-22), lane_set(1)));
-    put_floats(numbers[13] + at, far);
-    put_floats(numbers[14] + at, near);
     put(&out->unit, at, unit);
     put(&out->scale, at, scale);
     return lane_bits(good);

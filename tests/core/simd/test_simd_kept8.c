@@ -59,8 +59,8 @@ static void fill(uint64_t *s, unsigned count, int is_wild) {
         const ovoid_posed_shape *a = &bodies[0][from], *b = &bodies[1][from];
         places.pose_a[k] = &a->pose.position.x;
         places.pose_b[k] = &b->pose.position.x;
-        places.shape_a[k] = &a->shape->reach;
-        places.shape_b[k] = &b->shape->reach;
+        places.shape_a[k] = &a->shape->radius;
+        places.shape_b[k] = &b->shape->radius;
         places.lengths_a[k] = &a->shape->lower_radius;
         places.lengths_b[k] = &b->shape->lower_radius;
         places.normal[k] = &normals[from].x;

@@ -61,8 +61,8 @@ static void fill(uint64_t *s) {
             *b = make_body(s, away);
             places[i].pose_a[k] = &a->pose.position.x;
             places[i].pose_b[k] = &b->pose.position.x;
-            places[i].shape_a[k] = &a->shape->reach;
-            places[i].shape_b[k] = &b->shape->reach;
+            places[i].shape_a[k] = &a->shape->radius;
+            places[i].shape_b[k] = &b->shape->radius;
             expected[i].from.outer_a[k] = &a->shape->outer.center.x;
             expected[i].from.outer_b[k] = &b->shape->outer.center.x;
             expected[i].from.inner_a[k] = a->shape->inside.w;
