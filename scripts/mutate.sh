@@ -32,7 +32,7 @@ tests_of() {
     gauss) echo "test_query_gauss test_solid_contacts test_query_trials $query" ;;
     boxes) echo "test_simd_box_axes test_simd_box_separation test_query_boxes $query" ;;
     closed) echo "test_query_closed test_judge_closed test_query_batch test_prepared test_allowance test_query_boxes $query" ;;
-    swept) echo "test_query_swept_axis test_query_swept_minima test_query_swept" ;;
+    swept) echo "test_query_box_triangle test_query_swept_axis test_query_swept_minima test_query_swept" ;;
     exact) echo "test_linear test_hull $query" ;;
     hull) echo "test_linear test_hull_sort test_hull test_measures test_shape $query" ;;
     shape) echo "test_centered_box test_regular_solid test_measures test_shape test_shape_triangles test_shape_file test_shape_lean test_shape_rim test_shape_ellipsoid $query" ;;

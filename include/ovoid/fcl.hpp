@@ -125,23 +125,71 @@ template <class S> bool place_couple(const posed<S> &a, const posed<S> &b, body_
     return a.place(couple.a->shape(), couple.at_a) && b.place(couple.b->shape(), couple.at_b);
 }
 
-/// 1: the balls around two shapes are apart; -1: those within them meet; 0: neither, or a transform is not rigid to a
-/// few roundings. All roundings are less than a part in 1e13 of the lengths that are summed.
-template <class S> int compare_balls(const posed<S> &a, const posed<S> &b, const body_couple &couple) {
-    const shape_balls &of_a = couple.a->balls(), &of_b = couple.b->balls();
-    const ovoid_vec3 p = turn<S>(a.pose, of_a.center), q = turn<S>(b.pose, of_b.center);
-    const auto between = [&](int i) {
-        return static_cast<double>(b.pose.matrix().coeff(i, 3)) - static_cast<double>(a.pose.matrix().coeff(i, 3));
-    };
-    const double x = between(0) + (q.x - p.x), y = between(1) + (q.y - p.y), z = between(2) + (q.z - p.z),
-                 distance = std::sqrt(x * x + y * y + z * z), outer = of_a.outer + of_b.outer,
-                 doubt = 1e-12 * (distance + outer + sum_abs(p) + sum_abs(q));
-    if (!(distance < 1e50)) return 0;
-    const int side = distance - outer > doubt ? 1 : distance - (of_a.inner + of_b.inner) < -doubt ? -1 : 0;
+/// A point's distance from a shape; the radii around it within which another shape ends, and which that holds; and the
+/// lengths that were summed.
+struct nearness {
+    double distance, outer, inner, lengths;
+};
+/// 1: two shapes are apart; -1: they meet; 0: neither is known, or a transform is not rigid to a few roundings. All
+/// roundings are less than a part in 1e13 of the lengths.
+template <class S> int decide(const posed<S> &a, const posed<S> &b, const nearness &of) {
+    const double doubt = 1e-12 * (of.distance + of.outer + of.lengths);
+    if (!(of.distance < 1e50)) return 0;
+    const int side = of.distance - of.outer > doubt ? 1 : of.distance - of.inner < -doubt ? -1 : 0;
     return side != 0 && is_rotation<S>(a.pose) && is_rotation<S>(b.pose) ? side : 0;
 }
+/// The centre of b's balls from the origin of a, in the world.
+template <class S>
+ovoid_vec3 find_ball(const posed<S> &a, const posed<S> &b, const shape_balls &balls, double &lengths) {
+    const ovoid_vec3 q = turn<S>(b.pose, balls.center), s = to_vec3<S>(a.pose.translation()),
+                     t = to_vec3<S>(b.pose.translation());
+    lengths = sum_abs(q);
+    return {t.x - s.x + q.x, t.y - s.y + q.y, t.z - s.z + q.z};
+}
+/// By the balls of both.
+template <class S> int compare_balls(const posed<S> &a, const posed<S> &b, const body_couple &couple) {
+    const shape_balls &of_a = couple.a->balls(), &of_b = couple.b->balls();
+    nearness of;
+    const ovoid_vec3 p = turn<S>(a.pose, of_a.center), d = add_scaled(find_ball(a, b, of_b, of.lengths), p, -1);
+    of.lengths += sum_abs(p);
+    of.distance = std::sqrt(dot(d, d));
+    of.outer = of_a.outer + of_b.outer, of.inner = of_a.inner + of_b.inner;
+    return decide(a, b, of);
+}
+/// By a box, or a convex polytope that is one, and the balls of another shape.
+template <class S>
+int compare_box_and_ball(const posed<S> &a, const posed<S> &b, const corner_box &box, const shape_balls &balls) {
+    nearness of;
+    const ovoid_vec3 d = find_ball(a, b, balls, of.lengths);
+    const bool is_box = a.type == ::fcl::GEOM_BOX;
+    double p[3], half[3], square = 0;
+    for (int k = 0; k < 3; k++) p[k] = dot(get_column<S>(a.pose, k), d);
+    if (is_box) {
+        const ovoid_vec3 side = to_vec3<S>(static_cast<const ::fcl::Box<S> *>(a.of)->side);
+        half[0] = side.x / 2, half[1] = side.y / 2, half[2] = side.z / 2;
+    } else {
+        const ovoid_vec3 from = add_scaled({p[0], p[1], p[2]}, box.center, -1);
+        for (int k = 0; k < 3; k++) p[k] = dot(box.axis[k], from), half[k] = box.half[k];
+        of.lengths += sum_abs(box.center);
+    }
+    for (int k = 0; k < 3; k++) {
+        const double beyond = std::max(0.0, std::fabs(p[k]) - half[k]);
+        square += beyond * beyond;
+        of.lengths += std::fabs(p[k]) + half[k];
+    }
+    of.distance = std::sqrt(square);
+    of.outer = balls.outer, of.inner = balls.inner;
+    return decide(a, b, of);
+}
+/// By what is known of both without a search.
+template <class S> int compare_nearness(const posed<S> &a, const posed<S> &b, const body_couple &couple) {
+    const auto is_box = [](const posed<S> &x, const body *of) { return x.type == ::fcl::GEOM_BOX || of->box().is_one; };
+    if (is_box(a, couple.a)) return compare_box_and_ball(a, b, couple.a->box(), couple.b->balls());
+    if (is_box(b, couple.b)) return compare_box_and_ball(b, a, couple.b->box(), couple.a->balls());
+    return compare_balls(a, b, couple);
+}
 
-/// The same of a sphere and another geometry, if that is a sphere, a capsule, a box or a cylinder, without their
+/// As decide(), of a sphere and another geometry, if that is a sphere, a capsule, a box or a cylinder, without their
 /// shapes. All roundings are less than a part in 1e13 of the squares, whatever way the caller's settings round.
 template <class S> OVOID_FCL_INLINE int compare_sphere(const posed<S> &sphere, const posed<S> &other) {
     center_balls of_sphere, of_other;
@@ -252,9 +300,9 @@ template <class S> bool collide_bodies(contact_list<S> &to, const posed<S> &a, c
     body_couple couple;
     ovoid_swept_sphere swept[2];
     if (!find_couple(a, b, couple)) return false;
-    const int balls = compare_balls(a, b, couple);
-    if (balls > 0) return true;
-    if (balls < 0 && !to.is_detailed()) {
+    const int side = compare_nearness(a, b, couple);
+    if (side > 0) return true;
+    if (side < 0 && !to.is_detailed()) {
         to.add(-1, -1);
         return true;
     }
@@ -266,7 +314,7 @@ template <class S> bool collide_bodies(contact_list<S> &to, const posed<S> &a, c
         swept_parts<S> parts_a(*couple.a, a.self(), a.pose), parts_b(*couple.b, b.self(), b.pose);
         collide_meshes(to, couple, parts_a, parts_b);
     } else {
-        collide_shapes(to, couple, balls < 0);
+        collide_shapes(to, couple, side < 0);
     }
     return true;
 }

@@ -295,6 +295,7 @@ COMPILER_NOINLINE static search_end search_pair(const task *t) {
     ovoid_answer answer;
     (void)options_make(&given, &options);
     goal.far = t->terms.margin;
+    goal.wants_corner = !t->terms.cover;
     set_numbers(&goal, &options, f);
     cover_clear(t->terms.cover);
     if (reject_by_spheres(f, goal.far, &found))

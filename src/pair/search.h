@@ -16,7 +16,9 @@ typedef struct query_goal {
     int wants_depth;     ///< a proven overlap does not answer the query
     int wants_bracket;   ///< the query asks for a narrow bracket, not only for the sign
     ovoid_limit beyond;  ///< the limit of an answer that stopped at lower > far
-    int has_cover;       ///< the present cover is kept, unless a new one proves less than `covered`, its upper bound
+    uint16_t has_cover;  ///< the present cover is kept, unless a new one proves less than `covered`, its upper bound
+    uint16_t
+        wants_corner; ///< of a depth's witness only the first vertices are wanted, no point; there is no cover then
     double covered;
 } query_goal;
 

@@ -61,9 +61,18 @@ typedef struct gauss_side {
     double shrink; ///< what rounding adds to the ellipsoid's support
 } gauss_side;
 
+/// A body that is a box, in the body frame of the other one.
+typedef struct gauss_box {
+    int side; ///< 1: it is A, 2: it is B; 0: neither body is a box, and nothing else is read
+    vec3 center;
+    mat3 axes; ///< rows: unit vectors at right angles, to rounding
+    double half[3];
+} gauss_box;
+
 /// What is asked: the difference B - A in the frame of A.
 typedef struct gauss_query {
     gauss_side a, b;
+    gauss_box box;
     mat3 rotation; ///< of B
     vec3 translation;
     double claim; ///< a height that is not above this is not looked for

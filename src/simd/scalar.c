@@ -11,7 +11,7 @@
 #include "simd/kernels/box_separation.h"
 #include "simd/kernels/epa8/epa8.h"
 #include "simd/kernels/extents.h"
-#include "simd/kernels/gauss/gauss.h"
+#include "simd/kernels/gauss/plane.h"
 #include "simd/kernels/pair8.h"
 
 #include "simd/kernels/group_gjk.h"

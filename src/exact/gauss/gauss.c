@@ -19,8 +19,12 @@
 //
 // What is not tried. Where the values along both ends of an arc of one and the same point of the other body, or of its
 // ball, are at least r, so are they in between (proof above; of the ball as long as its centre's value is positive). A
-// normal is not tried where the ellipsoid's height is at least r: n'Qn, at least the square of the ball's radius, is
-// summed to 32 u trace Q, trace Q <= 3 (2 extent)^2, so its root to 192 u extent^2 / ball.
+// normal is not tried where the ellipsoid's height is at least r. Its root of s = n'Qn, which lies between the squares
+// of the shortest semi-axis, at least the ball's radius b, and of the longest, at most B, is above the chord (s + b B)
+// / (b
+// + B). s is summed to 32 u trace Q, trace Q <= 3 B^2 and 3 (2 extent)^2, so the chord to 192 u extent^2 / b.
+//
+// A box and another body need few of these numbers: simd/kernels/gauss/box.h finds the same plane by the box's axes.
 //
 // Errors, in parts of the pair's s (pair/frame.h): a posed vertex is off by 91 u s, and a height by 100 u s: within the
 // claim. The direction of a crossing, b1 n2 - b2 n1 with triple products that are off by 8 u, is off by 24 u before it
@@ -52,6 +56,17 @@ static void make_side(const ovoid_shape *s, gauss_side *side) {
     for (int i = 0; i < 6; i++) side->q[i] = entries[i];
     side->ball = s->inside.least;
     side->shrink = ROOT * s->extent * (s->extent / s->inside.least);
+}
+
+void gauss_set_box(const pair_frame *f, gauss_box *to) {
+    const parallelepiped *a = &f->a->box, *b = &f->b->box, *box = a->is_right ? a : b;
+    to->side = a->is_right ? 1 : b->is_right ? 2 : 0;
+    if (!to->side) return;
+    const mat3 turn = to->side == 1 ? mat3_transpose(f->rotation) : f->rotation;
+    to->center = to->side == 1 ? mat3_mul_vec3(turn, vec3_sub(box->center, f->translation)) : frame_b(f, box->center);
+    to->axes =
+        (mat3){mat3_mul_vec3(turn, box->unit[0]), mat3_mul_vec3(turn, box->unit[1]), mat3_mul_vec3(turn, box->unit[2])};
+    for (int k = 0; k < 3; k++) to->half[k] = box->half[k];
 }
 
 // E of the theorem.
@@ -194,6 +209,17 @@ static int find_witness(const foot_search *of, const gauss_plane *plane, const f
     return try_faces(of, &a, &b);
 }
 
+// The corner that find_witness begins with, of the plane of a facet.
+static difference find_corner(const foot_search *of, const frame_support *support) {
+    const pair_frame *f = of->s->frame;
+    face a, b;
+    find_face(f->a, vec3_neg(of->n), support->a, of->within, &a);
+    find_face(f->b, mat3_mul_transposed_vec3(f->rotation, of->n), support->b, of->within, &b);
+    if (a.count > 1) place_face(of, 1, &a);
+    if (b.count > 1) place_face(of, 0, &b);
+    return get_corner(of->s, a.vertex[a.count > 1 ? find_lowest(&a) : 0], b.vertex[b.count > 1 ? find_lowest(&b) : 0]);
+}
+
 // ---- the depth
 
 // Bodies that hardly overlap, by no more claims than this, are left to EPA, which may show no surface around the
@@ -205,7 +231,8 @@ static void prefetch_map(const ovoid_shape *s) {
     for (uint64_t at = s->at.gauss; at < s->at.vertices; at += 64) compiler_prefetch((const char *)s + at);
 }
 
-static int take_depth(search *s) {
+// Not on the stack while EPA is.
+COMPILER_NOINLINE static int take_depth(search *s) {
     const pair_frame *f = s->frame;
     gauss_query q;
     gauss_plane plane;
@@ -214,6 +241,7 @@ static int take_depth(search *s) {
     double doubt = compute_doubt(f, f->a) + compute_doubt(f, f->b) + 2 * f->claim;
     make_side(f->a, &q.a);
     make_side(f->b, &q.b);
+    gauss_set_box(f, &q.box);
     q.rotation = f->rotation;
     q.translation = f->translation;
     q.claim = doubt + TOUCHING * f->claim;
@@ -226,7 +254,10 @@ static int take_depth(search *s) {
     if (!search_needs_depth(s, &found)) return 0;
     evidence foot;
     const foot_search of = {s, n, u, vec3_cross(n, u), 2 * f->claim, &foot};
-    if (!find_witness(&of, &plane, &support)) return 0;
+    if (s->goal.wants_corner && plane.kind != GAUSS_CROSSING)
+        foot.count = 1, foot.p[0] = find_corner(&of, &support), foot.weight[0] = 1;
+    else if (!find_witness(&of, &plane, &support))
+        return 0;
     search_take_depth(s, &found, &foot);
     return 1;
 }

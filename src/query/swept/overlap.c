@@ -5,12 +5,14 @@
 // - two such balls are larger together than the overlap;
 // - a polytope in the difference body holds a ball of that radius (query/swept/enclose.c); where its faces become
 //   slivers, directions are divided until none is open (query/swept/divide.c).
+// A box and a triangle have a closed form (linear/box_triangle.h).
 // A cylinder or a cone with a box (query/swept/circles.c), a hull with faces (query/swept/hull_arcs.c) or another one
 // (query/swept/revolved.c) has a proof of its own, which comes before these. Beside an ellipsoid the first two are
 // tried, and then the directions are shown cell by cell, of a hull with faces (query/swept/hull_cells.c) or of another
 // body (query/swept/ellipsoid_cells.c).
 #include "query/swept/overlap.h"
 
+#include "linear/box_triangle.h"
 #include "query/swept/edged.h"
 #include "query/swept/ellipsoid_cells.h"
 #include "query/swept/enclose.h"
@@ -161,9 +163,40 @@ static ovoid_verdict answer(const swept_placed *p, const least_overlap *at, doub
     return v;
 }
 
+// ---- a box and a triangle
+
+static int is_triangle(const swept *s) { return s->core == OVOID_SWEPT_POINTS && s->count == 3; }
+
+static int are_box_and_triangle(const cores *of) {
+    return of->a->core == OVOID_SWEPT_BOX ? is_triangle(of->b) : of->b->core == OVOID_SWEPT_BOX && is_triangle(of->a);
+}
+
+// 0 if the closed form leaves it open.
+static int search_box_and_triangle(const overlap_search *s, least_overlap *to) {
+    const int is_box_b = s->of.b->core == OVOID_SWEPT_BOX;
+    const swept *box = is_box_b ? s->of.b : s->of.a, *triangle = is_box_b ? s->of.a : s->of.b;
+    const vec3 way = is_box_b ? vec3_neg(s->of.d) : s->of.d;
+    vec3 corner[3];
+    box_triangle found;
+    for (size_t i = 0; i < 3; i++)
+        corner[i] = patch_turn(box, vec3_add(way, patch_turn_back(triangle, vec3_at(triangle->points, i))));
+    if (!(min2(box->half[0], min2(box->half[1], box->half[2])) >= 0)) return 0;
+    if (!box_triangle_find_overlap(box->half, corner, 16 * 0x1p-53 * s->of.size, &found)) return 0;
+    if (!(found.value - found.lower <= s->tolerance)) return 0;
+    const vec3 n = patch_turn_back(box, found.n), on_box = patch_turn_back(box, found.on_box),
+               on_triangle = vec3_sub(patch_turn_back(box, found.on_triangle), way);
+    to->of = patch_make_plane(is_box_b ? vec3_neg(n) : n);
+    to->value = found.value;
+    to->on_a = is_box_b ? on_triangle : on_box;
+    to->on_b = is_box_b ? on_box : on_triangle;
+    return 1;
+}
+
 ovoid_verdict swept_measure_overlap(const swept_placed *p, ovoid_witness *witness) {
     overlap_search s = {.of = {p->a, p->b, p->d, p->size}, .tolerance = 0.4 * TOLERANCE * p->size};
     least_overlap least;
+    if (are_box_and_triangle(&s.of) && search_box_and_triangle(&s, &least))
+        return answer(p, &least, least.value - s.tolerance - 4 * p->claim, witness);
     if (cores_have_circles(&s.of) && cores_search_circles(&s.of, s.tolerance, &least))
         return answer(p, &least, least.value - s.tolerance - 4 * p->claim, witness);
     double doubt;

@@ -1,4 +1,7 @@
 // The kernel of extents (support.h), written once over lanes.
+#ifndef OVOID_SIMD_KERNELS_EXTENTS_H
+#define OVOID_SIMD_KERNELS_EXTENTS_H
+
 #include "simd/kernels/lanes.h"
 #include "simd/support.h"
 
@@ -24,3 +27,5 @@ LANES_TARGET static simd_extents run_extents(const simd_points *p, const mat3 *m
     }
     return out;
 }
+
+#endif

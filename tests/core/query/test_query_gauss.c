@@ -131,7 +131,7 @@ static ovoid_shape *make_shape(uint64_t *s) {
 
 // ---- checks
 
-static long taken, left, others, wide, kinds[3];
+static long taken, left, others, wide, kinds[3], boxes[2][3];
 
 static gauss_side make_side(const ovoid_shape *s) {
     const ovoid_sym3 *q = &s->inner.q;
@@ -145,23 +145,33 @@ static int is_same(const gauss_plane *x, const gauss_plane *y) {
            x->a == y->a && x->b == y->b;
 }
 
-/// The same bits from every instruction set.
+/// The plane that is expected, or none, from every instruction set.
+static void check_sets(const gauss_query *q, int expected, const gauss_plane *truth) {
+    gauss_plane other;
+    for (int isa = SIMD_SCALAR; isa <= SIMD_ISA_COUNT; isa++) {
+        gauss_function *find = isa == SIMD_ISA_COUNT ? gauss_find_plane : gauss_get((simd_isa)isa);
+        if (!find) continue;
+        memset(&other, 0, sizeof other);
+        CHECK_EQ(find(q, &other), expected);
+        if (expected) CHECK(is_same(truth, &other));
+    }
+}
+
+/// The same bits from every instruction set, and of a box with its axes as without.
 static void check_kernels(const ovoid_pair *p) {
     pair_frame f;
     CHECK(frame_make(p, &f) == OVOID_LIMIT_NONE);
     if (!shape_get_gauss_map(f.a) || !shape_get_gauss_map(f.b)) return;
-    const gauss_query q = {make_side(f.a), make_side(f.b), f.rotation, f.translation, 4 * f.claim, f.size};
-    gauss_plane truth, other;
+    gauss_query q = {make_side(f.a), make_side(f.b), {.side = 0}, f.rotation, f.translation, 4 * f.claim, f.size};
+    gauss_plane truth;
     memset(&truth, 0, sizeof truth);
     int found = gauss_get(SIMD_SCALAR)(&q, &truth);
-    for (int isa = SIMD_SCALAR + 1; isa <= SIMD_ISA_COUNT; isa++) {
-        gauss_function *find = isa == SIMD_ISA_COUNT ? gauss_find_plane : gauss_get((simd_isa)isa);
-        if (!find) continue;
-        memset(&other, 0, sizeof other);
-        CHECK_EQ(find(&q, &other), found);
-        if (found) CHECK(is_same(&truth, &other));
-    }
+    check_sets(&q, found, &truth);
     kinds[truth.kind] += found;
+    gauss_set_box(&f, &q.box);
+    if (!q.box.side) return;
+    check_sets(&q, found, &truth);
+    boxes[q.box.side - 1][truth.kind] += found;
 }
 
 /// The points are of the bodies, and as deep as the answer says, along its normal.
@@ -209,6 +219,8 @@ static void test_random(void) {
         ovoid_shape_destroy(a);
         ovoid_shape_destroy(b);
     }
+    printf("of boxes %ld %ld %ld and %ld %ld %ld\n", boxes[0][0], boxes[0][1], boxes[0][2], boxes[1][0], boxes[1][1],
+           boxes[1][2]);
     printf("%ld by planes, %ld by EPA; kinds %ld %ld %ld; %ld other covers\n", taken, left, kinds[0], kinds[1],
            kinds[2], others);
     CHECK_LE(left, 15);
@@ -216,7 +228,7 @@ static void test_random(void) {
     CHECK_LE(others, 5);
     // Vertices of sharp corners are less sure to be the farthest along their cells' corners.
     CHECK_LE(wide, 5);
-    for (int kind = 0; kind < 3; kind++) CHECK(kinds[kind] > 100);
+    for (int kind = 0; kind < 3; kind++) CHECK(kinds[kind] > 100 && boxes[0][kind] > 5 && boxes[1][kind] > 5);
 }
 
 /// A tolerance that is less than the width of a depth by planes, which is above 1e-12, is met all the same. The sizes

@@ -1,6 +1,6 @@
-// The kernels of gauss.h, written once over lanes; scalar.c, avx2.c and avx512.c include this. Every number is computed
-// lane by lane, minima and maxima do not depend on an order, ties go to the lowest index: so all widths give the same
-// bits.
+// The kernels of gauss.h, written once over lanes; scalar.c, avx2.c and avx512.c include plane.h. Every number is
+// computed lane by lane, minima and maxima do not depend on an order, ties go to the lowest index: so all widths give
+// the same bits.
 //
 // The first body is A mirrored at the origin, so that the difference is a sum: its height along n is the first one's
 // support along n and the second one's.
@@ -114,17 +114,28 @@ LANES_INLINE uint64_t gauss_find_low(const gauss_body *of, double height) {
     return low;
 }
 
-// Lower bounds by the other body's ellipsoid. Returns the facet of the least one; of several the first.
+// At least the longest semi-axis: the largest eigenvalue is no more than the entries of a row.
+LANES_INLINE double gauss_find_longest(const double q[6]) {
+    double x = fabs(q[0]) + fabs(q[1]) + fabs(q[2]), y = fabs(q[1]) + fabs(q[3]) + fabs(q[4]),
+           z = fabs(q[2]) + fabs(q[4]) + fabs(q[5]);
+    x = x > y ? x : y;
+    return sqrt(x > z ? x : z);
+}
+
+// Lower bounds by the other body's ellipsoid, of whose support's root the chord is taken that goes from the square of
+// its shortest semi-axis to that of its longest one: a root is above its chord. Returns the facet of the least one; of
+// several the first.
 GAUSS_PART uint32_t gauss_bound_facets(gauss_body *of, const gauss_body *by) {
     lane3 c = gauss_spread(by->center);
     lane xx = lane_set(by->q[0]), xy = lane_set(2 * by->q[1]), xz = lane_set(2 * by->q[2]);
     lane yy = lane_set(by->q[3]), yz = lane_set(2 * by->q[4]), zz = lane_set(by->q[5]);
-    lane least = lane_set(INFINITY);
+    double top = gauss_find_longest(by->q), slope = 1 / (by->ball + top);
+    lane rise = lane_set(slope), start = lane_set(by->ball * top * slope - by->shrink), least = lane_set(INFINITY);
     for (uint32_t i = 0; i < of->facets; i += LANES) {
         lane3 n = gauss_load(of->n[0], of->n[1], of->n[2], i);
         lane square = n.x * (xx * n.x + xy * n.y + xz * n.z) + n.y * (yy * n.y + yz * n.z) + zz * (n.z * n.z);
         lane middle = lane3_dot(n, c) + lane_load(of->low + i);
-        lane bound = middle + (lane_sqrt(lane_top(square, lane_set(0))) - lane_set(by->shrink));
+        lane bound = middle + (square * rise + start);
         lane_store(of->bound + i, bound);
         least = lane_min(bound, least);
     }
@@ -208,15 +219,15 @@ LANES_INLINE __m256i gauss_look_up(const uint8_t table[GAUSS_FACETS], const uint
     return found;
 }
 
-// Of GAUSS_ROW arcs those whose facets have no witness in common, as bits.
-LANES_INLINE uint32_t gauss_find_open(const uint8_t table[GAUSS_FACETS], const uint8_t *from, const uint8_t *to) {
+// Of GAUSS_ROW places of arcs those whose facets have no witness in common, as bits.
+LANES_INLINE uint32_t gauss_find_unseen(const uint8_t table[GAUSS_FACETS], const uint8_t *from, const uint8_t *to) {
     __m256i both = _mm256_and_si256(gauss_look_up(table, from), gauss_look_up(table, to));
     return (uint32_t)_mm256_movemask_epi8(_mm256_cmpeq_epi8(both, _mm256_setzero_si256()));
 }
 
 #else
 
-LANES_INLINE uint32_t gauss_find_open(const uint8_t table[GAUSS_FACETS], const uint8_t *from, const uint8_t *to) {
+LANES_INLINE uint32_t gauss_find_unseen(const uint8_t table[GAUSS_FACETS], const uint8_t *from, const uint8_t *to) {
     uint32_t open = 0;
     for (uint32_t i = 0; i < GAUSS_ROW; i++) open |= (uint32_t) !(table[from[i]] & table[to[i]]) << i;
     return open;
@@ -224,7 +235,46 @@ LANES_INLINE uint32_t gauss_find_open(const uint8_t table[GAUSS_FACETS], const u
 
 #endif
 
-// Open arcs as columns: the normals at their ends, the cross product of these, and a vertex of their edge.
+// The arcs from `row` on, up to GAUSS_ROW, whose facets have no witness in common.
+LANES_INLINE uint32_t gauss_find_open(const gauss_map *map, const uint8_t table[GAUSS_FACETS], uint32_t row) {
+    uint32_t open = gauss_find_unseen(table, gauss_get_list(map, 0) + row, gauss_get_list(map, 1) + row),
+             left = map->arcs - row;
+    return left < GAUSS_ROW ? open & ((1u << left) - 1) : open;
+}
+
+// Arcs of which no witness is known.
+typedef struct gauss_list {
+    uint32_t count;
+    uint8_t arc[GAUSS_ARCS];
+} gauss_list;
+
+GAUSS_PART void gauss_list_arcs(const gauss_map *map, const uint8_t table[GAUSS_FACETS], gauss_list *to) {
+    uint32_t count = 0;
+    for (uint32_t row = 0; row < map->arcs; row += GAUSS_ROW)
+        for (uint32_t open = gauss_find_open(map, table, row); open; open &= open - 1)
+            to->arc[count++] = (uint8_t)(row + (uint32_t)__builtin_ctz(open));
+    to->count = count;
+}
+
+GAUSS_PART void gauss_find_arcs(const gauss_body *of, const gauss_body *by, double height, gauss_list *to) {
+    _Alignas(64) uint8_t witnesses[GAUSS_FACETS];
+    gauss_find_witnesses(of, by, height, witnesses);
+    gauss_list_arcs(of->map, witnesses, to);
+}
+
+// An arc in the frame: the normals at its ends, and a vertex of its edge.
+typedef struct gauss_arc {
+    vec3 from, to, x;
+} gauss_arc;
+
+LANES_INLINE gauss_arc gauss_get_arc(const gauss_body *of, uint32_t arc) {
+    uint32_t vertex = gauss_get_list(of->map, 2)[arc];
+    return (gauss_arc){gauss_get_normal(of, gauss_get_list(of->map, 0)[arc]),
+                       gauss_get_normal(of, gauss_get_list(of->map, 1)[arc]),
+                       {of->x[0][vertex], of->x[1][vertex], of->x[2][vertex]}};
+}
+
+// Arcs as columns, and the cross products of their ends.
 typedef struct gauss_arcs {
     uint32_t count;
     uint8_t arc[GAUSS_ARCS];
@@ -238,33 +288,24 @@ LANES_INLINE void gauss_store(double to[3][GAUSS_ROOM], uint32_t i, lane3 v) {
     lane_store(to[2] + i, v.z);
 }
 
-// Number by number, which costs less than to gather the lanes of a column, as it is stored again.
-LANES_INLINE void gauss_list_arcs(const gauss_body *of, const uint8_t witnesses[GAUSS_FACETS], gauss_arcs *to) {
-    const gauss_map *map = of->map;
-    const uint8_t *from = gauss_get_list(map, 0), *end = gauss_get_list(map, 1), *vertex = gauss_get_list(map, 2);
-    uint32_t count = 0;
-    for (uint32_t row = 0; row < map->arcs; row += GAUSS_ROW) {
-        uint32_t open = gauss_find_open(witnesses, from + row, end + row), left = map->arcs - row;
-        if (left < GAUSS_ROW) open &= (1u << left) - 1;
-        for (; open; open &= open - 1, count++) {
-            uint32_t arc = row + (uint32_t)__builtin_ctz(open);
-            to->arc[count] = (uint8_t)arc;
-            for (int k = 0; k < 3; k++) {
-                to->from[k][count] = of->n[k][from[arc]];
-                to->to[k][count] = of->n[k][end[arc]];
-                to->x[k][count] = of->x[k][vertex[arc]];
-            }
-        }
-    }
-    to->count = count;
-    const lane zero = lane_set(0);
-    gauss_store(to->from, count, (lane3){zero, zero, zero});
-    gauss_store(to->to, count, (lane3){zero, zero, zero});
-    gauss_store(to->x, count, (lane3){zero, zero, zero});
+LANES_INLINE void gauss_put(double to[3][GAUSS_ROOM], uint32_t i, vec3 v) {
+    to[0][i] = v.x, to[1][i] = v.y, to[2][i] = v.z;
 }
 
-// Done when the columns of both bodies are written, so that they are not read before they are in memory.
-LANES_INLINE void gauss_cross_ends(gauss_arcs *of) {
+LANES_INLINE void gauss_add_arc(gauss_arcs *to, uint32_t name, const gauss_arc *arc) {
+    uint32_t i = to->count++;
+    to->arc[i] = (uint8_t)name;
+    gauss_put(to->from, i, arc->from);
+    gauss_put(to->to, i, arc->to);
+    gauss_put(to->x, i, arc->x);
+}
+
+// Behind the last arc.
+LANES_INLINE void gauss_end_arcs(gauss_arcs *of) {
+    const lane3 zero = {lane_set(0), lane_set(0), lane_set(0)};
+    gauss_store(of->from, of->count, zero);
+    gauss_store(of->to, of->count, zero);
+    gauss_store(of->x, of->count, zero);
     for (uint32_t i = 0; i < of->count; i += LANES) {
         lane3 u = gauss_load(of->from[0], of->from[1], of->from[2], i),
               v = gauss_load(of->to[0], of->to[1], of->to[2], i);
@@ -272,22 +313,22 @@ LANES_INLINE void gauss_cross_ends(gauss_arcs *of) {
     }
 }
 
-GAUSS_PART void gauss_find_arcs(const gauss_body *of, const gauss_body *by, double height, gauss_arcs *to) {
-    _Alignas(64) uint8_t witnesses[GAUSS_FACETS];
-    gauss_find_witnesses(of, by, height, witnesses);
-    gauss_list_arcs(of, witnesses, to);
+// Number by number, which costs less than to gather the lanes of a column, as it is stored again.
+LANES_INLINE void gauss_put_arcs(const gauss_body *of, const gauss_list *list, gauss_arcs *to) {
+    to->count = 0;
+    for (uint32_t i = 0; i < list->count; i++) {
+        gauss_arc arc = gauss_get_arc(of, list->arc[i]);
+        gauss_add_arc(to, list->arc[i], &arc);
+    }
+    gauss_end_arcs(to);
 }
 
 // ---- crossings
 
 // An arc of the first body, in all lanes.
-typedef struct gauss_arc {
+typedef struct gauss_spread_arc {
     lane3 from, to, cross, x;
-} gauss_arc;
-
-LANES_INLINE lane3 gauss_spread_column(const double (*x)[GAUSS_ROOM], uint32_t i) {
-    return gauss_spread((vec3){x[0][i], x[1][i], x[2][i]});
-}
+} gauss_spread_arc;
 
 // The triple products of an arc with the ends of others, and of theirs with its ends.
 typedef struct gauss_sides {
@@ -332,7 +373,7 @@ LANES_INLINE void gauss_take_crossing(gauss_search *s, lane height, lane3 n, uns
 }
 
 // Arcs that lie nearly on one circle: how far the first one may be from the other's circle.
-LANES_INLINE void gauss_take_blur(gauss_search *s, const gauss_arc *u, lane3 cross, const gauss_sides *sides,
+LANES_INLINE void gauss_take_blur(gauss_search *s, const gauss_spread_arc *u, lane3 cross, const gauss_sides *sides,
                                   unsigned blurred) {
     _Alignas(64) double off[LANES];
     lane3 sum = lane3_add(u->from, u->to);
@@ -346,7 +387,8 @@ LANES_INLINE void gauss_take_blur(gauss_search *s, const gauss_arc *u, lane3 cro
 
 // The crossings of an arc of the first body with LANES of the second one, of which `all` are there. 1 if one of them is
 // the least high now.
-GAUSS_PART int gauss_cross(gauss_search *s, const gauss_arc *u, const gauss_arcs *others, uint32_t at, unsigned all) {
+GAUSS_PART int gauss_cross(gauss_search *s, const gauss_spread_arc *u, const gauss_arcs *others, uint32_t at,
+                           unsigned all) {
     lane3 cross = gauss_load(others->cross[0], others->cross[1], others->cross[2], at);
     gauss_sides sides = {lane3_dot(u->cross, gauss_load(others->from[0], others->from[1], others->from[2], at)),
                          lane3_dot(u->cross, gauss_load(others->to[0], others->to[1], others->to[2], at)),
@@ -369,42 +411,13 @@ GAUSS_PART int gauss_cross(gauss_search *s, const gauss_arc *u, const gauss_arcs
     return 1;
 }
 
-LANES_INLINE void gauss_try_crossings(const gauss_query *q, const gauss_arcs *first, const gauss_arcs *second,
-                                      gauss_plane *out) {
-    gauss_search s = {GAUSS_SLACK * q->size, out, 0};
-    for (uint32_t i = 0; i < first->count; i++) {
-        const gauss_arc u = {gauss_spread_column(first->from, i), gauss_spread_column(first->to, i),
-                             gauss_spread_column(first->cross, i), gauss_spread_column(first->x, i)};
-        for (uint32_t k = 0; k < second->count; k += LANES) {
-            uint32_t left = second->count - k;
-            unsigned all = left < LANES ? (1u << left) - 1 : (1u << LANES) - 1;
-            if (gauss_cross(&s, &u, second, k, all)) out->a = first->arc[i];
-        }
+// The crossings of an arc of the first body with those of the second one.
+LANES_INLINE void gauss_try_arc(gauss_search *s, uint32_t name, const gauss_arc *arc, const gauss_arcs *others) {
+    const lane3 from = gauss_spread(arc->from), to = gauss_spread(arc->to);
+    const gauss_spread_arc u = {from, to, lane3_cross(from, to), gauss_spread(arc->x)};
+    for (uint32_t k = 0; k < others->count; k += LANES) {
+        uint32_t left = others->count - k;
+        unsigned all = left < LANES ? (1u << left) - 1 : (1u << LANES) - 1;
+        if (gauss_cross(s, &u, others, k, all)) s->out->a = name;
     }
-    out->height -= s.blur * q->size;
-}
-
-// ---- the plane
-
-LANES_INLINE int run_gauss(const gauss_query *q, gauss_plane *out) {
-    gauss_body first, second;
-    gauss_mirror(&q->a, &first);
-    gauss_pose(&q->b, q, &second);
-    uint32_t of_first = gauss_bound_facets(&first, &second), of_second = gauss_bound_facets(&second, &first);
-    gauss_least least = {INFINITY, 0, GAUSS_FACET_A};
-    gauss_try_facet(&first, &second, of_first, GAUSS_FACET_A, &least);
-    gauss_try_facet(&second, &first, of_second, GAUSS_FACET_B, &least);
-    if (!(least.height > q->claim)) return 0;
-    gauss_try_facets(&first, &second, of_first, GAUSS_FACET_A, &least);
-    gauss_try_facets(&second, &first, of_second, GAUSS_FACET_B, &least);
-    if (!(least.height > q->claim)) return 0;
-    const gauss_body *of = least.kind == GAUSS_FACET_A ? &first : &second;
-    *out = (gauss_plane){least.height, gauss_get_normal(of, least.facet), least.kind, least.facet, least.facet};
-    gauss_arcs arcs, others;
-    gauss_find_arcs(&first, &second, least.height, &arcs);
-    gauss_find_arcs(&second, &first, least.height, &others);
-    gauss_cross_ends(&arcs);
-    gauss_cross_ends(&others);
-    gauss_try_crossings(q, &arcs, &others, out);
-    return out->height > q->claim;
 }
