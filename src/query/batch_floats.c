@@ -264,19 +264,21 @@ static void go_on(batch_floats *s, const float_block *b, const float_spheres *fo
     if (s->entry.count >= FLOATS) try_last(s);
 }
 
+static void copy_row(float_rows *to, unsigned at, const float_rows *from, unsigned k) {
+    to->pose_a[at] = from->pose_a[k];
+    to->pose_b[at] = from->pose_b[k];
+    to->shape_a[at] = from->shape_a[k];
+    to->shape_b[at] = from->shape_b[k];
+    to->extents[at] = from->extents[k];
+}
+
 // Takes a block through the spheres. The lanes that are none repeat one of its couples.
 static void enter(batch_floats *s, float_block *b) {
     float_query query;
     float_spheres found;
     unsigned all = (1u << b->count) - 1;
     const float_gjk_kernels *kernels = b->count == 1 ? s->alone : s->kernels;
-    for (unsigned k = b->count; k < get_end(kernels, b->count); k++) {
-        b->rows.pose_a[k] = b->rows.pose_a[0];
-        b->rows.pose_b[k] = b->rows.pose_b[0];
-        b->rows.shape_a[k] = b->rows.shape_a[0];
-        b->rows.shape_b[k] = b->rows.shape_b[0];
-        b->rows.extents[k] = b->rows.extents[0];
-    }
+    for (unsigned k = b->count; k < get_end(kernels, b->count); k++) copy_row(&b->rows, k, &b->rows, 0);
     kernels->spheres(&b->rows, all, &query, &found);
     for (unsigned rest = found.apart; rest; rest &= rest - 1)
         write_spheres(s, b, &found, compiler_count_low_zeros(rest));
@@ -340,11 +342,7 @@ static void add(batch_floats *s, const float_block *b, unsigned k) {
     float_block *to = &s->few;
     unsigned at = to->count++;
     to->index[at] = b->index[k];
-    to->rows.pose_a[at] = b->rows.pose_a[k];
-    to->rows.pose_b[at] = b->rows.pose_b[k];
-    to->rows.shape_a[at] = b->rows.shape_a[k];
-    to->rows.shape_b[at] = b->rows.shape_b[k];
-    to->rows.extents[at] = b->rows.extents[k];
+    copy_row(&to->rows, at, &b->rows, k);
     if (to->count == FLOATS) enter(s, to);
 }
 

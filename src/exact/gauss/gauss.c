@@ -20,9 +20,9 @@
 // What is not tried. Where the values along both ends of an arc of one and the same point of the other body, or of its
 // ball, are at least r, so are they in between (proof above; of the ball as long as its centre's value is positive). A
 // normal is not tried where the ellipsoid's height is at least r. Its root of s = n'Qn, which lies between the squares
-// of the shortest semi-axis, at least the ball's radius b, and of the longest, at most B, is above the chord (s + b B)
-// / (b
-// + B). s is summed to 32 u trace Q, trace Q <= 3 B^2 and 3 (2 extent)^2, so the chord to 192 u extent^2 / b.
+// of the shortest semi-axis, at least the ball's radius b, and of the longest, at most B, is above the chord
+// (s + b B) / (b + B). s is summed to 32 u trace Q, trace Q <= 3 B^2 and 3 (2 extent)^2, so the chord to
+// 192 u extent^2 / b.
 //
 // A box and another body need few of these numbers: simd/kernels/gauss/box.h finds the same plane by the box's axes.
 //
@@ -195,7 +195,14 @@ static int try_faces(const foot_search *of, face *a, face *b) {
     return find_in_sum(of, a, b);
 }
 
-// support: where the bodies are extreme. Arcs may cross at their ends, where the faces are more than their edges.
+// The faces that are extreme within a rounding. support: where the bodies are extreme.
+static void find_faces(const foot_search *of, const frame_support *support, face *a, face *b) {
+    const pair_frame *f = of->s->frame;
+    find_face(f->a, vec3_neg(of->n), support->a, of->within, a);
+    find_face(f->b, mat3_mul_transposed_vec3(f->rotation, of->n), support->b, of->within, b);
+}
+
+// Arcs may cross at their ends, where the faces are more than their edges.
 static int find_witness(const foot_search *of, const gauss_plane *plane, const frame_support *support) {
     const pair_frame *f = of->s->frame;
     face a, b;
@@ -204,17 +211,14 @@ static int find_witness(const foot_search *of, const gauss_plane *plane, const f
         set_edge(shape_get_gauss_map(f->b), plane->b, &b);
         if (try_faces(of, &a, &b)) return 1;
     }
-    find_face(f->a, vec3_neg(of->n), support->a, of->within, &a);
-    find_face(f->b, mat3_mul_transposed_vec3(f->rotation, of->n), support->b, of->within, &b);
+    find_faces(of, support, &a, &b);
     return try_faces(of, &a, &b);
 }
 
 // The corner that find_witness begins with, of the plane of a facet.
 static difference find_corner(const foot_search *of, const frame_support *support) {
-    const pair_frame *f = of->s->frame;
     face a, b;
-    find_face(f->a, vec3_neg(of->n), support->a, of->within, &a);
-    find_face(f->b, mat3_mul_transposed_vec3(f->rotation, of->n), support->b, of->within, &b);
+    find_faces(of, support, &a, &b);
     if (a.count > 1) place_face(of, 1, &a);
     if (b.count > 1) place_face(of, 0, &b);
     return get_corner(of->s, a.vertex[a.count > 1 ? find_lowest(&a) : 0], b.vertex[b.count > 1 ? find_lowest(&b) : 0]);

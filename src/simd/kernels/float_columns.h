@@ -49,26 +49,28 @@ LANES_INLINE void put_new3(float_column *c, int at, const float_places *places, 
     put_new(c + 2, at, places, v.z);
 }
 
-// LANES rows of eight floats each, from the lane `at` on, as eight columns.
 #if LANES == 16
+// Four rows of four floats, in each block of four lanes, as columns.
+LANES_INLINE void transpose_four(const lane r[4], lane c[4]) {
+    for (int i = 0; i < 2; i++) {
+        __m512 t = i ? _mm512_unpackhi_ps(r[0], r[1]) : _mm512_unpacklo_ps(r[0], r[1]);
+        __m512 u = i ? _mm512_unpackhi_ps(r[2], r[3]) : _mm512_unpacklo_ps(r[2], r[3]);
+        c[2 * i] = _mm512_castpd_ps(_mm512_unpacklo_pd(_mm512_castps_pd(t), _mm512_castps_pd(u)));
+        c[2 * i + 1] = _mm512_castpd_ps(_mm512_unpackhi_pd(_mm512_castps_pd(t), _mm512_castps_pd(u)));
+    }
+}
+// LANES rows of eight floats each, from the lane `at` on, as eight columns.
 LANES_INLINE void read_eight(const float *const rows[FLOATS], int at, lane c[8]) {
     const __m512i low = _mm512_setr_epi64(0, 1, 8, 9, 4, 5, 12, 13);
     const __m512i high = _mm512_setr_epi64(2, 3, 10, 11, 6, 7, 14, 15);
-    __m512 r[8], t[8], u[8];
+    __m512 r[8], u[8];
     for (int i = 0; i < 8; i++) {
         __m256d first = _mm256_castps_pd(_mm256_load_ps(rows[at + i]));
         __m256d second = _mm256_castps_pd(_mm256_load_ps(rows[at + i + 8]));
         r[i] = _mm512_castpd_ps(_mm512_insertf64x4(_mm512_castpd256_pd512(first), second, 1));
     }
-    for (int i = 0; i < 4; i++) {
-        t[2 * i] = _mm512_unpacklo_ps(r[2 * i], r[2 * i + 1]);
-        t[2 * i + 1] = _mm512_unpackhi_ps(r[2 * i], r[2 * i + 1]);
-    }
-    for (int i = 0; i < 4; i++) {
-        __m512d one = _mm512_castps_pd(t[i % 2 + i / 2 * 4]), two = _mm512_castps_pd(t[i % 2 + i / 2 * 4 + 2]);
-        u[2 * i] = _mm512_castpd_ps(_mm512_unpacklo_pd(one, two));
-        u[2 * i + 1] = _mm512_castpd_ps(_mm512_unpackhi_pd(one, two));
-    }
+    transpose_four(r, u);
+    transpose_four(r + 4, u + 4);
     for (int i = 0; i < 4; i++) {
         __m512d one = _mm512_castps_pd(u[i]), two = _mm512_castps_pd(u[4 + i]);
         c[i] = _mm512_castpd_ps(_mm512_permutex2var_pd(one, low, two));
@@ -76,18 +78,19 @@ LANES_INLINE void read_eight(const float *const rows[FLOATS], int at, lane c[8])
     }
 }
 #elif LANES == 8
+LANES_INLINE void transpose_four(const lane r[4], lane c[4]) {
+    for (int i = 0; i < 2; i++) {
+        __m256 t = i ? _mm256_unpackhi_ps(r[0], r[1]) : _mm256_unpacklo_ps(r[0], r[1]);
+        __m256 u = i ? _mm256_unpackhi_ps(r[2], r[3]) : _mm256_unpacklo_ps(r[2], r[3]);
+        c[2 * i] = _mm256_shuffle_ps(t, u, 0x44);
+        c[2 * i + 1] = _mm256_shuffle_ps(t, u, 0xee);
+    }
+}
 LANES_INLINE void read_eight(const float *const rows[FLOATS], int at, lane c[8]) {
-    __m256 r[8], t[8], u[8];
+    __m256 r[8], u[8];
     for (int i = 0; i < 8; i++) r[i] = _mm256_load_ps(rows[at + i]);
-    for (int i = 0; i < 4; i++) {
-        t[2 * i] = _mm256_unpacklo_ps(r[2 * i], r[2 * i + 1]);
-        t[2 * i + 1] = _mm256_unpackhi_ps(r[2 * i], r[2 * i + 1]);
-    }
-    for (int i = 0; i < 4; i++) {
-        __m256 one = t[i % 2 + i / 2 * 4], two = t[i % 2 + i / 2 * 4 + 2];
-        u[2 * i] = _mm256_shuffle_ps(one, two, 0x44);
-        u[2 * i + 1] = _mm256_shuffle_ps(one, two, 0xee);
-    }
+    transpose_four(r, u);
+    transpose_four(r + 4, u + 4);
     for (int i = 0; i < 4; i++) {
         c[i] = _mm256_permute2f128_ps(u[i], u[4 + i], 0x20);
         c[4 + i] = _mm256_permute2f128_ps(u[i], u[4 + i], 0x31);

@@ -32,16 +32,6 @@ LANES_INLINE lane join_rows(const float_read *r, int k) {
     __m256d second = r->less ? read_two_differences(r, k + 8) : read_two(r->rows, k + 8, r->from);
     return _mm512_castpd_ps(_mm512_insertf64x4(_mm512_castpd256_pd512(first), second, 1));
 }
-LANES_INLINE void read_four(const float_read *r, int at, lane c[4]) {
-    __m512 v[4];
-    for (int i = 0; i < 4; i++) v[i] = join_rows(r, at + i);
-    __m512d a = _mm512_castps_pd(_mm512_unpacklo_ps(v[0], v[1])), b = _mm512_castps_pd(_mm512_unpackhi_ps(v[0], v[1]));
-    __m512d d = _mm512_castps_pd(_mm512_unpacklo_ps(v[2], v[3])), e = _mm512_castps_pd(_mm512_unpackhi_ps(v[2], v[3]));
-    c[0] = _mm512_castpd_ps(_mm512_unpacklo_pd(a, d));
-    c[1] = _mm512_castpd_ps(_mm512_unpackhi_pd(a, d));
-    c[2] = _mm512_castpd_ps(_mm512_unpacklo_pd(b, e));
-    c[3] = _mm512_castpd_ps(_mm512_unpackhi_pd(b, e));
-}
 LANES_INLINE lane read_doubles(const double *x) {
     __m256d first = _mm256_castps_pd(_mm512_cvtpd_ps(_mm512_loadu_pd(x)));
     __m256d second = _mm256_castps_pd(_mm512_cvtpd_ps(_mm512_loadu_pd(x + 8)));
@@ -56,16 +46,6 @@ LANES_INLINE __m128 read_row(const float_read *r, int k) {
 LANES_INLINE lane join_rows(const float_read *r, int k) {
     return _mm256_insertf128_ps(_mm256_castps128_ps256(read_row(r, k)), read_row(r, k + 4), 1);
 }
-LANES_INLINE void read_four(const float_read *r, int at, lane c[4]) {
-    __m256 v[4];
-    for (int i = 0; i < 4; i++) v[i] = join_rows(r, at + i);
-    __m256d a = _mm256_castps_pd(_mm256_unpacklo_ps(v[0], v[1])), b = _mm256_castps_pd(_mm256_unpackhi_ps(v[0], v[1]));
-    __m256d d = _mm256_castps_pd(_mm256_unpacklo_ps(v[2], v[3])), e = _mm256_castps_pd(_mm256_unpackhi_ps(v[2], v[3]));
-    c[0] = _mm256_castpd_ps(_mm256_unpacklo_pd(a, d));
-    c[1] = _mm256_castpd_ps(_mm256_unpackhi_pd(a, d));
-    c[2] = _mm256_castpd_ps(_mm256_unpacklo_pd(b, e));
-    c[3] = _mm256_castpd_ps(_mm256_unpackhi_pd(b, e));
-}
 LANES_INLINE lane read_doubles(const double *x) {
     __m128 first = _mm256_cvtpd_ps(_mm256_loadu_pd(x)), second = _mm256_cvtpd_ps(_mm256_loadu_pd(x + 4));
     return _mm256_insertf128_ps(_mm256_castps128_ps256(first), second, 1);
@@ -76,6 +56,13 @@ LANES_INLINE void read_four(const float_read *r, int at, lane c[4]) {
     for (int i = 0; i < 4; i++) c[i] = (float)(r->less ? row[i] - r->less[at][r->from + i] : row[i]);
 }
 LANES_INLINE lane read_doubles(const double *x) { return (float)*x; }
+#endif
+#if LANES > 1
+LANES_INLINE void read_four(const float_read *r, int at, lane c[4]) {
+    lane v[4];
+    for (int i = 0; i < 4; i++) v[i] = join_rows(r, at + i);
+    transpose_four(v, c);
+}
 #endif
 
 // ---- the spheres around the origins
