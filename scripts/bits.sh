@@ -1,8 +1,9 @@
 #!/bin/sh
 # bits.sh: the same bits from every build? Builds the core, tests/core/query/test_query_bits.c and tests/core/motion/test_motion_bits.c with gcc and clang, each at -O0 to
 # -O3, for this machine's own instructions, with fused operations to be had, and linked as one; runs each, and compares
-# what they print. No core may hold a fused multiply-add: contraction is off, but compilers have forgotten. A compiler that
-# is not there is skipped. A line for each build; exit 1 where one differs, with its families. Some minutes on two cores.
+# what they print. No core may hold a fused multiply-add: contraction is off, but compilers have forgotten. No core may
+# round two doubles to floats and back side by side: gcc 12 drops both conversions. A compiler that is not there is
+# skipped. A line for each build; exit 1 where one differs, with its families. Some minutes on two cores.
 set -u
 # shellcheck source=scripts/help.sh
 . "$(dirname "$0")/help.sh"
@@ -23,6 +24,15 @@ find_fused() {
     objdump -d --no-show-raw-insn "$1" | awk '/^[0-9a-f]+ </ { name = $2 } /\tvfn?m(add|sub)/ { print "fused: " name }' | sort -u
 }
 
+# Functions in which gcc's vectorizer of straight-line code has doubles rounded to floats and back, from its own dumps.
+find_dropped() {
+    find "$1" -name '*.slp[12]' -exec awk '
+        /^;; Function/ { name = $3; split("", narrow) }
+        / = \(vector\([0-9]+\) float\) / { narrow[$1] = 1 }
+        / = \(vector\([0-9]+\) double\) / { from = $NF; sub(";", "", from); if (from in narrow) print "dropped: " name }
+    ' {} + | sort -u
+}
+
 # check NAME: runs it; the first one sets what the others must print.
 check() {
     word=ok
@@ -32,8 +42,9 @@ check() {
     for file in src/libovoid_internal.a tests/test_query_bits tests/test_motion_bits; do
         find_fused $folder/"$1"/$file >>$folder/"$1".txt 2>/dev/null
     done
+    find_dropped $folder/"$1" >>$folder/"$1".txt
     [ $word != first ] || cp $folder/"$1".txt $folder/first
-    cmp -s $folder/first $folder/"$1".txt && ! grep -q '^fused' $folder/"$1".txt || word=FAILED
+    cmp -s $folder/first $folder/"$1".txt && ! grep -qE '^(fused|dropped)' $folder/"$1".txt || word=FAILED
     printf '%-18s %-6s %s\n' "$1" $word "$(sed -n 's/^all *//p' $folder/"$1".txt)"
     if [ $word = FAILED ]; then
         diff $folder/first $folder/"$1".txt
@@ -47,10 +58,12 @@ check() {
 list() {
     for compiler in gcc clang; do
         command -v $compiler >/dev/null || continue
-        for level in 0 1 2 3; do echo "$compiler-O$level $compiler -O$level"; done
+        dumps=""
+        [ $compiler != gcc ] || dumps="-fdump-tree-slp1-slim -fdump-tree-slp2-slim"
+        for level in 0 1 2 3; do echo "$compiler-O$level $compiler -O$level $dumps"; done
         echo "$compiler-O3-native $compiler -O3 -march=native"
         echo "$compiler-O3-fma $compiler -O3 -mavx2 -mfma"
-        echo "$compiler-O2-lto $compiler -O2 -flto"
+        echo "$compiler-O2-lto $compiler -O2 -flto $dumps"
     done
 }
 
