@@ -19,9 +19,9 @@ static ovoid_code fail_syntax(const scene_reader *r, const json_error_t *why) {
 // ---- objects
 
 static ovoid_code read_object(scene_reader *r, json_t *object) {
-    static const char *const words[] = {"name",     "pose",  "radius", "allowance", "scale",    "unit", "mesh",
-                                        "box",      "parts", "sphere", "capsule",   "cylinder", "cone", "points",
-                                        "compound", "solid", "hull",   "ellipsoid", NULL};
+    static const char *const words[] = {"name",  "pose",      "mesh",   "box",      "sphere", "capsule",   "cylinder",
+                                        "cone",  "ellipsoid", "points", "compound", "radius", "allowance", "hull",
+                                        "solid", "parts",     "scale",  "unit",     NULL};
     scene_entry *entry = &r->scene->entries[r->index];
     r->name = NULL;
     if (!json_is_object(object)) return scene_fail(r, OVOID_ERROR_FORMAT, NULL, "must be a JSON object");
@@ -29,8 +29,7 @@ static ovoid_code read_object(scene_reader *r, json_t *object) {
     if (!name || !name[0]) return scene_fail_member(r, OVOID_ERROR_FORMAT, "name", "must be a text that is not empty");
     r->name = entry->name = text_copy(name, strlen(name));
     if (!entry->name) return io_fail_memory(r->error, r->path);
-    if (!scene_has_only(object, words, &unknown))
-        return scene_fail_member(r, OVOID_ERROR_FORMAT, unknown, "is not a key of objects");
+    if (!scene_has_only(object, words, &unknown)) return scene_fail_key(r, unknown, "objects", words);
     ovoid_code code = scene_read_pose(r, json_object_get(object, "pose"), &entry->pose);
     return code ? code : scene_read_body(r, object, &entry->body);
 }

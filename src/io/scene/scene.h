@@ -70,6 +70,8 @@ typedef struct scene_reader {
 ovoid_code scene_fail(scene_reader *r, ovoid_code code, const char *key, const char *sentence);
 /// Fails with "key" what, for a member that is not what it must be.
 ovoid_code scene_fail_member(scene_reader *r, ovoid_code code, const char *key, const char *what);
+/// Fails for a member that the owner ("objects", "parts") has none of, with the keys that it has.
+ovoid_code scene_fail_key(scene_reader *r, const char *key, const char *owner, const char *const *words);
 
 /// Reads exactly `count` finite numbers; 0 where the value is something else.
 int scene_read_numbers(const json_t *value, double *numbers, size_t count);

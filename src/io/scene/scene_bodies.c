@@ -224,15 +224,14 @@ static ovoid_code add_part(scene_reader *r, part_list *list, const ovoid_shape *
 
 // Reads a part: one shape, or all parts of a mesh.
 static ovoid_code read_part(scene_reader *r, json_t *object, part_list *list) {
-    static const char *const words[] = {"pose",  "radius",    "allowance", "scale",  "unit",    "mesh",
-                                        "parts", "hull",      "box",       "sphere", "capsule", "cylinder",
-                                        "cone",  "ellipsoid", "points",    NULL};
+    static const char *const words[] = {"pose",  "mesh",      "box",    "sphere", "capsule",   "cylinder",
+                                        "cone",  "ellipsoid", "points", "radius", "allowance", "hull",
+                                        "parts", "scale",     "unit",   NULL};
     const char *unknown;
     ovoid_pose pose;
     size_t index;
     if (!json_is_object(object)) return scene_fail(r, OVOID_ERROR_FORMAT, NULL, "must be a JSON object");
-    if (!scene_has_only(object, words, &unknown))
-        return scene_fail_member(r, OVOID_ERROR_FORMAT, unknown, "is not a key of parts");
+    if (!scene_has_only(object, words, &unknown)) return scene_fail_key(r, unknown, "parts", words);
     ovoid_code code = scene_read_pose(r, json_object_get(object, "pose"), &pose);
     if (!code) code = scene_read_body(r, object, &index);
     if (code) return code;

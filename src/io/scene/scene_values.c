@@ -25,6 +25,15 @@ ovoid_code scene_fail_member(scene_reader *r, ovoid_code code, const char *key, 
     return scene_fail(r, code, key, sentence);
 }
 
+ovoid_code scene_fail_key(scene_reader *r, const char *key, const char *owner, const char *const *words) {
+    char sentence[256];
+    int length = snprintf(sentence, sizeof sentence, "\"%.60s\" is not a key of %s (", key, owner);
+    for (int i = 0; words[i] && length < (int)sizeof sentence; i++)
+        length += snprintf(sentence + length, sizeof sentence - (size_t)length, i ? ", %s" : "%s", words[i]);
+    if (length < (int)sizeof sentence) snprintf(sentence + length, sizeof sentence - (size_t)length, ")");
+    return scene_fail(r, OVOID_ERROR_FORMAT, key, sentence);
+}
+
 // ---- values
 
 // Numbers in JSON are finite.
