@@ -74,6 +74,10 @@ CORNER_AVX2 corner_step corners_step(const corners *c, unsigned valid, const met
     return corner_step_avx2(*c, valid, m->w);
 }
 
+CORNER_AVX2 corner_step corners_step_filled(const corners *c, const met *m) {
+    return corner_step_from_one_avx2(*c, m->w);
+}
+
 // LANES points; the smaller body of a pair repeats its first ones: the lowest index among equals is the same.
 SMALL_GJK_INLINE void load_points(const simd_points *from, uint32_t i, lane v[3]) {
     uint32_t at = i < from->padded_count ? i : i & (8 - LANES);

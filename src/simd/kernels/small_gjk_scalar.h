@@ -89,4 +89,6 @@ SMALL_GJK_INLINE corner_step corners_step(const corners *c, unsigned valid, cons
     return simd_step_from_corner_scalar(c, valid, vec3_at(m->w, 0));
 }
 
+SMALL_GJK_INLINE corner_step corners_step_filled(const corners *c, const met *m) { return corners_step(c, 1, m); }
+
 #endif
