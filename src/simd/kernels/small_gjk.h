@@ -1,6 +1,6 @@
 // The loop of small_gjk.h. Who includes it has defined
 //   SMALL_GJK_INLINE         the attributes of its functions
-//   pose_points(p, from, blocks), move_points(p, from, blocks), measure(m, bodies, blocks, n)
+//   pose_points(p, from, blocks), move_points(p, from, blocks), measure(m, bodies, blocks, n, is_first)
 //   met                      a support: gap, point indices a and b, and the difference as the step takes it
 //   met_get(m, w), met_set(m, w)   that difference as numbers, and from numbers
 //   find_extreme_point(p, n, blocks, is_least)   the point of a body that is extreme along n, in its own frame
@@ -186,10 +186,11 @@ SMALL_GJK_INLINE void measure_unposed(met *m, const small_gjk_query *q, uint32_t
     m->gap = (vec3_dot(vec3_at(q->offset, 0), n) + low.value) - high.value;
 }
 
-// The support along n. bodies: posed, or NULL.
-SMALL_GJK_INLINE void find_support(small_search *s, const small_gjk_bodies *bodies, uint32_t blocks, vec3 n) {
+// The support along n. bodies: posed, or NULL. is_first: what follows it is not waited for as long.
+SMALL_GJK_INLINE void find_support(small_search *s, const small_gjk_bodies *bodies, uint32_t blocks, vec3 n,
+                                   int is_first) {
     if (bodies) {
-        measure(&s->m, bodies, blocks, n);
+        measure(&s->m, bodies, blocks, n, is_first);
     } else {
         measure_unposed(&s->m, s->q, blocks, n);
         meet_points(s->q, &s->m);
@@ -204,7 +205,7 @@ SMALL_GJK_INLINE void search(small_search *s, const small_gjk_bodies *bodies, ui
     for (r->iterations = 0;; r->iterations++) {
         double scale = 1 / sqrt(k->square);
         if (!(k->height * scale > q->claim) || r->iterations >= q->iterations) return;
-        find_support(s, bodies, blocks, k->n);
+        find_support(s, bodies, blocks, k->n, 0);
         if (look(s, scale)) return;
     }
 }
@@ -240,7 +241,7 @@ SMALL_GJK_INLINE int begin(small_search *s, const small_gjk_bodies *bodies, uint
     met *m = &s->m;
     vec3 n = vec3_at(q->start, 0);
     double square = vec3_dot(n, n), scale = 1 / sqrt(square), w[3];
-    find_support(s, bodies, blocks, n);
+    find_support(s, bodies, blocks, n, 1);
     write_direction(r, n, scale, m->gap);
     r->iterations = 0;
     met_get(m, w);
