@@ -227,8 +227,8 @@ static PyObject *find_manifolds(PyObject *module, PyObject *arguments, PyObject 
         return NULL;
     if (in.pair.a.solid && in.pair.b.solid) {
         PyErr_SetString(PyExc_TypeError,
-                        "find_manifolds() takes at most one Solid: of the other, decompose_by_tolerance() "
-                        "makes a Compound");
+                        "find_manifolds() takes at most one Solid: Compound(solid.decompose()) makes a Compound of the "
+                        "other");
         return NULL;
     }
     earlier_list list = {.count = 0};
