@@ -296,7 +296,7 @@ static int validate_input(module_state *state, const batch_input *in, const job 
     }
     const ovoid_options *o = &j->options;
     if (o->absolute_tolerance >= 0 && o->relative_tolerance >= 0 && o->cap >= 0 && j->margin >= 0) return 0;
-    return limit_raise(state, OVOID_LIMIT_OPTIONS);
+    return limit_raise(state, OVOID_LIMIT_OPTIONS, QUERY_REFUSED);
 }
 
 #define BATCH_NAMES QUERY_NAMES, "threads", "out", "witnesses", "proofs", "progress", NULL
