@@ -46,22 +46,21 @@ static inline double find_reach_of_points(const swept *s) {
     return sqrt(most) + zero;
 }
 
-// NaN in the place of a length below 0.
-static inline double find_length(double length) { return length >= 0 ? length : NAN; }
-
 // How far a core reaches from its centre; NaN if a number is not finite or a length is below 0.
 static inline double swept_find_reach(const swept *s) {
     const double *h = s->half;
     if (s->core == OVOID_SWEPT_POINTS) return find_reach_of_points(s);
-    if (s->core <= OVOID_SWEPT_SEGMENT) return s->core == OVOID_SWEPT_POINT ? 0 : find_length(h[0]);
-    const double a = find_length(h[0]), b = find_length(h[1]);
-    if (s->core == OVOID_SWEPT_ELLIPSOID) {
-        const double c = find_length(h[2]);
-        return max2(a, max2(b, c)) + swept_show_finite((vec3){a, b, c});
+    if (s->core == OVOID_SWEPT_POINT) return 0;
+    if (s->core == OVOID_SWEPT_SEGMENT) return h[0] < 0 ? NAN : h[0];
+    double least = min2(h[0], h[1]);
+    if (s->core == OVOID_SWEPT_ELLIPSOID)
+        return min2(least, h[2]) < 0 ? NAN : max2(h[0], max2(h[1], h[2])) + swept_show_finite((vec3){h[0], h[1], h[2]});
+    double square = h[0] * h[0] + h[1] * h[1];
+    if (s->core == OVOID_SWEPT_BOX) {
+        square += h[2] * h[2];
+        least = min2(least, h[2]);
     }
-    double square = a * a + b * b;
-    if (s->core == OVOID_SWEPT_BOX) square += find_length(h[2]) * h[2];
-    return sqrt(square);
+    return least < 0 ? NAN : sqrt(square);
 }
 
 static inline swept_placed swept_place(const swept *a, const swept *b) {
