@@ -209,9 +209,10 @@ export declare class Robot {
   allowBody(id: number, link: string, allowed?: boolean): void;
   /** Enlarges a link, with what is attached to it, against obstacles. */
   setPadding(link: string, padding: number): void;
-  /** One with variables outside their limits by more than limitSlack (Infinity) is refused. */
+  /** One with variables outside their limits by more than limitSlack (0) is refused; Infinity ignores the limits. */
   collide(q: ArrayLike<number>, margin?: number, limitSlack?: number): StateAnswer;
-  near(q: ArrayLike<number>, margin: number, most?: number): NearPair[];
+  /** Throws where collide refuses. */
+  near(q: ArrayLike<number>, margin: number, most?: number, limitSlack?: number): NearPair[];
   free(): void;
 }
 

@@ -148,7 +148,7 @@ export function bindRobots(core) {
     }
 
     /** Is the state free by a margin? One with variables outside their limits by more than limitSlack is refused. */
-    collide(q, margin = 0, limitSlack = Infinity) {
+    collide(q, margin = 0, limitSlack = 0) {
       return memory.with([this.#state(q)], (s) => {
         memory.set([margin, limitSlack]);
         if (calls.checker_collide(this.#checker, s)) throw memory.error();
@@ -159,10 +159,10 @@ export function bindRobots(core) {
       });
     }
 
-    /** The pairs that are not proven farther apart than the margin, nearest first. */
-    near(q, margin, most = 1000) {
+    /** The pairs that are not proven farther apart than the margin, nearest first; throws where collide refuses. */
+    near(q, margin, most = 1000, limitSlack = 0) {
       return memory.with([this.#state(q), new Float64Array(NEAR * most)], (s, o) => {
-        memory.set([margin]);
+        memory.set([margin, limitSlack]);
         if (calls.checker_find_near(this.#checker, s, o, most)) throw memory.error();
         const count = memory.get(1)[0], n = memory.take(Float64Array, o, NEAR * Math.min(count, most));
         return Array.from({ length: Math.min(count, most) }, (_, i) => {

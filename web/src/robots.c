@@ -2,7 +2,6 @@
 #include "ovoid/robot.h"
 #include "src/exchange.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 /// Numbers of a joint: type, parent, child, origin, axis, lower, upper, velocity, mimicked joint (-1: none),
@@ -155,10 +154,10 @@ int EXPORT(checker_collide)(ovoid_robot_checker *checker, const double *q) {
     return code;
 }
 
-/// Near pairs, 20 numbers each: both sides, status, lower, upper, points, normal; nearest first. Reads the margin;
-/// writes how many there are. 0, or the error's code.
+/// Near pairs, 20 numbers each: both sides, status, lower, upper, points, normal; nearest first. Reads the margin
+/// and the slack of the limits; writes how many there are. 0, or the error's code.
 int EXPORT(checker_find_near)(ovoid_robot_checker *checker, const double *q, double *out, size_t capacity) {
-    ovoid_robot_query_options options = {.margin = exchange[0], .limit_slack = HUGE_VAL};
+    ovoid_robot_query_options options = {.margin = exchange[0], .limit_slack = exchange[1]};
     ovoid_robot_nears nears = {.items = calloc(capacity + 1, sizeof(ovoid_robot_near)), .capacity = capacity};
     if (!nears.items) return OVOID_ERROR_MEMORY;
     int code = (int)ovoid_robot_find_near(checker, &(ovoid_robot_query){q, &options}, &nears, &exchange_error);

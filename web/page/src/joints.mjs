@@ -140,7 +140,7 @@ export class Joints {
   move() {
     this.#follow(this.q);
     this.inputs.forEach((show) => show());
-    const near = this.robot.near(this.q, this.shown);
+    const near = this.robot.near(this.q, this.shown, 1000, Infinity);
     this.model.pairs = near.map(({ a, b, ...answer }) => ({ a: this.find(a), b: this.find(b), answer: { ...answer, stage: 'robot' }, isLive: true }));
     this.model.byBody = new Map(this.model.bodies.map((body) => [body, this.model.pairs.filter((p) => p.a === body || p.b === body)]));
     this.answer = this.robot.collide(this.q, this.margin, this.given.limit_slack ?? 0);
