@@ -28,22 +28,25 @@ double compute_extent(const double *xyz, uint32_t count);
 
 /// The facets of a surface.
 typedef struct facets {
-    uint32_t *of;        ///< the facet of each triangle; room is given
-    ovoid_plane *planes; ///< one a facet, allocated
+    const double *vertices; ///< given: what the planes are of
+    uint32_t *of;           ///< the facet of each triangle; room is given
+    ovoid_plane *planes;    ///< one a facet, allocated
     uint32_t count;
 } facets;
 
 /// Joins triangles to facets: from the largest triangle not yet taken, over edges, all whose corners lie on its plane
-/// to within FACET_FLATNESS. Fills *f except the planes' offsets. The areas must be computed. 0 if memory runs out.
-/// Cost: linear.
+/// to within FACET_FLATNESS. p: the vertices as points. The areas must be computed. 0 if memory runs out. Cost: linear.
 int facets_create(const surface *s, const points *p, facets *f, const ovoid_allocator *allocator);
 
-/// The planes' offsets, in the frame of the vertices. Cost: linear.
-void facets_set_offsets(const surface *s, const double *vertices, facets *f);
+/// The adjacency of the vertices of a surface, by its edges; room is given.
+typedef struct adjacency {
+    uint32_t
+        *starts; ///< the neighbors of v are those from starts[v] to starts[v + 1]; one more than there are vertices
+    uint32_t *neighbors; ///< ascending; three a triangle. The place of a neighbor is the number of the edge to it
+    uint32_t *corners;   ///< at 3 t + i the number of the edge from corner i of triangle t to the next
+} adjacency;
 
-/// Adjacency by the edges of the triangles of a surface all of whose points are corners: the neighbors of v are those
-/// from starts[v] to starts[v + 1], ascending. Room for one start more than there are points and 3 triangle_count
-/// neighbors. 0 if memory runs out. Cost: linear.
-int neighbors_compute(const surface *s, uint32_t *starts, uint32_t *neighbors, const ovoid_allocator *allocator);
+/// Fills the adjacency of a surface all of whose points are corners. 0 if memory runs out. Cost: linear.
+int neighbors_compute(const surface *s, adjacency *a, const ovoid_allocator *allocator);
 
 #endif

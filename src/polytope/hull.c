@@ -146,6 +146,14 @@ static int fill_vertices(const builder *b) {
     return 1;
 }
 
+// 0 if memory runs out.
+static int find_neighbors(hull *polytope, const surface *s, const ovoid_allocator *allocator) {
+    uint32_t *corners = allocator_allocate(allocator, polytope->triangle_count, 3 * sizeof *corners);
+    polytope->corner_edges = corners;
+    adjacency a = {polytope->neighbor_starts, polytope->neighbors, corners};
+    return corners && neighbors_compute(s, &a, allocator);
+}
+
 static ovoid_code fill_solid(builder *b) {
     hull *polytope = b->hull;
     surface *s = &b->s;
@@ -154,12 +162,11 @@ static ovoid_code fill_solid(builder *b) {
         allocator_allocate(b->allocator, polytope->triangle_count, sizeof *polytope->triangle_facets);
     polytope->neighbors = allocator_allocate(b->allocator, polytope->triangle_count, 3 * sizeof *polytope->neighbors);
     if (!polytope->triangle_facets || !polytope->neighbors) return OVOID_ERROR_MEMORY;
-    facets f = {.of = polytope->triangle_facets};
+    facets f = {.vertices = polytope->vertices, .of = polytope->triangle_facets};
     if (!facets_create(s, &b->p, &f, b->allocator)) return OVOID_ERROR_MEMORY;
-    facets_set_offsets(s, polytope->vertices, &f);
     polytope->planes = f.planes;
     polytope->facet_count = f.count;
-    if (!neighbors_compute(s, polytope->neighbor_starts, polytope->neighbors, b->allocator)) return OVOID_ERROR_MEMORY;
+    if (!find_neighbors(polytope, s, b->allocator)) return OVOID_ERROR_MEMORY;
     polytope->triangles = s->triangles;
     s->triangles = NULL;
     return OVOID_OK;
@@ -289,7 +296,7 @@ static int fill_ellipsoid(hull *polytope, const ovoid_allocator *allocator) {
     ellipsoid_grid_fill_triangles(g, polytope->triangles, polytope->triangle_facets);
     ellipsoid_grid_fill_planes(g, polytope->triangles, polytope->vertices, polytope->planes);
     const surface s = {.triangles = polytope->triangles, .triangle_count = polytope->triangle_count};
-    return neighbors_compute(&s, polytope->neighbor_starts, polytope->neighbors, allocator);
+    return find_neighbors(polytope, &s, allocator);
 }
 
 // 0 if there is no memory.
@@ -373,6 +380,7 @@ void hull_destroy(hull *polytope, const ovoid_allocator *allocator) {
     allocator_release(allocator, polytope->neighbor_starts);
     allocator_release(allocator, polytope->neighbors);
     allocator_release(allocator, polytope->planes);
+    allocator_release(allocator, polytope->corner_edges);
     *polytope = (hull){0};
 }
 

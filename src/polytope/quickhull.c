@@ -29,6 +29,7 @@
 #include "base/error.h"
 #include "linear/exact.h"
 #include "polytope/curve.h"
+#include "polytope/incremental.h"
 
 #include <string.h>
 
@@ -543,7 +544,7 @@ static int extract(builder *b, uint32_t count, surface *s) {
         const facet *f = get_facet(b, list[t]);
         for (int k = 0; k < 3; k++, i++) {
             s->triangles[i] = f->vertex[k];
-            s->across[i] = get_facet(b, get_facet_of(f->across[k]))->stamp;
+            s->across[i] = make_side(get_facet(b, get_facet_of(f->across[k]))->stamp, f->across[k] % 4);
         }
     }
     mark_corners(b, count);
@@ -616,7 +617,9 @@ ovoid_code quickhull_create(const points *p, const ovoid_allocator *allocator, s
     *s = (surface){0};
     find_simplex(&b, count, s);
     if (s->rank < 3) return OVOID_OK;
-    ovoid_code code = count < MANY ? find_hull(&b, count, s) : find_hull_along_curve(&b, count, s);
+    ovoid_code code = count <= INCREMENTAL_MOST ? incremental_find(p, allocator, s)
+                      : count < MANY            ? find_hull(&b, count, s)
+                                                : find_hull_along_curve(&b, count, s);
     if (code) surface_destroy(s, allocator);
     if (code == OVOID_ERROR_MEMORY) return error_set(error, code, -1, "no memory for the hull of %u points", count);
     if (code) return error_set(error, code, -1, "the hull of %u points does not close", count);

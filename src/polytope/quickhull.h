@@ -10,12 +10,13 @@ enum { POINT_INSIDE = 0, POINT_ON_FACE = 1, POINT_EXTREME = 2 };
 
 /// The hull. Members marked (rank 3) are empty for lower ranks.
 typedef struct surface {
-    uint32_t rank;           ///< dimension of the hull, exactly: 0 to 3
-    uint32_t corner[4];      ///< rank + 1 points that span it, the first two far apart; of rank 1 its ends
-    uint8_t *state;          ///< where each point lies (rank 3)
-    uint32_t *triangles;     ///< three points each, counter-clockwise from outside (rank 3)
-    uint32_t *across;        ///< at 3 t + i the triangle beyond the edge from corner i to i + 1 of t (rank 3)
-    vec3 *areas;             ///< of the triangles, twice; NULL until surface_compute_areas (polytope/facets.h)
+    uint32_t rank;       ///< dimension of the hull, exactly: 0 to 3
+    uint32_t corner[4];  ///< rank + 1 points that span it, the first two far apart; of rank 1 its ends
+    uint8_t *state;      ///< where each point lies (rank 3)
+    uint32_t *triangles; ///< three points each, counter-clockwise from outside (rank 3)
+    uint32_t *across;    ///< at 3 t + i the edge back of that from corner i to i + 1 of t: 4 times its triangle + its
+                         ///< number there, 0 to 2 (rank 3)
+    vec3 *areas;         ///< of the triangles, twice; NULL until surface_compute_areas (polytope/facets.h)
     uint32_t triangle_count; ///< 2 corners - 4 (rank 3); the corners are the extreme points if no point is on a face
 } surface;
 
@@ -25,12 +26,15 @@ ovoid_code quickhull_create(const points *p, const ovoid_allocator *allocator, s
 /// Sets the rank and the corners of the surface, as quickhull_create does, and nothing else. Cost: linear.
 void simplex_find(const points *p, surface *s);
 
+/// The triangle beyond edge k of a triangle.
+static inline uint32_t surface_get_across(const surface *s, uint32_t triangle, uint32_t k) {
+    return s->across[3 * (size_t)triangle + k] / 4;
+}
+
 /// The corner beyond edge k of a triangle, in the triangle across.
 static inline uint32_t surface_get_beyond(const surface *s, uint32_t triangle, uint32_t k) {
-    const uint32_t *other = s->triangles + 3 * (size_t)s->across[3 * (size_t)triangle + k];
-    uint32_t from = s->triangles[3 * (size_t)triangle + k];
-    // An index, since the values would be read after branches that follow no pattern.
-    return other[other[0] == from ? 1 : 2 * (other[1] == from)];
+    uint32_t side = s->across[3 * (size_t)triangle + k], back = side % 4;
+    return s->triangles[3 * (size_t)(side / 4) + (back ? back - 1 : 2)];
 }
 
 /// The error of (a - c) x (b - c) . (q - c) in doubles is at most this for any points of the box.

@@ -46,7 +46,8 @@ typedef struct prover {
     uint32_t *end; // of each vertex: the end of its list as it grows; the last vertex that an edge of it led to; later
                    // its edges that are no creases
     uint32_t *edges; // the lists
-    uint32_t *into;  // of each vertex, while one vertex is looked at: the triangle of its edge to that one
+    uint32_t *into;  // of each vertex, while one vertex is looked at: its edge to that one, 4 times the
+                     // triangle + its number there
     double bound;    // of the rounding of heights over triangles
 } prover;
 
@@ -96,7 +97,7 @@ static ovoid_code find_across_at(const prover *w, uint32_t v) {
         if (w->end[from] == v)
             return refuse(w, (uint32_t)(into / 3), "two triangles run through an edge in the same direction");
         w->end[from] = v;
-        w->into[from] = (uint32_t)(into / 3);
+        w->into[from] = (uint32_t)(4 * (into / 3) + into % 3);
     }
     for (uint32_t i = w->starts[v]; i < w->starts[v + 1]; i++) {
         uint32_t e = w->edges[i], to = triangles[get_next(e)];
@@ -152,7 +153,7 @@ static ovoid_code verify_triangle(const prover *w, uint32_t t) {
     if (is_clear(w, &f, t)) return OVOID_OK;
     if (get_side(&f, w->inside) >= 0) return refuse(w, t, "a triangle does not face outward");
     for (uint32_t k = 0; k < 3; k++) {
-        if (s->across[3 * (size_t)t + k] < t) continue;
+        if (surface_get_across(s, t, k) < t) continue;
         int sign = get_side(&f, vec3_at(w->p->grid, surface_get_beyond(s, t, k)));
         if (sign > 0) return refuse(w, t, "the surface is not convex at an edge");
         if (sign < 0) continue;

@@ -191,7 +191,7 @@ ovoid_shape *shape_create_block(const hull *polytope, const block_making *how, o
     if (!room) error_write(error, OVOID_ERROR_MEMORY, -1, "no memory for the loops of %u facets", counts.facets);
     ovoid_shape *shape = room ? block_create(counts, how->allocator, error) : NULL;
     if (shape) {
-        block_fill(shape, &p, &polytope->form, room);
+        block_fill(shape, polytope, room);
         shape->support = support;
         support_table_fill(p.vertices, blocks, support.cell_count, (simd_cell *)((char *)shape + shape->at.cells));
     }
