@@ -225,20 +225,25 @@ double ellipsoid_compute_clear_bound_roughly(const ovoid_polytope *polytope, con
     return compute_clear_bound(polytope, ellipsoid, (bounding){1, INFINITY});
 }
 
-int ellipsoid_is_enclosed(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid) {
+int ellipsoid_is_clear(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid) {
     factor f;
     double size;
     if (polytope->rank < 3 || !vec3_is_finite(ellipsoid->center)) return 0;
-    closed_form form = closed_form_find(polytope->vertices, polytope->vertex_count);
-    if (closed_fit_is_enclosed(&form, ellipsoid)) return 1;
     if (!factor_make_quickly(ellipsoid->q, &f, &size) && !factor_make(ellipsoid->q, &f)) return 0;
-    if (f.count == 0) {
-        for (uint32_t v = 0; v < polytope->vertex_count; v++) {
-            vec3 d = vec3_sub(vec3_at(polytope->vertices, v), ellipsoid->center);
-            if (d.x == 0 && d.y == 0 && d.z == 0) return 1;
-        }
-        return 0;
-    }
-    return f.count == 3 && compute_clear_bound(polytope, ellipsoid, (bounding){.most = 1}) >= 1 &&
-           polytope_compute_winding(polytope, ellipsoid->center) != 0;
+    return f.count == 3 && compute_clear_bound(polytope, ellipsoid, (bounding){.most = 1}) >= 1;
+}
+
+int ellipsoid_is_vertex(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid) {
+    const sym3 *q = &ellipsoid->q;
+    if (q->xx != 0 || q->xy != 0 || q->xz != 0 || q->yy != 0 || q->yz != 0 || q->zz != 0) return 0;
+    for (uint32_t v = 0; v < polytope->vertex_count; v++)
+        if (vec3_max_abs(vec3_sub(vec3_at(polytope->vertices, v), ellipsoid->center)) == 0) return 1;
+    return 0;
+}
+
+int ellipsoid_is_enclosed(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid) {
+    if (polytope->rank < 3 || !vec3_is_finite(ellipsoid->center)) return 0;
+    closed_form form = closed_form_find(polytope->vertices, polytope->vertex_count);
+    return closed_fit_is_enclosed(&form, ellipsoid) || ellipsoid_is_vertex(polytope, ellipsoid) ||
+           (ellipsoid_is_clear(polytope, ellipsoid) && polytope_compute_winding(polytope, ellipsoid->center) != 0);
 }

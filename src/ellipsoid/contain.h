@@ -17,6 +17,13 @@ int ellipsoid_is_enclosing(const ovoid_polytope *polytope, const ovoid_ellipsoid
 /// for a rank < 3: flat bodies have no proof.
 int ellipsoid_is_enclosed(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid);
 
+/// 1 only if Q is positive definite and it is proven that the ellipsoid meets no triangle: then it is enclosed if the
+/// surface winds around its centre.
+int ellipsoid_is_clear(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid);
+
+/// 1 for an ellipsoid that is only a vertex.
+int ellipsoid_is_vertex(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid);
+
 /// An upper bound of the largest (v - c)' Q^-1 (v - c) over the vertices; INFINITY if Q has no proven factor.
 double ellipsoid_compute_enclosing_bound(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid);
 

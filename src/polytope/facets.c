@@ -279,21 +279,16 @@ int facets_create(const surface *s, const points *p, facets *f, const ovoid_allo
     return is_done;
 }
 
-// ---- adjacency ----
+// ---- edges ----
 
-int neighbors_compute(const surface *s, adjacency *a, const ovoid_allocator *allocator) {
-    // Euler's formula: a closed surface of 2 n - 4 triangles has n corners.
-    uint32_t count = s->triangle_count / 2 + 2, *starts = a->starts;
-    size_t edges = 3 * (size_t)s->triangle_count;
-    uint32_t *unsorted = allocator_allocate(allocator, edges + count, sizeof *unsorted);
-    if (!unsorted) return 0;
-    uint32_t *end = unsorted + edges;
+// As many edges end at a point as begin there, as each triangle has one of either at each corner. First they are listed
+// by their ends; taken in that order, those that begin at one point are sorted.
+static void sort_edges(const surface *s, uint32_t count, uint32_t *unsorted) {
+    const surface_edges *to = &s->edges;
+    uint32_t edges = 3 * s->triangle_count, *starts = to->starts, *end = unsorted + edges;
     memset(starts, 0, ((size_t)count + 1) * sizeof *starts);
-    for (size_t e = 0; e < edges; e++) starts[s->triangles[e] + 1]++;
+    for (uint32_t e = 0; e < edges; e++) starts[s->triangles[e] + 1]++;
     for (uint32_t v = 0; v < count; v++) starts[v + 1] += starts[v];
-
-    // Each edge occurs once in each direction, so as many end at a vertex as begin there. First they are listed by
-    // their ends; taken in that order, those that begin at one vertex are sorted.
     memcpy(end, starts, count * sizeof *end);
     for (uint32_t e = 0; e < edges; e += 3) {
         const uint32_t *t = s->triangles + e;
@@ -305,9 +300,20 @@ int neighbors_compute(const surface *s, adjacency *a, const ovoid_allocator *all
     for (uint32_t v = 0, i = 0; v < count; v++)
         for (uint32_t after = starts[v + 1]; i < after; i++) {
             uint32_t e = unsorted[i], at = end[s->triangles[e]]++;
-            a->neighbors[at] = v;
-            a->corners[e] = at;
+            to->neighbors[at] = v;
+            to->corners[e] = at;
         }
+}
+
+int surface_find_edges(surface *s, uint32_t count, const ovoid_allocator *allocator) {
+    size_t edges = 3 * (size_t)s->triangle_count;
+    surface_edges *to = &s->edges;
+    to->starts = allocator_allocate(allocator, (size_t)count + 1, sizeof *to->starts);
+    to->neighbors = allocator_allocate(allocator, edges, sizeof *to->neighbors);
+    to->corners = allocator_allocate(allocator, edges, sizeof *to->corners);
+    uint32_t *unsorted = allocator_allocate(allocator, edges + count, sizeof *unsorted);
+    int is_done = to->starts && to->neighbors && to->corners && unsorted;
+    if (is_done) sort_edges(s, count, unsorted);
     allocator_release(allocator, unsorted);
-    return 1;
+    return is_done;
 }

@@ -38,15 +38,8 @@ typedef struct facets {
 /// to within FACET_FLATNESS. p: the vertices as points. The areas must be computed. 0 if memory runs out. Cost: linear.
 int facets_create(const surface *s, const points *p, facets *f, const ovoid_allocator *allocator);
 
-/// The adjacency of the vertices of a surface, by its edges; room is given.
-typedef struct adjacency {
-    uint32_t
-        *starts; ///< the neighbors of v are those from starts[v] to starts[v + 1]; one more than there are vertices
-    uint32_t *neighbors; ///< ascending; three a triangle. The place of a neighbor is the number of the edge to it
-    uint32_t *corners;   ///< at 3 t + i the number of the edge from corner i of triangle t to the next
-} adjacency;
-
-/// Fills the adjacency of a surface all of whose points are corners. 0 if memory runs out. Cost: linear.
-int neighbors_compute(const surface *s, adjacency *a, const ovoid_allocator *allocator);
+/// Fills s->edges for a surface of count points from its triangles alone, which need not be those of a hull. 0 if
+/// memory runs out. Cost: linear.
+int surface_find_edges(surface *s, uint32_t count, const ovoid_allocator *allocator);
 
 #endif

@@ -631,5 +631,8 @@ void surface_destroy(surface *s, const ovoid_allocator *allocator) {
     allocator_release(allocator, s->triangles);
     allocator_release(allocator, s->across);
     allocator_release(allocator, s->areas);
+    allocator_release(allocator, s->edges.starts);
+    allocator_release(allocator, s->edges.neighbors);
+    allocator_release(allocator, s->edges.corners);
     *s = (surface){0};
 }

@@ -8,6 +8,13 @@
 /// The position of a point relative to the hull.
 enum { POINT_INSIDE = 0, POINT_ON_FACE = 1, POINT_EXTREME = 2 };
 
+/// The edges of a closed surface whose points are all corners, in both directions, by the points they begin at.
+typedef struct surface_edges {
+    uint32_t *starts;    ///< those from v are starts[v] to starts[v + 1]; one more than there are points
+    uint32_t *neighbors; ///< the ends of the edges, of one point ascending
+    uint32_t *corners;   ///< at 3 t + i the edge from corner i of triangle t to the next
+} surface_edges;
+
 /// The hull. Members marked (rank 3) are empty for lower ranks.
 typedef struct surface {
     uint32_t rank;       ///< dimension of the hull, exactly: 0 to 3
@@ -17,6 +24,7 @@ typedef struct surface {
     uint32_t *across;    ///< at 3 t + i the edge back of that from corner i to i + 1 of t: 4 times its triangle + its
                          ///< number there, 0 to 2 (rank 3)
     vec3 *areas;         ///< of the triangles, twice; NULL until surface_compute_areas (polytope/facets.h)
+    surface_edges edges; ///< NULL until surface_find_edges (polytope/facets.h)
     uint32_t triangle_count; ///< 2 corners - 4 (rank 3); the corners are the extreme points if no point is on a face
 } surface;
 
