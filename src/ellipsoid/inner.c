@@ -22,7 +22,7 @@
 
 #include "base/allocator.h"
 #include "base/environment.h"
-#include "polytope/segment.h"
+#include "polytope/polygon.h"
 #include "polytope/winding.h"
 
 // The solver's gap, as a share of the one to reach: rounding needs the rest.

@@ -10,11 +10,12 @@
 // differences q - c of up to 2 m that makes 192 u M in the height. The two dot products with the rounded n have terms
 // of up to 8 M, 24 M in all, each rounded at most 4 times with the last difference: 96 u M each. So the height is off
 // by less than 384 u M; 512 u M covers the second order and what underflows, which is below 2^-1072, as M >= 2^-1020.
-#include "polytope/incremental.h"
+#include "polytope/quickhull.h"
 
 #include "base/allocator.h"
 #include "linear/both.h"
 #include "linear/exact.h"
+#include "simd/areas.h"
 
 #include <string.h>
 
@@ -25,19 +26,26 @@ typedef struct edge {
     uint16_t from, to, across;
 } edge;
 
-// Facets have places; of a free place the offset is infinite, so that all points are below.
+// What is known about a facet and the last point.
+enum { MARK_NONE, MARK_UNSURE, MARK_ABOVE };
+
+// Facets have places; of a free place the offset is infinite, so that all points are below. x, y and z follow one
+// another.
 typedef struct builder {
     const double *grid;
     double *x, *y, *z, *offset, *height; // of planes; of the last point over them
     uint16_t (*vertex)[3];               // counter-clockwise from outside
     uint16_t (*across)[3];               // 4 times the facet beyond an edge, and the number of the edge there
     uint16_t *visible;                   // the facets that the last point is above; at the end the numbers of all
+    uint16_t *unsure;                    // those of which doubles do not show that
     uint16_t *spare;                     // free places
     uint16_t *starts;                    // of a corner of the horizon: the new facet that starts there
     edge *horizon;
-    uint8_t *is_above;
+    uint8_t *marks;
+    uint8_t *state;      // of the points; until the end POINT_ON_FACE if it is not known to be inside
+    int is_on;           // the last point lies in the plane of a facet
     uint32_t count;      // points
-    uint32_t used, room; // places: at first none, and an even number
+    uint32_t used, room; // places; a multiple of 8
     uint32_t spare_count;
     double bound; // of the rounding of heights
 } builder;
@@ -53,8 +61,8 @@ static void *take(char **at, size_t n, size_t size) {
 
 // A closed surface of n corners has 2 n - 4 triangles, and a horizon at most n edges. 0 if memory runs out.
 static void *allocate(builder *b, const ovoid_allocator *allocator) {
-    size_t room = 2 * (size_t)b->count, edges = (size_t)b->count + 3;
-    size_t place = 5 * sizeof *b->x + sizeof *b->vertex + sizeof *b->across + 2 * sizeof *b->visible + 1;
+    size_t room = (2 * (size_t)b->count + 7) / 8 * 8, edges = (size_t)b->count + 3;
+    size_t place = 5 * sizeof *b->x + sizeof *b->vertex + sizeof *b->across + 3 * sizeof *b->visible + 1;
     char *memory = allocator_allocate(allocator, room * place + edges * (sizeof(edge) + sizeof *b->starts) + 64, 1);
     char *at = memory;
     if (!memory) return NULL;
@@ -67,12 +75,15 @@ static void *allocate(builder *b, const ovoid_allocator *allocator) {
     b->vertex = take(&at, room, sizeof *b->vertex);
     b->across = take(&at, room, sizeof *b->across);
     b->visible = take(&at, room, sizeof *b->visible);
+    b->unsure = take(&at, room, sizeof *b->unsure);
     b->spare = take(&at, room, sizeof *b->spare);
     b->horizon = take(&at, edges, sizeof(edge));
     b->starts = take(&at, edges, sizeof *b->starts);
-    b->is_above = take(&at, room, 1);
+    b->marks = take(&at, room, 1);
     memset(b->starts, 0, edges * sizeof *b->starts);
-    memset(b->is_above, 0, room);
+    memset(b->marks, 0, room);
+    memset(b->x, 0, 3 * room * sizeof *b->x);
+    for (size_t f = 0; f < room; f++) b->offset[f] = INFINITY;
     return memory;
 }
 
@@ -103,36 +114,51 @@ static int get_side(const builder *b, uint32_t f, uint32_t p, double height) {
     return -orient3d_sign(get_point(b, v[0]), get_point(b, v[1]), get_point(b, v[2]), get_point(b, p));
 }
 
-// Lists the facets that are not clearly above the point, with its heights; returns their number. Which they are
-// follows no pattern, so there is no branch.
+// Lists the facets that are not clearly above the point, with its heights; returns their number.
 static uint32_t list_near(const builder *b, uint32_t p) {
-    vec3 q = get_point(b, p);
-    both_vec3 point = both_vec3_make(q, q);
-    both least = both_set(-b->bound);
-    uint32_t count = 0;
-    for (uint32_t f = 0; f < b->used; f += 2) {
-        both_vec3 n = {both_load(b->x + f), both_load(b->y + f), both_load(b->z + f)};
-        both height = both_vec3_dot(n, point) - both_load(b->offset + f);
-        both_store(b->height + f, height);
-        both_bits is_near = height >= least;
-        b->visible[count] = (uint16_t)f;
-        count -= (uint32_t)is_near[0];
-        b->visible[count] = (uint16_t)(f + 1);
-        count -= (uint32_t)is_near[1];
-    }
-    return count;
+    const simd_planes planes = {b->x, b->y, b->z, b->offset, b->used};
+    return heights_find(&planes, &(heights_query){get_point(b, p), -b->bound},
+                        &(heights_result){b->height, b->visible});
+}
+
+// 1 if the point is above a facet of which doubles do not show it, which then is visible.
+static int decide(builder *b, uint32_t f, uint32_t p) {
+    int side = get_side(b, f, p, 0);
+    b->is_on |= side == 0;
+    b->marks[f] = side > 0 ? MARK_ABOVE : MARK_NONE;
+    return side > 0;
+}
+
+// Adds to the list of visible facets those that doubles do not decide; returns their number. The facets that a point is
+// above are connected through edges, so that of the many facets of a face with which it is coplanar only those beside
+// visible ones are looked at, if there are any.
+static uint32_t decide_unsure(builder *b, uint32_t p, uint32_t visible, uint32_t unsure) {
+    for (uint32_t i = 0; i < unsure && visible == 0; i++)
+        if (decide(b, b->unsure[i], p)) b->visible[visible++] = b->unsure[i];
+    for (uint32_t i = 0; i < visible; i++)
+        for (int k = 0; k < 3; k++) {
+            uint16_t across = b->across[b->visible[i]][k] / 4;
+            if (b->marks[across] == MARK_UNSURE && decide(b, across, p)) b->visible[visible++] = across;
+        }
+    for (uint32_t i = 0; i < unsure; i++)
+        if (b->marks[b->unsure[i]] == MARK_UNSURE) b->marks[b->unsure[i]] = MARK_NONE;
+    return visible;
 }
 
 // Lists the facets that the point is above; returns their number.
 static uint32_t list_visible(builder *b, uint32_t p) {
-    uint32_t near = list_near(b, p), count = 0;
+    uint32_t near = list_near(b, p), visible = 0, unsure = 0;
+    b->is_on = 0;
     for (uint32_t i = 0; i < near; i++) {
         uint16_t f = b->visible[i];
-        if (get_side(b, f, p, b->height[f]) <= 0) continue;
-        b->visible[count++] = f;
-        b->is_above[f] = 1;
+        int is_clear = b->height[f] > b->bound;
+        b->marks[f] = is_clear ? MARK_ABOVE : MARK_UNSURE;
+        if (is_clear)
+            b->visible[visible++] = f;
+        else
+            b->unsure[unsure++] = f;
     }
-    return count;
+    return unsure ? decide_unsure(b, p, visible, unsure) : visible;
 }
 
 // ---- adding a point ----
@@ -161,7 +187,7 @@ static uint32_t find_horizon(const builder *b, uint32_t visible) {
         const uint16_t *v = b->vertex[b->visible[i]], *across = b->across[b->visible[i]];
         for (int k = 0; k < 3; k++) {
             b->horizon[count] = (edge){v[k], v[k == 2 ? 0 : k + 1], across[k]};
-            count += !b->is_above[across[k] / 4];
+            count += b->marks[across[k] / 4] != MARK_ABOVE;
         }
     }
     return count;
@@ -184,7 +210,7 @@ static int make_cone(builder *b, uint32_t p, uint32_t visible, uint32_t edges) {
         b->across[f][0] = e->across;
         b->across[e->across / 4][e->across % 4] = make_side(f, 0);
         b->starts[e->from] = e->across = (uint16_t)f;
-        b->is_above[f] = 0;
+        b->marks[f] = MARK_NONE;
     }
     for (uint32_t i = 0; i < edges; i++) {
         uint32_t f = b->horizon[i].across, after = b->starts[b->horizon[i].to];
@@ -195,9 +221,8 @@ static int make_cone(builder *b, uint32_t p, uint32_t visible, uint32_t edges) {
     for (uint32_t i = edges; i < visible; i++) {
         uint16_t f = b->spare[b->spare_count++] = b->visible[i];
         clear_facet(b, f);
-        b->is_above[f] = 0;
+        b->marks[f] = MARK_NONE;
     }
-    if (b->used % 2) clear_facet(b, b->used);
     return 1;
 }
 
@@ -206,6 +231,7 @@ static ovoid_code add_points(builder *b, const uint32_t corner[4]) {
         if (p == corner[0] || p == corner[1] || p == corner[2] || p == corner[3]) continue;
         uint32_t visible = list_visible(b, p);
         if (visible && !make_cone(b, p, visible, find_horizon(b, visible))) return OVOID_ERROR_HULL;
+        if (!visible && !b->is_on) b->state[p] = POINT_INSIDE;
     }
     return OVOID_OK;
 }
@@ -254,12 +280,16 @@ static void count_creases(const builder *b) {
     }
 }
 
-// A point at which three creases meet is extreme; a corner of fewer lies on its facets. A point that was above no
-// facet, or all of whose facets were replaced, lies inside or on one.
-static void set_states(const builder *b, uint8_t *state) {
+// A point at which three creases meet is extreme; a corner of fewer lies on its facets. Of other points those that were
+// in the plane of a facet may lie on one; a corner all of whose facets were replaced lies inside.
+static void set_states(const builder *b) {
     count_creases(b);
-    for (uint32_t i = 0; i < b->count; i++)
-        state[i] = b->starts[i] >= 3 ? POINT_EXTREME : is_on_facet(b, i) ? POINT_ON_FACE : POINT_INSIDE;
+    for (uint32_t i = 0; i < b->count; i++) {
+        if (b->starts[i] >= 3)
+            b->state[i] = POINT_EXTREME;
+        else if (b->state[i] != POINT_INSIDE)
+            b->state[i] = is_on_facet(b, i) ? POINT_ON_FACE : POINT_INSIDE;
+    }
 }
 
 // Copies the facets in the order of their places.
@@ -283,9 +313,8 @@ static int extract(const builder *b, surface *s, const ovoid_allocator *allocato
     s->triangle_count = b->used - b->spare_count;
     s->triangles = allocator_allocate(allocator, s->triangle_count, 3 * sizeof *s->triangles);
     s->across = allocator_allocate(allocator, s->triangle_count, 3 * sizeof *s->across);
-    s->state = allocator_allocate(allocator, b->count, 1);
-    if (!s->triangles || !s->across || !s->state) return 0;
-    set_states(b, s->state);
+    if (!s->triangles || !s->across) return 0;
+    set_states(b);
     copy_facets(b, s);
     return 1;
 }
@@ -301,8 +330,13 @@ static double bound_heights(const points *p) {
 
 ovoid_code incremental_find(const points *p, const ovoid_allocator *allocator, surface *s) {
     builder b = {.grid = p->grid, .count = p->count, .bound = bound_heights(p)};
+    b.state = s->state = allocator_allocate(allocator, p->count, 1);
     void *memory = allocate(&b, allocator);
-    if (!memory) return OVOID_ERROR_MEMORY;
+    if (!memory || !b.state) {
+        allocator_release(allocator, memory);
+        return OVOID_ERROR_MEMORY;
+    }
+    memset(b.state, POINT_ON_FACE, p->count);
     make_simplex(&b, s->corner);
     ovoid_code code = add_points(&b, s->corner);
     if (!code && !extract(&b, s, allocator)) code = OVOID_ERROR_MEMORY;

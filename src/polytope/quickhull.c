@@ -29,7 +29,6 @@
 #include "base/error.h"
 #include "linear/exact.h"
 #include "polytope/curve.h"
-#include "polytope/incremental.h"
 
 #include <string.h>
 

@@ -6,7 +6,6 @@
 #include "countdown.h"
 #include "hulls.h"
 #include "linear/rotation.h"
-#include "polytope/incremental.h"
 #include "polytope/points.h"
 #include "polytope/quickhull.h"
 

@@ -4,7 +4,6 @@
 #include "base/allocator.h"
 #include "check.h"
 #include "ellipsoid/contain.h"
-#include "general_block.h"
 #include "linear/rotation.h"
 #include "polytope/centered_box.h"
 #include "polytope/hull.h"

@@ -5,7 +5,6 @@
 #include "check.h"
 #include "ellipsoid/closed_fit.h"
 #include "ellipsoid/contain.h"
-#include "general_block.h"
 #include "polytope/hull.h"
 #include "shape/block.h"
 #include "shape/file.h"
