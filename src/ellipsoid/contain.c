@@ -10,9 +10,10 @@
 // harm. n . (v - c) is bounded from below in doubles, n' Q n from above in double-double.
 // (2) S winds around the centre: the signed crossings of a ray from it do not sum to zero; exact orientations count
 // them.
-// The winding number is constant on a connected set that does not meet S, so it is nonzero on all of E. Outside of the
-// hull of the vertices it is zero, as S can be contracted to a point within the hull. Hence E lies in the hull. Whether
-// S is convex to the last bit, or how facets were merged, does not matter.
+// Where S is known to be the boundary of the hull, a point of E that lies in the hull, such as the mean of all
+// vertices, stands in for (2). The winding number is constant on a connected set that does not meet S, so it is nonzero
+// on all of E. Outside of the hull of the vertices it is zero, as S can be contracted to a point within the hull. Hence
+// E lies in the hull. Whether S is convex to the last bit, or how facets were merged, does not matter.
 #include "ellipsoid/contain.h"
 
 #include "ellipsoid/closed_fit.h"
@@ -67,6 +68,21 @@ double factor_compute_enclosing_bound(const factor *f, const ovoid_polytope *pol
         bound = max2(bound, sum);
     }
     return bound * ((1 + 16 * ROUNDING) / (1 - f->defect));
+}
+
+// The computed mean of n vertices is off by (n + 2) u of the largest coordinate along each axis.
+int factor_holds_mean(const factor *f, const ovoid_polytope *polytope, vec3 center) {
+    vec3 sum = {0, 0, 0};
+    double extent = 0, square = 0, n = polytope->vertex_count;
+    for (uint32_t v = 0; v < polytope->vertex_count; v++) {
+        vec3 x = vec3_at(polytope->vertices, v);
+        sum = vec3_add(sum, x);
+        extent = max2(extent, vec3_max_abs(x));
+    }
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j <= i; j++) square += f->w[i][j] * f->w[i][j];
+    double off = 2 * (n + 2) * ROUNDING * extent * sqrt(square);
+    return f->count == 3 && sqrt(bound_solid(f, vec3_sub(vec3_scale(sum, 1 / n), center))) + off <= 0.9;
 }
 
 double ellipsoid_compute_enclosing_bound(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid) {

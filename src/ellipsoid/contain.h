@@ -30,6 +30,9 @@ double ellipsoid_compute_enclosing_bound(const ovoid_polytope *polytope, const o
 /// The same from a factor of Q.
 double factor_compute_enclosing_bound(const factor *f, const ovoid_polytope *polytope, ovoid_vec3 center);
 
+/// 1 only if the mean of the vertices is proven to be in the ellipsoid of a factor of factor_make_quickly.
+int factor_holds_mean(const factor *f, const ovoid_polytope *polytope, ovoid_vec3 center);
+
 /// A factor s such that the ellipsoid, scaled by s about its centre, meets no triangle of the surface: a lower bound of
 /// the largest factor with this property. At most zero if none is proven.
 double ellipsoid_compute_clear_bound(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid);

@@ -126,15 +126,18 @@ static int is_collinear(vec3 a, vec3 b, vec3 c) {
     return 1;
 }
 
+static int is_before(vec3 p, vec3 q) { return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : p.z < q.z; }
+
 // The least and the greatest point in the order of x, y, z; these are the ends if all points are collinear.
 static void find_ends(const builder *b, uint32_t count, uint32_t end[2]) {
+    vec3 least = get_point(b, 0), most = least;
     end[0] = end[1] = 0;
     for (uint32_t i = 1; i < count; i++) {
-        for (int k = 0; k < 2; k++) {
-            vec3 p = get_point(b, i), q = get_point(b, end[k]);
-            double d = p.x != q.x ? p.x - q.x : p.y != q.y ? p.y - q.y : p.z - q.z;
-            if (k ? d > 0 : d < 0) end[k] = i;
-        }
+        vec3 p = get_point(b, i);
+        if (is_before(p, least))
+            least = p, end[0] = i;
+        else if (is_before(most, p))
+            most = p, end[1] = i;
     }
 }
 
