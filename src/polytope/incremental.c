@@ -45,7 +45,7 @@ typedef struct builder {
     uint8_t *state;      // of the points; until the end POINT_ON_FACE if it is not known to be inside
     int is_on;           // the last point lies in the plane of a facet
     uint32_t count;      // points
-    uint32_t used, room; // places; a multiple of 8
+    uint32_t used, room; // places; room is a multiple of 8
     uint32_t spare_count;
     double bound; // of the rounding of heights
 } builder;
@@ -59,7 +59,7 @@ static void *take(char **at, size_t n, size_t size) {
     return items;
 }
 
-// A closed surface of n corners has 2 n - 4 triangles, and a horizon at most n edges. 0 if memory runs out.
+// A closed surface of n corners has 2 n - 4 triangles, and a horizon at most n edges. NULL if memory runs out.
 static void *allocate(builder *b, const ovoid_allocator *allocator) {
     size_t room = (2 * (size_t)b->count + 7) / 8 * 8, edges = (size_t)b->count + 3;
     size_t place = 5 * sizeof *b->x + sizeof *b->vertex + sizeof *b->across + 3 * sizeof *b->visible + 1;
@@ -106,7 +106,7 @@ static void clear_facet(builder *b, uint32_t f) {
 
 static uint16_t make_side(uint32_t f, uint32_t k) { return (uint16_t)(4 * f + k); }
 
-// The exact sign of the height of a point over a facet.
+// The exact sign of the height of a point over a facet. height: computed, or 0, which does not decide.
 static int get_side(const builder *b, uint32_t f, uint32_t p, double height) {
     if (height > b->bound) return 1;
     if (-height > b->bound) return -1;
@@ -272,7 +272,7 @@ static void count_creases(const builder *b) {
         if (is_free(b, f) || has_creases(b, f)) continue;
         const uint16_t *v = b->vertex[f];
         for (int k = 0; k < 3; k++) {
-            // Each edge is looked at from the first of its facets. A height of 0 asks for the exact sign.
+            // Each edge is looked at from the first of its facets.
             if (b->across[f][k] / 4 < f || get_side(b, f, get_beyond(b, f, k), 0)) continue;
             b->starts[v[k]]--;
             b->starts[v[k == 2 ? 0 : k + 1]]--;

@@ -34,7 +34,7 @@ ovoid_code quickhull_create(const points *p, const ovoid_allocator *allocator, s
 /// Up to this number of points quickhull_create adds one after another (incremental.c).
 enum { INCREMENTAL_MOST = 128 };
 /// The surface of at most INCREMENTAL_MOST points whose rank, 3, and first simplex it has. Errors: MEMORY, HULL; what
-/// the surface has then must be destroyed. Cost: the square of the number of points, 2 to 5 instructions each.
+/// the surface has then must be destroyed. Cost: the square of the number of points.
 ovoid_code incremental_find(const points *p, const ovoid_allocator *allocator, surface *s);
 /// Sets the rank and the corners of the surface, as quickhull_create does, and nothing else. Cost: linear.
 void simplex_find(const points *p, surface *s);
