@@ -10,9 +10,10 @@
 // harm. n . (v - c) is bounded from below in doubles, n' Q n from above in double-double.
 // (2) S winds around the centre: the signed crossings of a ray from it do not sum to zero; exact orientations count
 // them.
-// The winding number is constant on a connected set that does not meet S, so it is nonzero on all of E. Outside of the
-// hull of the vertices it is zero, as S can be contracted to a point within the hull. Hence E lies in the hull. Whether
-// S is convex to the last bit, or how facets were merged, does not matter.
+// Where S is known to be the boundary of the hull, a point of E that lies in the hull, such as the mean of all
+// vertices, stands in for (2). The winding number is constant on a connected set that does not meet S, so it is nonzero
+// on all of E. Outside of the hull of the vertices it is zero, as S can be contracted to a point within the hull. Hence
+// E lies in the hull. Whether S is convex to the last bit, or how facets were merged, does not matter.
 #include "ellipsoid/contain.h"
 
 #include "ellipsoid/closed_fit.h"
@@ -67,6 +68,21 @@ double factor_compute_enclosing_bound(const factor *f, const ovoid_polytope *pol
         bound = max2(bound, sum);
     }
     return bound * ((1 + 16 * ROUNDING) / (1 - f->defect));
+}
+
+// The computed mean of n vertices is off by (n + 2) u of the largest coordinate along each axis.
+int factor_holds_mean(const factor *f, const ovoid_polytope *polytope, vec3 center) {
+    vec3 sum = {0, 0, 0};
+    double extent = 0, square = 0, n = polytope->vertex_count;
+    for (uint32_t v = 0; v < polytope->vertex_count; v++) {
+        vec3 x = vec3_at(polytope->vertices, v);
+        sum = vec3_add(sum, x);
+        extent = max2(extent, vec3_max_abs(x));
+    }
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j <= i; j++) square += f->w[i][j] * f->w[i][j];
+    double off = 2 * (n + 2) * ROUNDING * extent * sqrt(square);
+    return f->count == 3 && sqrt(bound_solid(f, vec3_sub(vec3_scale(sum, 1 / n), center))) + off <= 0.9;
 }
 
 double ellipsoid_compute_enclosing_bound(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid) {
@@ -225,20 +241,25 @@ double ellipsoid_compute_clear_bound_roughly(const ovoid_polytope *polytope, con
     return compute_clear_bound(polytope, ellipsoid, (bounding){1, INFINITY});
 }
 
-int ellipsoid_is_enclosed(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid) {
+int ellipsoid_is_clear(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid) {
     factor f;
     double size;
     if (polytope->rank < 3 || !vec3_is_finite(ellipsoid->center)) return 0;
-    closed_form form = closed_form_find(polytope->vertices, polytope->vertex_count);
-    if (closed_fit_is_enclosed(&form, ellipsoid)) return 1;
     if (!factor_make_quickly(ellipsoid->q, &f, &size) && !factor_make(ellipsoid->q, &f)) return 0;
-    if (f.count == 0) {
-        for (uint32_t v = 0; v < polytope->vertex_count; v++) {
-            vec3 d = vec3_sub(vec3_at(polytope->vertices, v), ellipsoid->center);
-            if (d.x == 0 && d.y == 0 && d.z == 0) return 1;
-        }
-        return 0;
-    }
-    return f.count == 3 && compute_clear_bound(polytope, ellipsoid, (bounding){.most = 1}) >= 1 &&
-           polytope_compute_winding(polytope, ellipsoid->center) != 0;
+    return f.count == 3 && compute_clear_bound(polytope, ellipsoid, (bounding){.most = 1}) >= 1;
+}
+
+int ellipsoid_is_vertex(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid) {
+    const sym3 *q = &ellipsoid->q;
+    if (q->xx != 0 || q->xy != 0 || q->xz != 0 || q->yy != 0 || q->yz != 0 || q->zz != 0) return 0;
+    for (uint32_t v = 0; v < polytope->vertex_count; v++)
+        if (vec3_max_abs(vec3_sub(vec3_at(polytope->vertices, v), ellipsoid->center)) == 0) return 1;
+    return 0;
+}
+
+int ellipsoid_is_enclosed(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid) {
+    if (polytope->rank < 3 || !vec3_is_finite(ellipsoid->center)) return 0;
+    closed_form form = closed_form_find(polytope->vertices, polytope->vertex_count);
+    return closed_fit_is_enclosed(&form, ellipsoid) || ellipsoid_is_vertex(polytope, ellipsoid) ||
+           (ellipsoid_is_clear(polytope, ellipsoid) && polytope_compute_winding(polytope, ellipsoid->center) != 0);
 }

@@ -17,11 +17,21 @@ int ellipsoid_is_enclosing(const ovoid_polytope *polytope, const ovoid_ellipsoid
 /// for a rank < 3: flat bodies have no proof.
 int ellipsoid_is_enclosed(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid);
 
+/// 1 only if Q is positive definite and it is proven that the ellipsoid meets no triangle: then it is enclosed if the
+/// surface winds around its centre.
+int ellipsoid_is_clear(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid);
+
+/// 1 for an ellipsoid that is only a vertex.
+int ellipsoid_is_vertex(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid);
+
 /// An upper bound of the largest (v - c)' Q^-1 (v - c) over the vertices; INFINITY if Q has no proven factor.
 double ellipsoid_compute_enclosing_bound(const ovoid_polytope *polytope, const ovoid_ellipsoid *ellipsoid);
 
 /// The same from a factor of Q.
 double factor_compute_enclosing_bound(const factor *f, const ovoid_polytope *polytope, ovoid_vec3 center);
+
+/// 1 only if the mean of the vertices is proven to be in the ellipsoid of a factor of factor_make_quickly.
+int factor_holds_mean(const factor *f, const ovoid_polytope *polytope, ovoid_vec3 center);
 
 /// A factor s such that the ellipsoid, scaled by s about its centre, meets no triangle of the surface: a lower bound of
 /// the largest factor with this property. At most zero if none is proven.

@@ -8,7 +8,7 @@
 
 typedef struct fit_options {
     double gap;                       ///< relative volume gap to reach; 0 means 1e-6
-    const ovoid_measures *measures;   ///< of the polytope; NULL: computed where they are needed
+    const ovoid_measures *measures;   ///< of a hull's polytope, with its exact triangles; NULL: computed where needed
     const ovoid_allocator *allocator; ///< NULL: malloc
     const closed_form *form;          ///< of the polytope; NULL: found where it is needed
 } fit_options;
@@ -33,8 +33,9 @@ static inline ovoid_code fit_explain(ovoid_code code, ovoid_error *error) {
     return code;
 }
 
-/// The ellipsoid of a solid's first and second moments, scaled until it is proven to be inside, in doubles; its gap is
-/// not known. 0 if that fails. Cost: a pass over the triangles, a twentieth of ellipsoid_fit_inner of few vertices.
+/// The ellipsoid of the first and second moments of a solid, whose triangles are exactly those of its hull, scaled
+/// until it is proven to be inside, in doubles; its gap is not known. 0 if that fails. Cost: a pass over the triangles,
+/// a twentieth of ellipsoid_fit_inner of few vertices.
 int ellipsoid_fit_moments(const ovoid_polytope *polytope, const ovoid_measures *measures, ovoid_fit *fit);
 
 #endif

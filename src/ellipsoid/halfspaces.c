@@ -1,7 +1,7 @@
 // Halfspaces as planes, computed on demand, without memory.
 #include "ellipsoid/halfspaces.h"
 
-#include "polytope/segment.h"
+#include "polytope/polygon.h"
 
 halfspaces halfspaces_make(const ovoid_polytope *polytope) {
     const ovoid_polytope *p = polytope;

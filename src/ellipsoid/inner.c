@@ -22,7 +22,7 @@
 
 #include "base/allocator.h"
 #include "base/environment.h"
-#include "polytope/segment.h"
+#include "polytope/polygon.h"
 #include "polytope/winding.h"
 
 // The solver's gap, as a share of the one to reach: rounding needs the rest.
@@ -47,15 +47,23 @@ static void map_planes(const ovoid_polytope *p, vec3 origin, lower3 root, ovoid_
     }
 }
 
-// Rounds { center + map u }, scales it to fit, and proves it. Returns the factor, 0 if the proof fails; *size: of the
-// factor of Q, in roundings.
-static double scale_to_fit(const ovoid_polytope *p, vec3 center, lower3 map, ovoid_fit *fit, double *size) {
-    ovoid_ellipsoid e = {center, lower3_square(map)};
+// The ellipsoid { center + map u }.
+typedef struct image {
+    vec3 center;
+    lower3 map;
+    int is_of_hull; // the polytope's triangles are the boundary of its hull
+} image;
+
+// Rounds an ellipsoid, scales it to fit, and proves it. Returns the factor, 0 if the proof fails; *size: of the factor
+// of Q, in roundings.
+static double scale_to_fit(const ovoid_polytope *p, const image *of, ovoid_fit *fit, double *size) {
+    ovoid_ellipsoid e = {of->center, lower3_square(of->map)};
     double clear = ellipsoid_compute_clear_bound_roughly(p, &e);
     factor f;
     if (!(clear > 0x1p-10 && clear < 2)) return 0;
     e.q = sym3_scale(e.q, clear * clear * (1 - 8 * ROUNDING));
-    if (!factor_make_quickly(e.q, &f, size) || polytope_compute_winding(p, center) == 0) return 0;
+    if (!factor_make_quickly(e.q, &f, size)) return 0;
+    if (!(of->is_of_hull && factor_holds_mean(&f, p, e.center)) && polytope_compute_winding(p, e.center) == 0) return 0;
     fit->ellipsoid = e;
     fit->volume =
         f.defect < FACTOR_DEFECT_MOST ? ball_get_measure(3) * factor_get_content(&f) : ellipsoid_compute_measure(&e, 3);
@@ -63,27 +71,33 @@ static double scale_to_fit(const ovoid_polytope *p, vec3 center, lower3 map, ovo
 }
 
 // The gap of the ellipsoid that scale_to_fit makes. 0 if the proofs fail or do not show it.
-static int prove_quickly(const ovoid_polytope *p, const certificate *c, vec3 center, lower3 map, ovoid_fit *fit) {
-    double size, clear = scale_to_fit(p, center, map, fit, &size);
+static int prove_quickly(const ovoid_polytope *p, const certificate *c, const image *of, ovoid_fit *fit) {
+    double size, clear = scale_to_fit(p, of, fit, &size);
     if (!(clear > 0.5)) return 0;
     // The entries of Q are products of the map's, summed, scaled and rounded: 6 roundings.
-    double most = certificate_compute_bound_quickly(c, p, center, map) * (1 + 16 * ROUNDING * size);
+    double most = certificate_compute_bound_quickly(c, p, of->center, of->map) * (1 + 16 * ROUNDING * size);
     fit->gap = most / (clear * clear * clear * (1 - 32 * ROUNDING)) - 1;
     return fit->gap >= 0;
 }
 
 // The fit in doubles; `planes` has room for the facets'. 0 if the gap is not proven.
-static int fit_quickly(const ovoid_polytope *p, const ovoid_measures *m, ovoid_plane *planes, double gap,
-                       ovoid_fit *fit) {
+static int fit_quickly(const ovoid_polytope *p, const fit_options *options, ovoid_plane *planes, ovoid_fit *fit) {
     lower3 root;
+    ovoid_measures computed;
+    const ovoid_measures *m = options->measures;
+    if (!m) {
+        computed = ovoid_polytope_compute_measures(p);
+        m = &computed;
+    }
     if (!make_root(m, &root)) return 0;
     map_planes(p, m->centroid, root, planes);
-    inscribed s = inscribe_solve((halfspace_set){planes, p->facet_count}, SOLVER_SHARE * fmin(gap, 1));
+    inscribed s = inscribe_solve((halfspace_set){planes, p->facet_count}, SOLVER_SHARE * fmin(options->gap, 1));
     certificate c = {.count = s.count};
     for (int k = 0; k < s.count; k++) c.direction[k] = p->planes[s.item[k]].normal, c.weight[k] = s.weight[k];
-    vec3 center = vec3_add(m->centroid, lower3_mul_vec3(root, s.x));
+    const image of = {vec3_add(m->centroid, lower3_mul_vec3(root, s.x)), lower3_mul(root, s.map),
+                      options->measures != NULL};
     *fit = (ovoid_fit){.iterations = s.iterations, .converged = 1};
-    return prove_quickly(p, &c, center, lower3_mul(root, s.map), fit) && fit->gap <= gap;
+    return prove_quickly(p, &c, &of, fit) && fit->gap <= options->gap;
 }
 
 // ---- any body
@@ -313,8 +327,9 @@ static ovoid_code compute(const ovoid_polytope *p, const fit_options *options, o
     if (p->rank == 3) {
         ovoid_plane *planes = allocator_allocate(&memory, p->facet_count, sizeof *planes);
         if (!planes) return OVOID_ERROR_MEMORY;
-        ovoid_measures measures = options->measures ? *options->measures : ovoid_polytope_compute_measures(p);
-        int done = fit_quickly(p, &measures, planes, gap, fit);
+        fit_options quick = *options;
+        quick.gap = gap;
+        int done = fit_quickly(p, &quick, planes, fit);
         allocator_release(&memory, planes);
         if (done) return OVOID_OK;
     }
@@ -346,7 +361,7 @@ int ellipsoid_fit_moments(const ovoid_polytope *polytope, const ovoid_measures *
     double size;
     *fit = (ovoid_fit){.gap = INFINITY};
     return polytope->rank == 3 && make_root(measures, &root) &&
-           scale_to_fit(polytope, measures->centroid, root, fit, &size) > 0;
+           scale_to_fit(polytope, &(image){measures->centroid, root, 1}, fit, &size) > 0;
 }
 
 ovoid_code ovoid_ellipsoid_compute_inner(const ovoid_polytope *polytope, const ovoid_ellipsoid_options *options,

@@ -69,6 +69,7 @@ typedef struct joiner {
     const double *grid;
     ovoid_plane *planes; // of each triangle
     double *area;        // of each triangle, twice
+    double *top;         // the largest n . v of its corners and of those beyond its edges
     uint32_t *order;     // triangles, the largest first
     uint32_t *queue;     // of the facet that grows
     uint32_t *seeds;     // for each facet its first triangle
@@ -98,8 +99,8 @@ static void grow_facet(joiner *j, uint32_t seed, uint32_t facet) {
     uint32_t count = 1;
     j->queue[0] = seed;
     for (uint32_t i = 0; i < count; i++)
-        for (size_t k = 0; k < 3; k++) {
-            uint32_t t = j->s->across[3 * (size_t)j->queue[i] + k];
+        for (uint32_t k = 0; k < 3; k++) {
+            uint32_t t = surface_get_across(j->s, j->queue[i], k);
             if (j->facet_of[t] != NOTHING || !is_in_plane(j, t, plane)) continue;
             j->facet_of[t] = facet;
             j->queue[count++] = t;
@@ -111,8 +112,8 @@ static void grow_facet(joiner *j, uint32_t seed, uint32_t facet) {
 static uint32_t find_host(const joiner *j, uint32_t t) {
     double nearest = 4 * j->flatness;
     uint32_t host = NOTHING;
-    for (size_t k = 0; k < 3; k++) {
-        uint32_t facet = j->facet_of[j->s->across[3 * (size_t)t + k]];
+    for (uint32_t k = 0; k < 3; k++) {
+        uint32_t facet = j->facet_of[surface_get_across(j->s, t, k)];
         double distance = facet == NOTHING ? INFINITY : compute_distance(j, t, j->planes + j->seeds[facet]);
         if (distance <= nearest) host = facet, nearest = distance;
     }
@@ -138,10 +139,14 @@ static void prepare(joiner *j) {
         *plane = (ovoid_plane){normal, vec3_dot(normal, c[0])};
         j->area[t] = vec3_norm(s->areas[t]);
         j->kinds[t] = j->area[t] <= j->thin && is_sliver(j, t, c) ? TRIANGLE_SLIVER : TRIANGLE_PLAIN;
-        for (uint32_t k = 0; k < 3; k++)
-            if (compute_height(j, surface_get_beyond(s, t, k), plane) <= j->flatness &&
-                is_in_plane(j, s->across[3 * (size_t)t + k], plane))
+        double top = max2(plane->offset, max2(vec3_dot(normal, c[1]), vec3_dot(normal, c[2])));
+        for (uint32_t k = 0; k < 3; k++) {
+            double support = vec3_dot(normal, vec3_at(j->grid, surface_get_beyond(s, t, k)));
+            top = max2(top, support);
+            if (fabs(support - plane->offset) <= j->flatness && is_in_plane(j, surface_get_across(s, t, k), plane))
                 j->kinds[t] |= TRIANGLE_NEAR;
+        }
+        j->top[t] = top;
         j->facet_of[t] = NOTHING;
     }
 }
@@ -184,27 +189,36 @@ static void add_compensated(double *sum, double *rest, double value) {
     *rest += s.low;
 }
 
+// The planes of facets each of which is a triangle: in units of the grid, which are powers of two, the offsets are
+// there. + 0.0 makes every zero positive, as sums are.
+static void copy_planes(const joiner *j, const points *p, facets *f) {
+    const double back[2] = {1 / p->factor[0], 1 / p->factor[1]};
+    for (uint32_t i = 0; i < f->count; i++) {
+        vec3 n = j->planes[j->seeds[i]].normal;
+        double offset = j->top[j->seeds[i]] * back[0] * back[1];
+        f->planes[i] = (ovoid_plane){{n.x + 0.0, n.y + 0.0, n.z + 0.0}, offset + 0.0};
+    }
+}
+
 // Replaces the planes of first triangles by those of facets: the sum of the areas that face the same way. In a plain
-// sum the roundings of thousands of slivers would turn the plane of a round face. rests: cleared, one a facet.
-static void compute_normals(const joiner *j, ovoid_plane *planes, vec3 *rests, uint32_t count) {
-    if (count == j->s->triangle_count) {
-        // Each facet is a triangle. + 0.0 makes every zero positive, as sums are.
-        for (uint32_t f = 0; f < count; f++) {
-            vec3 n = j->planes[j->seeds[f]].normal;
-            planes[f] = (ovoid_plane){{n.x + 0.0, n.y + 0.0, n.z + 0.0}, -INFINITY};
-        }
-        return;
-    }
-    for (uint32_t f = 0; f < count; f++) planes[f] = (ovoid_plane){{0, 0, 0}, -INFINITY};
+// sum the roundings of thousands of slivers would turn the plane of a round face. 0 if memory runs out.
+static int compute_normals(const joiner *j, facets *f, const ovoid_allocator *allocator) {
+    ovoid_plane *planes = f->planes;
+    vec3 *rests = allocator_allocate(allocator, f->count, sizeof *rests);
+    if (!rests) return 0;
+    memset(rests, 0, f->count * sizeof *rests);
+    for (uint32_t i = 0; i < f->count; i++) planes[i] = (ovoid_plane){{0, 0, 0}, -INFINITY};
     for (uint32_t t = 0; t < j->s->triangle_count; t++) {
-        uint32_t f = j->facet_of[t];
+        uint32_t i = j->facet_of[t];
         vec3 area = j->s->areas[t];
-        if (!(vec3_dot(area, j->planes[j->seeds[f]].normal) > 0)) continue;
-        add_compensated(&planes[f].normal.x, &rests[f].x, area.x);
-        add_compensated(&planes[f].normal.y, &rests[f].y, area.y);
-        add_compensated(&planes[f].normal.z, &rests[f].z, area.z);
+        if (!(vec3_dot(area, j->planes[j->seeds[i]].normal) > 0)) continue;
+        add_compensated(&planes[i].normal.x, &rests[i].x, area.x);
+        add_compensated(&planes[i].normal.y, &rests[i].y, area.y);
+        add_compensated(&planes[i].normal.z, &rests[i].z, area.z);
     }
-    for (uint32_t f = 0; f < count; f++) planes[f].normal = vec3_unit(vec3_add(planes[f].normal, rests[f]));
+    for (uint32_t i = 0; i < f->count; i++) planes[i].normal = vec3_unit(vec3_add(planes[i].normal, rests[i]));
+    allocator_release(allocator, rests);
+    return 1;
 }
 
 static double get_support(const ovoid_plane *plane, const double *vertices, uint32_t corner) {
@@ -213,15 +227,32 @@ static double get_support(const ovoid_plane *plane, const double *vertices, uint
 
 // The corners of a facet's triangles and those beyond their edges support it. + 0.0 makes every zero positive,
 // whichever corner it comes from.
-void facets_set_offsets(const surface *s, const double *vertices, facets *f) {
+static void set_offsets(const surface *s, facets *f) {
     for (uint32_t t = 0; t < s->triangle_count; t++) {
         ovoid_plane *plane = f->planes + f->of[t];
         for (uint32_t k = 0; k < 3; k++) {
-            double own = get_support(plane, vertices, s->triangles[3 * (size_t)t + k]);
-            double beyond = get_support(plane, vertices, surface_get_beyond(s, t, k));
+            double own = get_support(plane, f->vertices, s->triangles[3 * (size_t)t + k]);
+            double beyond = get_support(plane, f->vertices, surface_get_beyond(s, t, k));
             plane->offset = max2(plane->offset, max2(own, beyond) + 0.0);
         }
     }
+}
+
+// The planes of facets that are known. 0 if memory runs out.
+static int make_planes(const joiner *j, const points *p, facets *f, const ovoid_allocator *allocator) {
+    f->planes = allocator_allocate(allocator, f->count, sizeof *f->planes);
+    if (!f->planes) return 0;
+    if (f->count == j->s->triangle_count) {
+        copy_planes(j, p, f);
+        return 1;
+    }
+    if (compute_normals(j, f, allocator)) {
+        set_offsets(j->s, f);
+        return 1;
+    }
+    allocator_release(allocator, f->planes);
+    f->planes = NULL;
+    return 0;
 }
 
 int facets_create(const surface *s, const points *p, facets *f, const ovoid_allocator *allocator) {
@@ -230,55 +261,59 @@ int facets_create(const surface *s, const points *p, facets *f, const ovoid_allo
     j.flatness = FACET_FLATNESS * extent;
     j.thin = 4 * extent * j.flatness;
     size_t count = s->triangle_count;
-    j.planes = allocator_allocate(allocator, count, sizeof *j.planes + sizeof *j.area + 3 * sizeof *j.order + 1);
+    j.planes = allocator_allocate(allocator, count, sizeof *j.planes + 2 * sizeof *j.area + 3 * sizeof *j.order + 1);
     if (!j.planes) return 0;
     j.area = (double *)(j.planes + count);
-    j.order = (uint32_t *)(j.area + count);
+    j.top = j.area + count;
+    j.order = (uint32_t *)(j.top + count);
     j.queue = j.order + count;
     j.seeds = j.queue + count;
     j.kinds = (uint8_t *)(j.seeds + count);
     prepare(&j);
-    vec3 *rests = NULL;
-    if (order_triangles(&j, allocator)) {
+    int is_done = order_triangles(&j, allocator);
+    if (is_done) {
         f->count = join(&j);
-        f->planes = allocator_allocate(allocator, f->count, sizeof *f->planes);
-        rests = allocator_allocate(allocator, f->count, sizeof *rests);
+        is_done = make_planes(&j, p, f, allocator);
     }
-    if (f->planes && rests) {
-        memset(rests, 0, f->count * sizeof *rests);
-        compute_normals(&j, f->planes, rests, f->count);
-    } else {
-        allocator_release(allocator, f->planes);
-        f->planes = NULL;
-    }
-    allocator_release(allocator, rests);
     allocator_release(allocator, j.planes);
-    return f->planes != NULL;
+    return is_done;
 }
 
-// ---- adjacency ----
+// ---- edges ----
 
-int neighbors_compute(const surface *s, uint32_t *starts, uint32_t *neighbors, const ovoid_allocator *allocator) {
-    // Euler's formula: a closed surface of 2 n - 4 triangles has n corners.
-    uint32_t count = s->triangle_count / 2 + 2;
-    size_t edges = 3 * (size_t)s->triangle_count;
-    uint32_t *unsorted = allocator_allocate(allocator, edges + count, sizeof *unsorted);
-    if (!unsorted) return 0;
-    uint32_t *end = unsorted + edges;
+// As many edges end at a point as begin there, as each triangle has one of either at each corner. First they are listed
+// by their ends; taken in that order, those that begin at one point are sorted.
+static void sort_edges(const surface *s, uint32_t count, uint32_t *unsorted) {
+    const surface_edges *to = &s->edges;
+    uint32_t edges = 3 * s->triangle_count, *starts = to->starts, *end = unsorted + edges;
     memset(starts, 0, ((size_t)count + 1) * sizeof *starts);
-    for (size_t e = 0; e < edges; e++) starts[s->triangles[e] + 1]++;
+    for (uint32_t e = 0; e < edges; e++) starts[s->triangles[e] + 1]++;
     for (uint32_t v = 0; v < count; v++) starts[v + 1] += starts[v];
-
-    // Each edge occurs once in each direction. First the lists in any order, then their transpose, which is sorted.
     memcpy(end, starts, count * sizeof *end);
-    for (const uint32_t *t = s->triangles; t < s->triangles + edges; t += 3) {
-        unsorted[end[t[0]]++] = t[1];
-        unsorted[end[t[1]]++] = t[2];
-        unsorted[end[t[2]]++] = t[0];
+    for (uint32_t e = 0; e < edges; e += 3) {
+        const uint32_t *t = s->triangles + e;
+        unsorted[end[t[1]]++] = e;
+        unsorted[end[t[2]]++] = e + 1;
+        unsorted[end[t[0]]++] = e + 2;
     }
     memcpy(end, starts, count * sizeof *end);
     for (uint32_t v = 0, i = 0; v < count; v++)
-        for (uint32_t after = starts[v + 1]; i < after; i++) neighbors[end[unsorted[i]]++] = v;
+        for (uint32_t after = starts[v + 1]; i < after; i++) {
+            uint32_t e = unsorted[i], at = end[s->triangles[e]]++;
+            to->neighbors[at] = v;
+            to->corners[e] = at;
+        }
+}
+
+int surface_find_edges(surface *s, uint32_t count, const ovoid_allocator *allocator) {
+    size_t edges = 3 * (size_t)s->triangle_count;
+    surface_edges *to = &s->edges;
+    to->starts = allocator_allocate(allocator, (size_t)count + 1, sizeof *to->starts);
+    to->neighbors = allocator_allocate(allocator, edges, sizeof *to->neighbors);
+    to->corners = allocator_allocate(allocator, edges, sizeof *to->corners);
+    uint32_t *unsorted = allocator_allocate(allocator, edges + count, sizeof *unsorted);
+    int is_done = to->starts && to->neighbors && to->corners && unsorted;
+    if (is_done) sort_edges(s, count, unsorted);
     allocator_release(allocator, unsorted);
-    return 1;
+    return is_done;
 }

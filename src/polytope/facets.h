@@ -28,22 +28,18 @@ double compute_extent(const double *xyz, uint32_t count);
 
 /// The facets of a surface.
 typedef struct facets {
-    uint32_t *of;        ///< the facet of each triangle; room is given
-    ovoid_plane *planes; ///< one a facet, allocated
+    const double *vertices; ///< given: what the planes are of
+    uint32_t *of;           ///< the facet of each triangle; room is given
+    ovoid_plane *planes;    ///< one a facet, allocated
     uint32_t count;
 } facets;
 
 /// Joins triangles to facets: from the largest triangle not yet taken, over edges, all whose corners lie on its plane
-/// to within FACET_FLATNESS. Fills *f except the planes' offsets. The areas must be computed. 0 if memory runs out.
-/// Cost: linear.
+/// to within FACET_FLATNESS. p: the vertices as points. The areas must be computed. 0 if memory runs out. Cost: linear.
 int facets_create(const surface *s, const points *p, facets *f, const ovoid_allocator *allocator);
 
-/// The planes' offsets, in the frame of the vertices. Cost: linear.
-void facets_set_offsets(const surface *s, const double *vertices, facets *f);
-
-/// Adjacency by the edges of the triangles of a surface all of whose points are corners: the neighbors of v are those
-/// from starts[v] to starts[v + 1], ascending. Room for one start more than there are points and 3 triangle_count
-/// neighbors. 0 if memory runs out. Cost: linear.
-int neighbors_compute(const surface *s, uint32_t *starts, uint32_t *neighbors, const ovoid_allocator *allocator);
+/// Fills s->edges for a surface of count points from its triangles alone, which need not be those of a hull. 0 if
+/// memory runs out. Cost: linear.
+int surface_find_edges(surface *s, uint32_t count, const ovoid_allocator *allocator);
 
 #endif

@@ -132,10 +132,7 @@ static int fill_vertices(const builder *b) {
     polytope->vertex_count = p->count;
     polytope->origin = p->origin;
     polytope->vertices = allocator_allocate(b->allocator, p->count, 3 * sizeof *polytope->vertices);
-    polytope->neighbor_starts =
-        allocator_allocate(b->allocator, (size_t)p->count + 1, sizeof *polytope->neighbor_starts);
-    if (!polytope->vertices || !polytope->neighbor_starts) return 0;
-    memset(polytope->neighbor_starts, 0, ((size_t)p->count + 1) * sizeof *polytope->neighbor_starts);
+    if (!polytope->vertices) return 0;
     for (size_t i = 0; i < p->count; i++) {
         // + 0.0 makes every zero a positive one.
         vec3 v = vec3_sub(vec3_at(b->xyz, p->source[i]), p->origin);
@@ -146,20 +143,28 @@ static int fill_vertices(const builder *b) {
     return 1;
 }
 
+// The edges of the surface become those of the hull.
+static void take_edges(hull *polytope, surface *s) {
+    polytope->neighbor_starts = s->edges.starts;
+    polytope->neighbors = s->edges.neighbors;
+    polytope->corner_edges = s->edges.corners;
+    s->edges = (surface_edges){0};
+}
+
 static ovoid_code fill_solid(builder *b) {
     hull *polytope = b->hull;
     surface *s = &b->s;
     polytope->triangle_count = s->triangle_count;
     polytope->triangle_facets =
         allocator_allocate(b->allocator, polytope->triangle_count, sizeof *polytope->triangle_facets);
-    polytope->neighbors = allocator_allocate(b->allocator, polytope->triangle_count, 3 * sizeof *polytope->neighbors);
-    if (!polytope->triangle_facets || !polytope->neighbors) return OVOID_ERROR_MEMORY;
-    facets f = {.of = polytope->triangle_facets};
+    if (!polytope->triangle_facets) return OVOID_ERROR_MEMORY;
+    facets f = {.vertices = polytope->vertices, .of = polytope->triangle_facets};
     if (!facets_create(s, &b->p, &f, b->allocator)) return OVOID_ERROR_MEMORY;
-    facets_set_offsets(s, polytope->vertices, &f);
     polytope->planes = f.planes;
     polytope->facet_count = f.count;
-    if (!neighbors_compute(s, polytope->neighbor_starts, polytope->neighbors, b->allocator)) return OVOID_ERROR_MEMORY;
+    // A proven surface has them.
+    if (!s->edges.starts && !surface_find_edges(s, polytope->vertex_count, b->allocator)) return OVOID_ERROR_MEMORY;
+    take_edges(polytope, s);
     polytope->triangles = s->triangles;
     s->triangles = NULL;
     return OVOID_OK;
@@ -215,9 +220,12 @@ static ovoid_code fill_polygon(const builder *b, vec3 normal, uint32_t *loop) {
 // Rank 0 to 2.
 static ovoid_code fill_flat(const builder *b, vec3 normal) {
     hull *polytope = b->hull;
+    size_t starts = (size_t)b->p.count + 1;
     uint32_t *loop = allocator_allocate(b->allocator, b->p.count, sizeof *loop);
+    polytope->neighbor_starts = allocator_allocate(b->allocator, starts, sizeof *polytope->neighbor_starts);
     polytope->neighbors = allocator_allocate(b->allocator, b->p.count, 2 * sizeof *polytope->neighbors);
-    ovoid_code code = loop && polytope->neighbors ? OVOID_OK : OVOID_ERROR_MEMORY;
+    ovoid_code code = loop && polytope->neighbor_starts && polytope->neighbors ? OVOID_OK : OVOID_ERROR_MEMORY;
+    if (!code) memset(polytope->neighbor_starts, 0, starts * sizeof *polytope->neighbor_starts);
     if (!code && polytope->rank == 2) code = fill_polygon(b, normal, loop);
     if (!code && polytope->rank < 2) join_loop(polytope, b->s.corner, polytope->rank + 1);
     allocator_release(b->allocator, loop);
@@ -256,17 +264,20 @@ static ovoid_code finish(builder *b, size_t count, ovoid_code code) {
 
 // ---- closed forms ----
 
+// The edges of an ellipsoid's grid are found.
 static int allocate(hull *polytope, const ovoid_allocator *allocator) {
     uint32_t triangles = polytope->triangle_count;
+    int has_edges = polytope->form.kind != FORM_ELLIPSOID;
     polytope->vertices = allocator_allocate(allocator, polytope->vertex_count, 3 * sizeof *polytope->vertices);
     polytope->triangles = allocator_allocate(allocator, triangles, 3 * sizeof *polytope->triangles);
     polytope->triangle_facets = allocator_allocate(allocator, triangles, sizeof *polytope->triangle_facets);
+    polytope->planes = allocator_allocate(allocator, polytope->facet_count, sizeof *polytope->planes);
+    if (!polytope->vertices || !polytope->triangles || !polytope->triangle_facets || !polytope->planes) return 0;
+    if (!has_edges) return 1;
     polytope->neighbor_starts =
         allocator_allocate(allocator, (size_t)polytope->vertex_count + 1, sizeof *polytope->neighbor_starts);
     polytope->neighbors = allocator_allocate(allocator, triangles, 3 * sizeof *polytope->neighbors);
-    polytope->planes = allocator_allocate(allocator, polytope->facet_count, sizeof *polytope->planes);
-    return polytope->vertices && polytope->triangles && polytope->triangle_facets && polytope->neighbor_starts &&
-           polytope->neighbors && polytope->planes;
+    return polytope->neighbor_starts && polytope->neighbors;
 }
 
 static void fill_box(hull *polytope) {
@@ -288,8 +299,10 @@ static int fill_ellipsoid(hull *polytope, const ovoid_allocator *allocator) {
     const ellipsoid_grid *g = &polytope->form.grid;
     ellipsoid_grid_fill_triangles(g, polytope->triangles, polytope->triangle_facets);
     ellipsoid_grid_fill_planes(g, polytope->triangles, polytope->vertices, polytope->planes);
-    const surface s = {.triangles = polytope->triangles, .triangle_count = polytope->triangle_count};
-    return neighbors_compute(&s, polytope->neighbor_starts, polytope->neighbors, allocator);
+    surface s = {.triangles = polytope->triangles, .triangle_count = polytope->triangle_count};
+    int is_done = surface_find_edges(&s, polytope->vertex_count, allocator);
+    take_edges(polytope, &s);
+    return is_done;
 }
 
 // 0 if there is no memory.
@@ -373,6 +386,7 @@ void hull_destroy(hull *polytope, const ovoid_allocator *allocator) {
     allocator_release(allocator, polytope->neighbor_starts);
     allocator_release(allocator, polytope->neighbors);
     allocator_release(allocator, polytope->planes);
+    allocator_release(allocator, polytope->corner_edges);
     *polytope = (hull){0};
 }
 

@@ -10,6 +10,8 @@
 typedef struct hull {
     double *vertices;
     uint32_t *triangles, *triangle_facets, *neighbor_starts, *neighbors;
+    uint32_t *corner_edges; ///< at 3 t + i the edge from corner i of triangle t, as its place in the list of neighbors;
+                            ///< NULL for a flat body, a box and a regular solid
     ovoid_plane *planes;
     ovoid_report report;
     ovoid_vec3 origin;

@@ -9,7 +9,7 @@
 #include "linear/mat3.h"
 #include "ovoid/polytope.h"
 #include "polytope/closed_form.h"
-#include "polytope/segment.h"
+#include "polytope/polygon.h"
 #include "polytope/sphere.h"
 
 // Sums over simplices.

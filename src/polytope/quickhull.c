@@ -126,15 +126,18 @@ static int is_collinear(vec3 a, vec3 b, vec3 c) {
     return 1;
 }
 
+static int is_before(vec3 p, vec3 q) { return p.x != q.x ? p.x < q.x : p.y != q.y ? p.y < q.y : p.z < q.z; }
+
 // The least and the greatest point in the order of x, y, z; these are the ends if all points are collinear.
 static void find_ends(const builder *b, uint32_t count, uint32_t end[2]) {
+    vec3 least = get_point(b, 0), most = least;
     end[0] = end[1] = 0;
     for (uint32_t i = 1; i < count; i++) {
-        for (int k = 0; k < 2; k++) {
-            vec3 p = get_point(b, i), q = get_point(b, end[k]);
-            double d = p.x != q.x ? p.x - q.x : p.y != q.y ? p.y - q.y : p.z - q.z;
-            if (k ? d > 0 : d < 0) end[k] = i;
-        }
+        vec3 p = get_point(b, i);
+        if (is_before(p, least))
+            least = p, end[0] = i;
+        else if (is_before(most, p))
+            most = p, end[1] = i;
     }
 }
 
@@ -543,7 +546,7 @@ static int extract(builder *b, uint32_t count, surface *s) {
         const facet *f = get_facet(b, list[t]);
         for (int k = 0; k < 3; k++, i++) {
             s->triangles[i] = f->vertex[k];
-            s->across[i] = get_facet(b, get_facet_of(f->across[k]))->stamp;
+            s->across[i] = make_side(get_facet(b, get_facet_of(f->across[k]))->stamp, f->across[k] % 4);
         }
     }
     mark_corners(b, count);
@@ -616,7 +619,9 @@ ovoid_code quickhull_create(const points *p, const ovoid_allocator *allocator, s
     *s = (surface){0};
     find_simplex(&b, count, s);
     if (s->rank < 3) return OVOID_OK;
-    ovoid_code code = count < MANY ? find_hull(&b, count, s) : find_hull_along_curve(&b, count, s);
+    ovoid_code code = count <= INCREMENTAL_MOST ? incremental_find(p, allocator, s)
+                      : count < MANY            ? find_hull(&b, count, s)
+                                                : find_hull_along_curve(&b, count, s);
     if (code) surface_destroy(s, allocator);
     if (code == OVOID_ERROR_MEMORY) return error_set(error, code, -1, "no memory for the hull of %u points", count);
     if (code) return error_set(error, code, -1, "the hull of %u points does not close", count);
@@ -628,5 +633,8 @@ void surface_destroy(surface *s, const ovoid_allocator *allocator) {
     allocator_release(allocator, s->triangles);
     allocator_release(allocator, s->across);
     allocator_release(allocator, s->areas);
+    allocator_release(allocator, s->edges.starts);
+    allocator_release(allocator, s->edges.neighbors);
+    allocator_release(allocator, s->edges.corners);
     *s = (surface){0};
 }

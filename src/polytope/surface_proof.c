@@ -32,6 +32,7 @@
 #include "base/allocator.h"
 #include "linear/both.h"
 #include "linear/exact.h"
+#include "polytope/facets.h"
 #include "polytope/winding.h"
 
 #include <string.h>
@@ -41,13 +42,11 @@ typedef struct prover {
     const points *p;
     surface *s;
     surface_flaw *flaw;
+    const ovoid_allocator *allocator;
     vec3 inside;      // in units of the grid
-    uint32_t *starts; // of each vertex: its first edge in the lists below; one more at the end
-    uint32_t *end; // of each vertex: the end of its list as it grows; the last vertex that an edge of it led to; later
-                   // its edges that are no creases
-    uint32_t *edges; // the lists
-    uint32_t *into;  // of each vertex, while one vertex is looked at: the triangle of its edge to that one
-    double bound;    // of the rounding of heights over triangles
+    uint32_t *places; // of each vertex: of the next edge to it in its list; later its edges that are no creases
+    uint32_t *sides;  // of each edge: its corner
+    double bound;     // of the rounding of heights over triangles
 } prover;
 
 static ovoid_code refuse(const prover *w, uint32_t triangle, const char *what) {
@@ -62,52 +61,41 @@ static ovoid_code refuse_vertex(const prover *w, uint32_t vertex, const char *wh
 
 // ---- edges ----
 
-// Edge 3 t + i goes from corner i of triangle t to the next one.
-static size_t get_next(size_t e) { return e % 3 == 2 ? e - 2 : e + 1; }
-static size_t get_previous(size_t e) { return e % 3 == 0 ? e + 2 : e - 1; }
+static uint32_t get_degree(const prover *w, uint32_t v) { return w->s->edges.starts[v + 1] - w->s->edges.starts[v]; }
 
-// Lists the edges that go out of each vertex.
-static ovoid_code list_edges(const prover *w) {
-    uint32_t count = w->p->count;
-    size_t edges = 3 * (size_t)w->s->triangle_count;
-    memset(w->starts, 0, ((size_t)count + 1) * sizeof *w->starts);
-    for (size_t e = 0; e < edges; e++) {
-        uint32_t v = w->s->triangles[e];
-        if (v >= count) return refuse(w, (uint32_t)(e / 3), "a corner of a triangle is no vertex");
-        w->starts[v + 1]++;
-    }
-    for (uint32_t v = 0; v < count; v++) {
-        if (w->starts[v + 1] == 0) return refuse_vertex(w, v, "a vertex is on no triangle");
-        w->starts[v + 1] += w->starts[v];
-    }
-    memcpy(w->end, w->starts, count * sizeof *w->end);
-    for (size_t e = 0; e < edges; e++) w->edges[w->end[w->s->triangles[e]]++] = (uint32_t)e;
+static ovoid_code verify_corners(const prover *w) {
+    for (uint32_t e = 0; e < 3 * w->s->triangle_count; e++)
+        if (w->s->triangles[e] >= w->p->count) return refuse(w, e / 3, "a corner of a triangle is no vertex");
     return OVOID_OK;
 }
 
-static uint32_t get_degree(const prover *w, uint32_t v) { return w->starts[v + 1] - w->starts[v]; }
+// Writes for each edge its corner, 4 times the triangle + its number there.
+static void list_sides(const prover *w) {
+    for (uint32_t t = 0; t < w->s->triangle_count; t++)
+        for (uint32_t k = 0; k < 3; k++) w->sides[w->s->edges.corners[3 * (size_t)t + k]] = 4 * t + k;
+}
 
-// Finds the triangle across each edge out of vertex v: the edges into v are noted at the vertices they come from.
+// Finds the triangle across each edge out of vertex v. Vertices are taken in their order, and lists of neighbors
+// ascend. So the edges that lead to one vertex are met in the order of its list, if each of them has one back:
+// w->places moves along each list.
 static ovoid_code find_across_at(const prover *w, uint32_t v) {
-    const uint32_t *triangles = w->s->triangles;
-    for (uint32_t i = w->starts[v]; i < w->starts[v + 1]; i++) {
-        size_t into = get_previous(w->edges[i]);
-        uint32_t from = triangles[into];
-        if (w->end[from] == v)
-            return refuse(w, (uint32_t)(into / 3), "two triangles run through an edge in the same direction");
-        w->end[from] = v;
-        w->into[from] = (uint32_t)(into / 3);
-    }
-    for (uint32_t i = w->starts[v]; i < w->starts[v + 1]; i++) {
-        uint32_t e = w->edges[i], to = triangles[get_next(e)];
-        if (w->end[to] != v) return refuse(w, e / 3, "the surface is open: no triangle is beyond an edge");
-        w->s->across[e] = w->into[to];
+    const surface_edges *edges = &w->s->edges;
+    for (uint32_t i = edges->starts[v]; i < edges->starts[v + 1]; i++) {
+        uint32_t to = edges->neighbors[i], side = w->sides[i], back = w->places[to]++;
+        if (i > edges->starts[v] && edges->neighbors[i - 1] == to)
+            return refuse(w, side / 4, "two triangles run through an edge in the same direction");
+        if (back >= edges->starts[to + 1] || edges->neighbors[back] != v)
+            return refuse(w, side / 4, "the surface is open: no triangle is beyond an edge");
+        w->s->across[3 * (size_t)(side / 4) + side % 4] = w->sides[back];
     }
     return OVOID_OK;
 }
 
 static ovoid_code find_across(const prover *w) {
-    memset(w->end, 0xff, w->p->count * sizeof *w->end);
+    for (uint32_t v = 0; v < w->p->count; v++)
+        if (get_degree(w, v) == 0) return refuse_vertex(w, v, "a vertex is on no triangle");
+    list_sides(w);
+    memcpy(w->places, w->s->edges.starts, w->p->count * sizeof *w->places);
     for (uint32_t v = 0; v < w->p->count; v++) {
         ovoid_code code = find_across_at(w, v);
         if (code) return code;
@@ -152,18 +140,18 @@ static ovoid_code verify_triangle(const prover *w, uint32_t t) {
     if (is_clear(w, &f, t)) return OVOID_OK;
     if (get_side(&f, w->inside) >= 0) return refuse(w, t, "a triangle does not face outward");
     for (uint32_t k = 0; k < 3; k++) {
-        if (s->across[3 * (size_t)t + k] < t) continue;
+        if (surface_get_across(s, t, k) < t) continue;
         int sign = get_side(&f, vec3_at(w->p->grid, surface_get_beyond(s, t, k)));
         if (sign > 0) return refuse(w, t, "the surface is not convex at an edge");
         if (sign < 0) continue;
-        w->end[corner[k]]++;
-        w->end[corner[(k + 1) % 3]]++;
+        w->places[corner[k]]++;
+        w->places[corner[(k + 1) % 3]]++;
     }
     return OVOID_OK;
 }
 
 static ovoid_code verify_convex(const prover *w) {
-    memset(w->end, 0, w->p->count * sizeof *w->end);
+    memset(w->places, 0, w->p->count * sizeof *w->places);
     for (uint32_t t = 0; t < w->s->triangle_count; t++) {
         ovoid_code code = verify_triangle(w, t);
         if (code) return code;
@@ -175,7 +163,7 @@ static ovoid_code verify_convex(const prover *w) {
     if (polytope_compute_winding(&p, w->claim->inside) != 1)
         return refuse(w, 0, "the surface does not wind once around its inside");
     for (uint32_t v = 0; v < w->p->count; v++)
-        if (get_degree(w, v) - w->end[v] < 3) return refuse_vertex(w, v, "a vertex is not extreme");
+        if (get_degree(w, v) - w->places[v] < 3) return refuse_vertex(w, v, "a vertex is not extreme");
     return OVOID_OK;
 }
 
@@ -190,7 +178,8 @@ static ovoid_code prove(prover *w) {
     whole = box_add_point(&whole, w->inside);
     w->bound = quickhull_bound_heights(&whole);
     memcpy(w->s->triangles, w->claim->triangles, 3 * (size_t)w->s->triangle_count * sizeof *w->s->triangles);
-    ovoid_code code = list_edges(w);
+    ovoid_code code = verify_corners(w);
+    if (!code && !surface_find_edges(w->s, w->p->count, w->allocator)) code = OVOID_ERROR_MEMORY;
     if (!code) code = find_across(w);
     return code ? code : verify_convex(w);
 }
@@ -198,19 +187,22 @@ static ovoid_code prove(prover *w) {
 ovoid_code surface_create_proven(const surface_claim *claim, const points *p, const ovoid_allocator *allocator,
                                  surface *s, surface_flaw *flaw) {
     *s = (surface){.triangle_count = claim->triangle_count};
-    prover w = {.claim = claim, .p = p, .s = s, .flaw = flaw, .inside = points_to_grid(p, claim->inside)};
+    prover w = {.claim = claim,
+                .p = p,
+                .s = s,
+                .flaw = flaw,
+                .allocator = allocator,
+                .inside = points_to_grid(p, claim->inside)};
     size_t edges = 3 * (size_t)claim->triangle_count, count = p->count;
     s->triangles = allocator_allocate(allocator, edges, sizeof *s->triangles);
     s->across = allocator_allocate(allocator, edges, sizeof *s->across);
-    w.starts = allocator_allocate(allocator, 3 * count + 1 + edges, sizeof *w.starts);
+    w.places = allocator_allocate(allocator, count + edges, sizeof *w.places);
     ovoid_code code = OVOID_ERROR_MEMORY;
-    if (s->triangles && s->across && w.starts) {
-        w.end = w.starts + count + 1;
-        w.into = w.end + count;
-        w.edges = w.into + count;
+    if (s->triangles && s->across && w.places) {
+        w.sides = w.places + count;
         code = prove(&w);
     }
-    allocator_release(allocator, w.starts);
+    allocator_release(allocator, w.places);
     if (code) surface_destroy(s, allocator);
     return code;
 }

@@ -4,6 +4,7 @@
 #include "base/allocator.h"
 #include "base/environment.h"
 #include "base/error.h"
+#include "polytope/hull.h"
 #include "polytope/sphere.h"
 #include "shape/floats.h"
 #include "shape/gauss_map.h"
@@ -76,7 +77,9 @@ static void copy_array(ovoid_shape *shape, uint64_t at, const void *from, uint64
     if (size) memcpy((char *)shape + at, from, size);
 }
 
-void block_fill(ovoid_shape *shape, const ovoid_polytope *p, const closed_form *form, uint32_t *room) {
+void block_fill(ovoid_shape *shape, const hull *polytope, uint32_t *room) {
+    const ovoid_polytope view = hull_get_polytope(polytope), *p = &view;
+    const closed_form *form = &polytope->form;
     const block_offsets *at = &shape->at;
     const block_counts *c = &shape->counts;
     copy_array(shape, at->vertices, p->vertices, (uint64_t)c->vertices * 3 * sizeof(double));
@@ -101,7 +104,7 @@ void block_fill(ovoid_shape *shape, const ovoid_polytope *p, const closed_form *
     if (vec3_max_abs(shape->center) > 0)
         shape->extent = sphere_compute_radius(p->vertices, p->vertex_count, (ovoid_vec3){0, 0, 0});
     shape_floats_fill_vertices(shape);
-    loops_fill(shape, p, form, room);
+    loops_fill(shape, polytope, room);
     shape->box = form->kind == FORM_BOX
                      ? parallelepiped_make_centered(form->half)
                      : parallelepiped_find(p->vertices, p->rank == 3 ? p->vertex_count : 0, shape->extent);

@@ -8,6 +8,8 @@
 #include "shape/parallelepiped.h"
 #include "shape/support_table.h"
 
+struct hull; // polytope/hull.h
+
 /// Bytes from the block's start to an array.
 typedef struct block_offsets {
     uint64_t x, y, z;         ///< vertices as structure of arrays, padded_count doubles each; padding repeats vertex 0
@@ -101,10 +103,9 @@ block_offsets block_compute_offsets(block_counts counts);
 /// *error filled.
 ovoid_shape *block_create(block_counts counts, const ovoid_allocator *given, ovoid_error *error);
 
-/// Copies the polytope's arrays into the block, and computes everything that follows from the vertices: structure of
-/// arrays, padding, sphere, extent, measures. The polytope must have the block's counts; form: of its arrays. room:
-/// loops_get_room numbers.
-void block_fill(ovoid_shape *shape, const ovoid_polytope *polytope, const closed_form *form, uint32_t *room);
+/// Copies the hull's arrays into the block, and computes everything that follows from the vertices: structure of
+/// arrays, padding, sphere, extent, measures. The hull must have the block's counts. room: loops_get_room numbers.
+void block_fill(ovoid_shape *shape, const struct hull *polytope, uint32_t *room);
 
 /// Sets the radius and the allowance of a block that has been filled, and everything that follows from them. Nothing
 /// else is then known about the true body.

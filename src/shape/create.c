@@ -83,20 +83,12 @@ static int is_flat_inner(const ovoid_polytope *p, const ovoid_measures *m, const
     return 1;
 }
 
-// An ellipsoid that is only a vertex lies inside, even if the rounded halfspaces do not show it (they do not for a
-// ribbon of 1e40 by 1e25).
-static int is_vertex(const ovoid_polytope *p, const ovoid_ellipsoid *e) {
-    const ovoid_sym3 *q = &e->q;
-    if (q->xx != 0 || q->xy != 0 || q->xz != 0 || q->yy != 0 || q->yz != 0 || q->zz != 0) return 0;
-    for (uint32_t v = 0; v < p->vertex_count; v++)
-        if (vec3_max_abs(vec3_sub(vec3_at(p->vertices, v), e->center)) == 0) return 1;
-    return 0;
-}
-
 int shape_is_inner(const ovoid_shape *shape, const ovoid_ellipsoid *e) {
     ovoid_polytope p = ovoid_shape_get_polytope(shape);
     if (p.rank == 3) return ellipsoid_is_enclosed(&p, e);
-    return is_vertex(&p, e) || is_flat_inner(&p, &shape->measures, e, 1e-7 * shape->extent);
+    // One that is only a vertex lies inside, even if the rounded halfspaces do not show it (they do not for a ribbon of
+    // 1e40 by 1e25).
+    return ellipsoid_is_vertex(&p, e) || is_flat_inner(&p, &shape->measures, e, 1e-7 * shape->extent);
 }
 
 // The outer ellipsoid of a lean shape, which is not improved to the last.
@@ -191,7 +183,7 @@ ovoid_shape *shape_create_block(const hull *polytope, const block_making *how, o
     if (!room) error_write(error, OVOID_ERROR_MEMORY, -1, "no memory for the loops of %u facets", counts.facets);
     ovoid_shape *shape = room ? block_create(counts, how->allocator, error) : NULL;
     if (shape) {
-        block_fill(shape, &p, &polytope->form, room);
+        block_fill(shape, polytope, room);
         shape->support = support;
         support_table_fill(p.vertices, blocks, support.cell_count, (simd_cell *)((char *)shape + shape->at.cells));
     }

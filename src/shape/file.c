@@ -384,11 +384,19 @@ static int is_point_to_queries(const ovoid_polytope *p, const ovoid_ellipsoid *e
     return is_small && q->xx == 0 && q->xy == 0 && q->xz == 0 && q->yy == 0 && q->yz == 0 && q->zz == 0;
 }
 
-static ovoid_code validate_ellipsoids(const reader *r, const content *c, const ovoid_shape *shape) {
+// The centre of the inner ellipsoid is the point that proven triangles wind around, so that it need only meet none.
+static int is_inner(const content *c, const hull *polytope, const ovoid_shape *shape) {
+    int is_proven = c->at.triangle_count > 0 && polytope->rank == 3 && polytope->form.kind == FORM_NONE;
+    ovoid_polytope p = ovoid_shape_get_polytope(shape);
+    return is_proven ? ellipsoid_is_clear(&p, &c->inner.ellipsoid) : shape_is_inner(shape, &c->inner.ellipsoid);
+}
+
+static ovoid_code validate_ellipsoids(const reader *r, const content *c, const hull *polytope,
+                                      const ovoid_shape *shape) {
     ovoid_polytope p = ovoid_shape_get_polytope(shape);
     if (!ellipsoid_is_enclosing(&p, &c->outer.ellipsoid) && !is_point_to_queries(&p, &c->outer.ellipsoid))
         return refuse(r, OUTER_AT, "the outer ellipsoid does not enclose");
-    if (!shape_is_inner(shape, &c->inner.ellipsoid)) return refuse(r, INNER_AT, "the inner ellipsoid is not enclosed");
+    if (!is_inner(c, polytope, shape)) return refuse(r, INNER_AT, "the inner ellipsoid is not enclosed");
     return OVOID_OK;
 }
 
@@ -410,7 +418,7 @@ static ovoid_shape *make_shape(const reader *r, const content *c, hull *polytope
     if (!shape) return NULL;
     shape->report = c->report;
     shape_set_fits(shape, &c->outer, &c->inner);
-    if (!set_radius(r, c, shape) && !validate_ellipsoids(r, c, shape)) return shape;
+    if (!set_radius(r, c, shape) && !validate_ellipsoids(r, c, polytope, shape)) return shape;
     ovoid_shape_destroy(shape);
     return NULL;
 }

@@ -1,11 +1,13 @@
 // The boundaries of facets from triangles that know their facet: an edge is on the boundary where the facets of its two
 // sides differ. Around the end of a boundary edge, from triangle to triangle of the same facet, is the next one.
 //
-// Lists of neighbors ascend. So if the edges are taken in the order of the vertices they lead to, those that begin at
-// one vertex come in the order of its list, and a place that moves along each list numbers them without a search.
+// Lists of neighbors ascend. So if the edges are taken in the order of the vertices they begin at, those that lead to
+// one vertex come in the order of its list, and a place that moves along each list finds the edges back without a
+// search.
 #include "shape/loops.h"
 
 #include "polytope/centered_box.h"
+#include "polytope/hull.h"
 #include "shape/regular_loops.h"
 
 #include <string.h>
@@ -19,7 +21,7 @@ typedef struct tables {
     uint32_t *facets;                              // of directed edges, to the left
     uint32_t *next;                                // of directed edges, the next of the triangle or side to the left
     uint32_t *reverse;                             // of directed edges, the one back
-    uint32_t *corners;                             // of the corners of triangles, the edge that begins there
+    const uint32_t *corners;                       // of the corners of triangles, the edge that begins there
     uint32_t *places;                              // of vertices, working memory
     uint32_t *starts, *loop_vertices, *loop_edges; // of loops
 } tables;
@@ -38,25 +40,6 @@ static void start_lists(const tables *t) {
     memcpy(t->places, t->p->neighbor_starts, t->p->vertex_count * sizeof *t->places);
 }
 
-// Writes for each corner the directed edge that begins there. The corners are taken in the order of their vertices, so
-// that a place that moves along the list of the vertex that each edge leads to numbers the edge back.
-static void number_corners(tables *t) {
-    const uint32_t *corner = t->p->triangles;
-    // Memory of tables that are written behind this.
-    uint32_t count = 3 * t->p->triangle_count, *ordered = t->next, *heads = t->facets;
-    start_lists(t);
-    for (uint32_t i = 0; i < count; i += 3)
-        for (uint32_t k = 0; k < 3; k++) {
-            uint32_t at = t->places[corner[i + k]]++;
-            ordered[at] = i + k;
-            heads[at] = corner[i + (k == 2 ? 0 : k + 1)];
-        }
-    start_lists(t);
-    uint32_t *corners = t->corners, *places = t->places;
-    const uint32_t *reverse = t->reverse;
-    for (uint32_t i = 0; i < count; i++) corners[ordered[i]] = reverse[places[heads[i]]++];
-}
-
 // 1 if each facet is one triangle.
 static int has_triangles_alone(const tables *t) { return t->p->rank == 3 && t->p->facet_count == t->p->triangle_count; }
 
@@ -65,7 +48,6 @@ static void link_solid(tables *t) {
     uint32_t count = t->shape->counts.neighbors, *reverse = t->reverse, *places = t->places;
     const uint32_t *neighbors = t->p->neighbors;
     for (uint32_t i = 0; i < count; i++) reverse[i] = places[neighbors[i]]++;
-    number_corners(t);
     int needs_next = !has_triangles_alone(t);
     for (uint32_t i = 0; i < t->p->triangle_count; i++) {
         const uint32_t *edge = t->corners + 3 * (size_t)i, *corner = t->p->triangles + 3 * (size_t)i;
@@ -232,19 +214,18 @@ static void fill_regular(const tables *t, const regular_solid *solid) {
                                                 .room = t->next});
 }
 
-size_t loops_get_room(block_counts counts) {
-    return 3 * (size_t)counts.triangles + 2 * (size_t)counts.neighbors + counts.vertices;
-}
+size_t loops_get_room(block_counts counts) { return 2 * (size_t)counts.neighbors + counts.vertices; }
 
-void loops_fill(ovoid_shape *s, const ovoid_polytope *p, const closed_form *form, uint32_t *room) {
+void loops_fill(ovoid_shape *s, const hull *polytope, uint32_t *room) {
     const block_offsets *at = &s->at;
-    tables t = {.shape = s, .p = p};
+    const ovoid_polytope view = hull_get_polytope(polytope), *p = &view;
+    const closed_form *form = &polytope->form;
+    tables t = {.shape = s, .p = p, .corners = polytope->corner_edges};
     t.tails = get_table(s, at->edge_tails);
     t.facets = get_table(s, at->edge_facets);
     t.next = room;
     t.reverse = t.next + s->counts.neighbors;
     t.places = t.reverse + s->counts.neighbors;
-    t.corners = t.places + p->vertex_count;
     t.starts = get_table(s, at->loop_starts);
     t.loop_vertices = get_table(s, at->loop_vertices);
     t.loop_edges = get_table(s, at->loop_edges);

@@ -71,7 +71,7 @@ static inline uint32_t shape_find_edge(const ovoid_shape *s, uint32_t from, uint
 /// The numbers that loops_fill works with.
 size_t loops_get_room(block_counts counts);
 
-/// Fills the tables of a block whose polytope is there. form: of the polytope's arrays. Cost: linear.
-void loops_fill(ovoid_shape *shape, const ovoid_polytope *polytope, const closed_form *form, uint32_t *room);
+/// Fills the tables of a block whose polytope is there, that of the hull. Cost: linear.
+void loops_fill(ovoid_shape *shape, const struct hull *polytope, uint32_t *room);
 
 #endif

@@ -30,6 +30,11 @@ LANES_TARGET int box_separation_find_avx2(const box_separation_query *query, box
     return run_separation(query, out);
 }
 
+LANES_TARGET uint32_t heights_find_avx2(const simd_planes *planes, const heights_query *query,
+                                        const heights_result *out) {
+    return run_heights(planes, query, out);
+}
+
 LANES_TARGET simd_extents extents_find_avx2(const simd_points *points, const mat3 *rows) {
     return run_extents(points, rows);
 }

@@ -40,6 +40,8 @@ static const float_gjk_kernels *const float_gjk_alone_of[SIMD_ISA_COUNT] =
 static gauss_function *const gauss_of[SIMD_ISA_COUNT] = KERNELS(gauss_find_scalar, gauss_find_avx2, gauss_find_avx512);
 static const group_gjk_kernels *const group_gjk_of[SIMD_ISA_COUNT] =
     KERNELS(&group_gjk_scalar, &group_gjk_avx2, &group_gjk_avx512);
+static heights_function *const heights_of[SIMD_ISA_COUNT] =
+    KERNELS(heights_find_scalar, heights_find_avx2, heights_find_avx2);
 static const kept8_kernels *const kept8_of[SIMD_ISA_COUNT] = KERNELS(&kept8_scalar, &kept8_avx2, &kept8_avx512);
 static move8_function *const move8_of[SIMD_ISA_COUNT] = KERNELS(move8_run_scalar, move8_run_avx2, move8_run_avx512);
 static const pair8_kernels *const pair8_of[SIMD_ISA_COUNT] = KERNELS(&pair8_scalar, &pair8_avx2, &pair8_avx512);
@@ -78,6 +80,9 @@ const float_gjk_kernels *float_gjk_get_kernels(size_t couples) {
     return float_gjk_of[couples <= 8 && widest > SIMD_AVX2 ? SIMD_AVX2 : widest];
 }
 const group_gjk_kernels *group_gjk_get_kernels(size_t pairs) { return group_gjk_of[find_isa_of(pairs)]; }
+uint32_t heights_find(const simd_planes *planes, const heights_query *query, const heights_result *out) {
+    return heights_of[find_widest()](planes, query, out);
+}
 const kept8_kernels *kept8_get_kernels(size_t pairs) { return kept8_of[find_isa_of(pairs)]; }
 move8_function *move8_get(size_t bodies) { return move8_of[find_isa_of(bodies)]; }
 const pair8_kernels *pair8_get_kernels(size_t pairs) { return pair8_of[find_isa_of(pairs)]; }
@@ -111,6 +116,7 @@ gauss_function *gauss_get(simd_isa isa) { return has(isa) ? gauss_of[isa] : NULL
 simd_extents_function *simd_get_extents(simd_isa isa) { return has(isa) ? extents_of[isa] : NULL; }
 const float_gjk_kernels *float_gjk_get_kernels_of(simd_isa isa) { return has(isa) ? float_gjk_of[isa] : NULL; }
 const group_gjk_kernels *group_gjk_get_kernels_of(simd_isa isa) { return has(isa) ? group_gjk_of[isa] : NULL; }
+heights_function *heights_get(simd_isa isa) { return has(isa) ? heights_of[isa] : NULL; }
 const kept8_kernels *kept8_get_kernels_of(simd_isa isa) { return has(isa) ? kept8_of[isa] : NULL; }
 move8_function *move8_get_of(simd_isa isa) { return has(isa) ? move8_of[isa] : NULL; }
 const pair8_kernels *pair8_get_kernels_of(simd_isa isa) { return has(isa) ? pair8_of[isa] : NULL; }

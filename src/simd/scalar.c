@@ -31,6 +31,10 @@ int box_separation_find_scalar(const box_separation_query *query, box_separation
     return run_separation(query, out);
 }
 
+uint32_t heights_find_scalar(const simd_planes *planes, const heights_query *query, const heights_result *out) {
+    return run_heights(planes, query, out);
+}
+
 simd_extents extents_find_scalar(const simd_points *points, const mat3 *rows) { return run_extents(points, rows); }
 
 void move8_run_scalar(const move8_places *from, const move8_errors *errors, move8_result *out) {

@@ -12,7 +12,7 @@
 // more than the ellipse and the corners are off the plane. Cost: one pass over the corners.
 #include "smooth/smooth.h"
 
-#include "polytope/segment.h"
+#include "polytope/polygon.h"
 
 static const double rounding = 0x1p-53;
 

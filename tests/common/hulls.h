@@ -50,6 +50,13 @@ static inline void check_adjacency(const hull *h) {
             symmetric &= found == 1;
             ascending &= h->rank < 3 || i == h->neighbor_starts[v] || h->neighbors[i - 1] < w;
         }
+    // The edge at a corner of a triangle is in the list of that corner, and leads to the next one.
+    int known = 1;
+    for (uint32_t i = 0; i < 3 * h->triangle_count && h->corner_edges; i++) {
+        uint32_t e = h->corner_edges[i], v = h->triangles[i], to = h->triangles[i % 3 == 2 ? i - 2 : i + 1];
+        known &= e >= h->neighbor_starts[v] && e < h->neighbor_starts[v + 1] && h->neighbors[e] == to;
+    }
+    CHECK(known);
     CHECK(symmetric);
     CHECK(ascending);
 }

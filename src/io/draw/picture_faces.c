@@ -6,7 +6,7 @@
 #include "io/draw/picture_parts.h"
 
 #include "io/text.h"
-#include "polytope/segment.h"
+#include "polytope/polygon.h"
 
 #include <math.h>
 #include <stdlib.h>

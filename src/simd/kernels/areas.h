@@ -61,3 +61,26 @@ LANES_TARGET static void run_areas(const simd_triangles *t, vec3 *areas) {
         for (uint32_t k = 0; k < LANES && i + k < t->count; k++) areas[i + k] = (vec3){x[k], y[k], z[k]};
     }
 }
+
+// ---- heights ----
+
+// Which planes are listed follows no pattern: 64 comparisons are kept as bits, and the list is made of these, not plane
+// by plane.
+LANES_TARGET static uint32_t run_heights(const simd_planes *p, const heights_query *q, const heights_result *out) {
+    const lane3 point = {lane_set(q->point.x), lane_set(q->point.y), lane_set(q->point.z)};
+    const lane least = lane_set(q->least);
+    uint32_t found = 0;
+    for (uint32_t start = 0; start < p->count; start += 64) {
+        uint32_t count = p->count - start < 64 ? p->count - start : 64;
+        uint64_t bits = 0;
+        for (uint32_t k = 0, i = start; k < count; k += LANES, i += LANES) {
+            lane3 n = {lane_load(p->x + i), lane_load(p->y + i), lane_load(p->z + i)};
+            lane height = lane3_dot(n, point) - lane_load(p->offset + i);
+            lane_store(out->height + i, height);
+            bits |= (uint64_t)lane_bits(lane_at_least(height, least)) << k;
+        }
+        if (count < 64) bits &= ((uint64_t)1 << count) - 1;
+        for (; bits; bits &= bits - 1) out->near[found++] = (uint16_t)(start + (uint32_t)__builtin_ctzll(bits));
+    }
+    return found;
+}

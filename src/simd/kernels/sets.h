@@ -22,6 +22,7 @@ simd_extents_function extents_find_scalar, extents_find_avx2, extents_find_avx51
 extern const float_gjk_kernels float_gjk_scalar, float_gjk_avx2, float_gjk_avx512, float_gjk_alone;
 gauss_function gauss_find_scalar, gauss_find_avx2, gauss_find_avx512;
 extern const group_gjk_kernels group_gjk_scalar, group_gjk_avx2, group_gjk_avx512;
+heights_function heights_find_scalar, heights_find_avx2;
 extern const kept8_kernels kept8_scalar, kept8_avx2, kept8_avx512;
 move8_function move8_run_scalar, move8_run_avx2, move8_run_avx512;
 extern const pair8_kernels pair8_scalar, pair8_avx2, pair8_avx512;

@@ -156,8 +156,40 @@ static void check_round(void) {
     check_seed = 0;
 }
 
+// The mean of a cube's corners, 0, is in an ellipsoid along the axes by the sum of (c_k / r_k)^2; it is shown up to 0.9
+// of the ellipsoid. Far out the mean is known to a rounding of its coordinates alone, which a small ball does not hold.
+static void check_mean(void) {
+    uint64_t s = 81;
+    made m = made_box(1, 1, 1);
+    factor f;
+    double size;
+    for (int i = 0; i < 1000; i++) {
+        double c[3], square = 0;
+        sym3 q = {0, 0, 0, 0, 0, 0};
+        double *diagonal[3] = {&q.xx, &q.yy, &q.zz};
+        for (int k = 0; k < 3; k++) {
+            double radius = random_uniform(&s, 0.1, 1);
+            c[k] = random_uniform(&s, -1, 1) * radius;
+            *diagonal[k] = radius * radius;
+            square += c[k] * c[k] / *diagonal[k];
+        }
+        if (!CHECK(factor_make_quickly(q, &f, &size)) || fabs(sqrt(square) - 0.9) < 1e-9) continue;
+        CHECK_EQ(factor_holds_mean(&f, &m.p, vec3_at(c, 0)), sqrt(square) < 0.9);
+    }
+    made_destroy(&m);
+    double far[24];
+    for (int i = 0; i < 24; i++) far[i] = 1e8 + (i / 3 >> i % 3 & 1);
+    const ovoid_polytope p = {.vertices = far, .vertex_count = 8, .rank = 3};
+    for (int large = 0; large < 2; large++) {
+        double square = large ? 1e-12 : 1e-16;
+        CHECK(factor_make_quickly(sym3_diagonal(square, square, square), &f, &size));
+        CHECK_EQ(factor_holds_mean(&f, &p, vec3_make(1e8 + 0.5, 1e8 + 0.5, 1e8 + 0.5)), large);
+    }
+}
+
 int main(void) {
     check_round();
+    check_mean();
     check_cube();
     check_winding();
     check_sliver();

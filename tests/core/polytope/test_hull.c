@@ -47,8 +47,8 @@ static size_t put_sphere(uint64_t *s, size_t count, double radius) {
 }
 
 // Boxes: 8 vertices, 6 facets, everything else on a face or inside, whatever is put there.
-static void check_boxes(void) {
-    size_t n = put_grid_box((vec3){2, 3, 5}, 9);
+static void check_grids(int g) {
+    size_t n = put_grid_box((vec3){2, 3, 5}, g);
     hull h = check_hull(cloud, n);
     CHECK_EQ(h.vertex_count, 8);
     CHECK_EQ(h.facet_count, 6);
@@ -59,22 +59,29 @@ static void check_boxes(void) {
     // A full grid with integer coordinates: the inner ones are interior, not coplanar. Each twice, one as -0.
     n = 0;
     for (int twice = 0; twice < 2; twice++)
-        for (int i = 0; i < 7; i++)
-            for (int j = 0; j < 7; j++)
-                for (int k = 0; k < 7; k++) put(n++, (vec3){i ? i : twice ? -0.0 : 0.0, j, k});
+        for (int i = 0; i < g; i++)
+            for (int j = 0; j < g; j++)
+                for (int k = 0; k < g; k++) put(n++, (vec3){i ? i : twice ? -0.0 : 0.0, j, k});
+    uint64_t all = (uint64_t)(g * g * g), inner = (uint64_t)((g - 2) * (g - 2) * (g - 2));
     h = check_hull(cloud, n);
     CHECK_EQ(h.vertex_count, 8);
-    CHECK_EQ(h.report.duplicates, 343);
-    CHECK_EQ(h.report.interior, 335);
-    CHECK_EQ(h.report.coplanar, 343 - 125 - 8);
+    CHECK_EQ(h.report.duplicates, all);
+    CHECK_EQ(h.report.interior, all - 8);
+    CHECK_EQ(h.report.coplanar, all - inner - 8);
     hull_destroy(&h, &allocator);
+}
+
+static void check_boxes(void) {
+    check_grids(9);
+    // Few enough to be inserted one by one.
+    check_grids(5);
 
     // Rotated: rounding makes some points of the faces extreme; facets are seen as six all the same.
     uint64_t s = 3;
     for (int i = 0; i < 10; i++) {
-        n = put_grid_box((vec3){2, 3, 5}, 8);
+        size_t n = put_grid_box((vec3){2, 3, 5}, 8);
         rotate_cloud(n, random_rotation(&s));
-        h = check_hull(cloud, n);
+        hull h = check_hull(cloud, n);
         CHECK_EQ(h.rank, 3);
         CHECK_EQ(h.facet_count, 6);
         hull_destroy(&h, &allocator);
@@ -198,7 +205,7 @@ static void check_states(size_t count, size_t extreme) {
     points_destroy(&p, &allocator);
 }
 
-// The corner beyond each edge of a surface is the third one of the triangle across, which has both of the edge's ends.
+// The edge back of each edge of a surface begins where that ends; the corner beyond is the third one of its triangle.
 // Returns 0 where one is not, since facets that are found by such a corner need not come to an end.
 static int check_beyond(size_t count) {
     uint64_t seed = 78;
@@ -210,8 +217,11 @@ static int check_beyond(size_t count) {
     if (CHECK_EQ(quickhull_create(&p, &allocator, &s, NULL), OVOID_OK)) {
         is_right = 1;
         for (uint32_t i = 0; i < 3 * s.triangle_count; i++) {
-            const uint32_t *t = s.triangles + i / 3 * 3, *other = s.triangles + 3 * (size_t)s.across[i];
+            uint32_t across = surface_get_across(&s, i / 3, i % 3), back = s.across[i] % 4;
+            if (!CHECK(across < s.triangle_count && back < 3)) return 0;
+            const uint32_t *t = s.triangles + i / 3 * 3, *other = s.triangles + 3 * (size_t)across;
             uint32_t from = t[i % 3], to = t[(i + 1) % 3], sum = other[0] + other[1] + other[2];
+            is_right &= CHECK_EQ(other[back], to) & CHECK_EQ(other[(back + 1) % 3], from);
             is_right &= CHECK_EQ(surface_get_beyond(&s, i / 3, i % 3), sum - from - to);
         }
         surface_destroy(&s, &allocator);
@@ -234,6 +244,7 @@ static void check_many(void) {
     }
     hull_destroy(&h, &allocator);
     check_states(n, 3000);
+    check_states(90, 60);
 
     n = put_grid_box((vec3){2, 3, 5}, 21);
     h = check_hull(cloud, n);
@@ -317,7 +328,8 @@ static void check_tiny_differences(void) {
     uint64_t s = 4;
     for (int i = 0; i < 200; i++) {
         check_seed = s;
-        for (size_t k = 0; k < 30; k++) {
+        size_t n = i % 4 < 2 ? 30 : 200;
+        for (size_t k = 0; k < n; k++) {
             vec3 v = {1, 1, 1};
             double *c = &v.x;
             for (int a = 0; a < 3; a++) {
@@ -327,9 +339,9 @@ static void check_tiny_differences(void) {
             put(k, v);
         }
         hull h;
-        ovoid_code code = hull_create((xyz_points){cloud, 30}, &allocator, &h, NULL);
+        ovoid_code code = hull_create((xyz_points){cloud, n}, &allocator, &h, NULL);
         CHECK_EQ(code, OVOID_OK);
-        check_counts(&h, cloud, 30);
+        check_counts(&h, cloud, n);
         check_adjacency(&h);
         check_planes(&h);
         hull_destroy(&h, &allocator);
@@ -352,12 +364,13 @@ static double make_coordinate(int kind, int axis, uint64_t *s) {
     }
 }
 
-// Thousands of small bodies of every rank and degeneracy.
+// Thousands of small bodies of every rank and degeneracy; of each ninth there are more points than the incremental hull
+// takes, until the extreme ones are left.
 static void check_lattices(void) {
     uint64_t s = 100;
     for (int i = 0; i < 4000; i++) {
         check_seed = s;
-        size_t n = 1 + random_next(&s) % 40;
+        size_t n = i % 9 ? 1 + random_next(&s) % 40 : 2 * INCREMENTAL_MOST;
         int kind = i % 8;
         for (size_t k = 0; k < n; k++) {
             double x = make_coordinate(kind, 0, &s), y = make_coordinate(kind, 1, &s);
@@ -372,14 +385,15 @@ static void check_lattices(void) {
 
 // ---- trouble ----
 
-// A solid, a flat one, the same turned, a line; a solid of many points.
+// A solid, a flat one, the same turned, a line; a solid of many points, of few.
 static void check_memory(void) {
     uint64_t s = 6;
-    for (int kind = 0; kind < 5; kind++) {
-        size_t n = put_sphere(&s, kind < 4 ? 400 : 2100, 1);
+    static const size_t counts[] = {400, 400, 400, 400, 2100, 60};
+    for (int kind = 0; kind < 6; kind++) {
+        size_t n = put_sphere(&s, counts[kind], 1);
         for (size_t i = 0; i < n; i++) {
             vec3 v = vec3_at(cloud, i);
-            put(i, vec3_scale((vec3){v.x, kind != 3 ? v.y : 0, kind % 4 == 0 ? v.z : 0}, i % 2 ? 1 : 0.3));
+            put(i, vec3_scale((vec3){v.x, kind != 3 ? v.y : 0, kind % 4 < 2 && kind != 1 ? v.z : 0}, i % 2 ? 1 : 0.3));
         }
         if (kind == 2) rotate_cloud(n, random_rotation(&s));
         ovoid_code code = OVOID_ERROR_MEMORY;
@@ -423,7 +437,7 @@ static void check_errors(void) {
 int main(void) {
     allocator = allocator_make(NULL);
     // The triangles of 600 points are numbered along a walk.
-    if (!check_beyond(100) || !check_beyond(600)) return check_end();
+    if (!check_beyond(100) || !check_beyond(200) || !check_beyond(600)) return check_end();
     check_boxes();
     check_scales();
     check_far();

@@ -58,14 +58,9 @@ static void check_triangles(const ovoid_polytope *p) {
 
 // The block of the same triangles, moved: its tables are made in the general way.
 static void check_tables(const ovoid_shape *box, vec3 half) {
-    ovoid_polytope p = ovoid_shape_get_polytope(box);
     double moved[24];
     fill_corners(half, 2, moved);
-    p.vertices = moved;
-    ovoid_shape *general = block_create(box->counts, &allocator, NULL);
-    uint32_t room[512];
-    CHECK(general && loops_get_room(box->counts) <= 512);
-    block_fill(general, &p, &(closed_form){.kind = FORM_NONE}, room);
+    ovoid_shape *general = fill_in_general(box, moved);
     size_t edges = BOX_NEIGHBORS * sizeof(uint32_t), corners = edges + sizeof(uint32_t);
     CHECK(memcmp(shape_edge_tails(box), shape_edge_tails(general), edges) == 0);
     CHECK(memcmp(shape_edge_facets(box), shape_edge_facets(general), edges) == 0);

@@ -103,15 +103,9 @@ static void check_claims(const body *b, const ovoid_polytope *p) {
 
 // The block of the same arrays whose tables are made in the general way, and measures that are sums over triangles.
 static void check_tables(const body *b, const ovoid_shape *shape) {
-    ovoid_polytope p = ovoid_shape_get_polytope(shape);
     double moved[6 * 128];
     lift_body(b, moved);
-    p.vertices = moved;
-    ovoid_shape *general = block_create(shape->counts, &allocator, NULL);
-    uint32_t *room = malloc(loops_get_room(shape->counts) * sizeof *room);
-    CHECK(general && room);
-    block_fill(general, &p, &(closed_form){.kind = FORM_NONE}, room);
-    free(room);
+    ovoid_shape *general = fill_in_general(shape, moved);
     size_t from = shape->at.edge_tails;
     CHECK(memcmp((const char *)shape + from, (const char *)general + from, shape->at.size - from) == 0);
     // The error of a regular polygon is that of the middle of its area and of its main directions.

@@ -1,6 +1,7 @@
-// The kernel of areas: every instruction set against the definition in double-double, bit for bit, for all numbers of
-// triangles around the widths of lanes; and against long double. Tolerance: coordinates are of size 1, and the area is
-// rounded once, so an entry is off by 2^-53 of itself, beside the cancellation of long double, 2^-60.
+// The kernels of hulls. Areas: every instruction set against the definition in double-double, bit for bit, for all
+// numbers of triangles around the widths of lanes; and against long double. Tolerance: coordinates are of size 1, and
+// the area is rounded once, so an entry is off by 2^-53 of itself, beside the cancellation of long double, 2^-60.
+// Heights: every instruction set against the definition in doubles, bit for bit.
 #include "simd/areas.h"
 
 #include "check.h"
@@ -55,12 +56,40 @@ static void check_count(uint32_t count) {
     }
 }
 
+// ---- heights ----
+
+enum { PLANES = 200 };
+static double plane[4][PLANES];
+
+// Heights are small integers, so that many are exactly the least one.
+static void check_heights(uint32_t count, uint64_t *s) {
+    for (int i = 0; i < 4 * PLANES; i++) plane[i / PLANES][i % PLANES] = (double)(random_next(s) % 5) - 2;
+    heights_query query = {{0.5, -1, 2}, (double)(random_next(s) % 9) - 4};
+    for (int isa = 0; isa < SIMD_ISA_COUNT; isa++) {
+        heights_function *find = heights_get((simd_isa)isa);
+        if (!find) continue;
+        double height[PLANES];
+        uint16_t near[PLANES];
+        uint32_t at = 0;
+        uint32_t found = find(&(simd_planes){plane[0], plane[1], plane[2], plane[3], count}, &query,
+                              &(heights_result){height, near});
+        for (uint32_t i = 0; i < count; i++) {
+            vec3 n = {plane[0][i], plane[1][i], plane[2][i]};
+            double defined = vec3_dot(n, query.point) - plane[3][i];
+            CHECK(!memcmp(&defined, &height[i], sizeof defined));
+            if (defined >= query.least) CHECK(at < found && near[at++] == i);
+        }
+        CHECK_EQ(found, at);
+    }
+}
+
 int main(void) {
     uint64_t s = 5;
     for (int round = 0; round < 20; round++) {
         fill(&s, round % 2 ? 1 : 1e-12);
         for (uint32_t count = 0; count <= TRIANGLES; count++) check_count(count);
     }
-    CHECK(areas_get(SIMD_SCALAR) != NULL);
+    for (uint32_t count = 0; count <= PLANES - 8; count++) check_heights(count, &s);
+    CHECK(areas_get(SIMD_SCALAR) != NULL && heights_get(SIMD_SCALAR) != NULL);
     return check_end();
 }
