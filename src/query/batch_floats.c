@@ -59,6 +59,20 @@ static void write_verdict(const batch_floats *s, size_t index, const float_end *
     };
 }
 
+// The direction along which a couple's lower bound was found.
+static void write_normal(const batch_floats *s, size_t index, const float_column n[3], unsigned k) {
+    if (!s->normals) return;
+    for (int i = 0; i < 3; i++) s->normals[index][i] = n[i].lane[k];
+}
+
+static void write_corners(const batch_floats *s, size_t index, const float_found *found, unsigned k) {
+    for (int i = 0; s->corners && i < 4; i++) {
+        unsigned id = (unsigned)found->corner[i].lane[k];
+        s->corners[index][i][0] = (uint16_t)(id % FLOAT_GJK_POINTS);
+        s->corners[index][i][1] = (uint16_t)(id / FLOAT_GJK_POINTS);
+    }
+}
+
 static void write_end(batch_floats *s, const float_gjk *g, unsigned k, int is_inside) {
     const float_couple *couple = get_couple(s, &g->query, k);
     uint32_t steps = (uint32_t)g->steps.lane[k];
@@ -70,6 +84,10 @@ static void write_end(batch_floats *s, const float_gjk *g, unsigned k, int is_in
         .iterations = steps,
     };
     write_verdict(s, couple->index, &end);
+    if (is_inside)
+        write_corners(s, couple->index, &g->found, k);
+    else
+        write_normal(s, couple->index, g->n, k);
     free_couple(s, &g->query, k);
 }
 
@@ -89,7 +107,7 @@ static void end_lanes(batch_floats *s, const float_gjk *g, const float_ends *end
 // Advances the group until at most `few` lanes are live.
 static void run(batch_floats *s, const float_gjk_kernels *kernels, unsigned few) {
     while (count_lanes(s->group.live) > few) {
-        float_ends ends = kernels->advance(&s->group);
+        float_ends ends = (s->corners ? kernels->advance_named : kernels->advance)(&s->group);
         end_lanes(s, &s->group, &ends);
     }
 }
@@ -159,6 +177,7 @@ static void write_bounds(batch_floats *s, const float_query *q, const float_boun
         .stage = is_inside ? OVOID_STAGE_INNER : OVOID_STAGE_OUTER,
     };
     write_verdict(s, couple->index, &end);
+    if (!is_inside) write_normal(s, couple->index, q->start, k);
     free_couple(s, q, k);
 }
 
@@ -361,6 +380,22 @@ void batch_floats_take(batch_floats *s, size_t first) {
     }
     find_block(s, first + FLOATS, b);
     fetch_bodies(s->batch, first + 2 * FLOATS);
+}
+
+int batch_floats_fit(const ovoid_shape *a, const ovoid_shape *b) {
+    return fits(a, b) && shape_has_columns(a) && shape_has_columns(b);
+}
+
+void batch_floats_add(batch_floats *s, size_t index, const float_bodies *bodies) {
+    float_block *to = &s->few;
+    unsigned at = to->count++;
+    to->index[at] = index;
+    to->rows.pose_a[at] = &bodies->pose_a->position.x;
+    to->rows.pose_b[at] = &bodies->pose_b->position.x;
+    to->rows.shape_a[at] = (const void *)bodies->a;
+    to->rows.shape_b[at] = (const void *)bodies->b;
+    to->rows.extents[at] = bodies->a->extent + bodies->b->extent;
+    if (to->count == FLOATS) enter(s, to);
 }
 
 void batch_floats_end(batch_floats *s) {

@@ -33,6 +33,10 @@ typedef struct batch_floats {
     const ovoid_options *options;
     const ovoid_batch *batch;
     ovoid_verdict *verdicts;
+    float (*normals)[3]; ///< NULL, or of couples that are apart by more than their spheres the direction of the lower
+                         ///< bound, in the axes of A, of any length
+    uint16_t (*corners)[4][2]; ///< NULL, or of couples whose search ends with an overlap the vertices of A and B whose
+                               ///< differences have the origin inside
     void (*leave_open)(void *self, size_t index); ///< a couple that the search leaves open
     void (*pass_on)(void *self, size_t index);    ///< a couple that is not for floats, of which nothing is known
     /// A couple of more vertices than the search takes, open after the ellipsoids; n: their direction, in the frame of
@@ -55,6 +59,18 @@ void batch_floats_begin(batch_floats *s);
 /// Takes the FLOATS couples of the batch from `first` on, those after the ones that were taken before. They may be
 /// answered, left open or passed on now, as may those that waited.
 void batch_floats_take(batch_floats *s, size_t first);
+
+/// 1 if a couple is for batch_floats_add.
+int batch_floats_fit(const ovoid_shape *a, const ovoid_shape *b);
+
+/// Where a couple's numbers are.
+typedef struct float_bodies {
+    const ovoid_shape *a, *b;
+    const ovoid_pose *pose_a, *pose_b;
+} float_bodies;
+
+/// Takes a couple that fits, in the place of those of a batch.
+void batch_floats_add(batch_floats *s, size_t index, const float_bodies *bodies);
 
 /// Ends all that wait.
 void batch_floats_end(batch_floats *s);

@@ -684,6 +684,8 @@ static void begin_floats(batch_state *c, batch_floats *floats) {
     floats->options = c->options;
     floats->batch = c->batch;
     floats->verdicts = c->batch->verdicts;
+    floats->normals = NULL;
+    floats->corners = NULL;
     floats->leave_open = leave_float_open;
     floats->pass_on = take_float_odd;
     floats->search_alone = take_large;

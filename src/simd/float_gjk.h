@@ -155,6 +155,8 @@ typedef struct float_gjk_kernels {
     /// Searches the lanes for nearest points, from the line of centres to the end: near, inside or open. Of their
     /// queries only the rotation, translation and claim are read.
     float_ends (*approach)(float_gjk *s, unsigned lanes);
+    /// `advance` that counts too which vertices the corners are of: in `found` the four of lanes that end inside.
+    float_ends (*advance_named)(float_gjk *s);
 } float_gjk_kernels;
 
 /// The kernels for so many couples: of the widest instruction set of this machine that they fill.

@@ -32,6 +32,7 @@ static void decide_chunk(ovoid_world *w, world_pair *pairs, uint32_t count, chun
     }
     *out = (chunk){.queried = open_count};
     open_count = pairs_revalidate(w, pairs, open, open_count);
+    open_count = pairs_ask_floats(w, pairs, open, open_count);
     for (uint32_t i = 0; i < open_count; i++) {
         step_prefetch(w, pairs, open, i, open_count);
         pair_update_with(w, &pairs[open[i]], NULL);
@@ -71,7 +72,7 @@ enum { AHEAD = 12 };
 
 static void prefetch_contact(const ovoid_world *w, const world_pair *p) {
     if (!(p->flags & PAIR_CONTACT)) return;
-    prefetch_two_lines(&w->pair_cache[p->slot]);
+    compiler_prefetch(&w->pair_cache[p->slot]);
     compiler_prefetch(&w->places[p->b]);
     compiler_prefetch(&w->bodies[p->a].user);
     compiler_prefetch(&w->bodies[p->b].user);

@@ -29,6 +29,10 @@ double pair_compute_age(const ovoid_world *w, const world_pair *p, const pair_ca
 /// ones.
 int pair_revalidate(const ovoid_world *w, const world_pair *p, pair_cache *cache);
 
+/// Asks pairs[items[0]], ... in single precision, where a yes or no is wanted: the items of those that still have no
+/// answer are moved to the front; their number.
+uint32_t pairs_ask_floats(ovoid_world *w, world_pair *pairs, uint16_t *items, uint32_t count);
+
 /// pair_revalidate for pairs[items[0]], ...: the items of those that still have no answer are moved to the front; their
 /// number. Cached proofs are measured eight at a time.
 uint32_t pairs_revalidate(ovoid_world *w, world_pair *pairs, uint16_t *items, uint32_t count);

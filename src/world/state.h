@@ -71,20 +71,20 @@ typedef struct world_pair {
                     ///< CHECK: kind and c are new in this step, and not yet compared
 } world_pair;
 
-/// The cached answer of a pair's last query: two cache lines.
+/// The cached answer of a pair's last query: two cache lines. Contacts are written from the first one.
 typedef struct pair_cache {
     _Alignas(64) vec3 between; ///< d at that time
     double travel;             ///< t at that time
     double lower, upper;       ///< of the signed distance at that time
-    vec3 normal;               ///< of the lower bound, world; zero: none
+    uint32_t part_a, part_b;
+    uint32_t iterations;
+    uint8_t status, stage, limit, proof; ///< ovoid_status, ovoid_stage, ovoid_limit, ovoid_proof_kind
+    vec3 normal;                         ///< of the lower bound, world; zero: none
     union {
         vec3 inner;           ///< INNER: the common point, A's body frame
         uint16_t entry[6][2]; ///< the proof's vertices of A and B
     } of;
-    uint32_t part_a, part_b;
-    uint32_t iterations;
-    uint8_t status, stage, limit, proof; ///< ovoid_status, ovoid_stage, ovoid_limit, ovoid_proof_kind
-    uint8_t count;                       ///< entries of the proof
+    uint8_t count; ///< entries of the proof
 } pair_cache;
 
 /// The surface that the next depth of a pair of shapes starts from; only where the pair's cached proof is a cover.

@@ -6,7 +6,7 @@
 #include "world/pair_update.h"
 
 /// Pairs are decided and written in chunks of so many.
-enum { CHUNK = 512 };
+enum { CHUNK = 1024 };
 
 static inline uint32_t step_get_chunk_size(const ovoid_world *w, uint32_t c) {
     size_t rest = w->pair_count - (size_t)c * CHUNK;

@@ -12,8 +12,9 @@
 #include "simd/kernels/float_ellipsoids.h"
 #include "simd/kernels/float_spheres.h"
 
-const float_gjk_kernels float_gjk_alone = {LANES,          run_float_spheres, run_float_ellipsoids, run_float_append,
-                                           run_float_fill, run_float_load,    run_float_advance,    run_float_approach};
+const float_gjk_kernels float_gjk_alone = {
+    LANES,          run_float_spheres, run_float_ellipsoids, run_float_append, run_float_fill,
+    run_float_load, run_float_advance, run_float_approach,   run_float_advance};
 
 #else
 #include "simd/kernels/sets.h"

@@ -10,8 +10,8 @@
 #include "simd/kernels/float_spheres.h"
 
 const float_gjk_kernels float_gjk_avx512 = {
-    LANES,          run_float_spheres, run_float_ellipsoids, run_float_append,
-    run_float_fill, run_float_load,    run_float_advance,    run_float_approach};
+    LANES,          run_float_spheres, run_float_ellipsoids, run_float_append,       run_float_fill,
+    run_float_load, run_float_advance, run_float_approach,   run_float_advance_named};
 
 #else
 #include "simd/kernels/sets.h"

@@ -192,14 +192,16 @@ LANES_INLINE unsigned replace_corner(float_walk *k, unsigned kept, lane3 w) {
 
 // Takes the step to a new corner, if it gains: a support that is a corner again gains nothing, and a height within the
 // error says nothing of the sign.
-LANES_INLINE float_end advance_walk(float_gjk *s, float_walk *k, lane3 w) {
+LANES_INLINE float_end advance_walk(float_gjk *s, float_walk *k, const float_meeting *m) {
+    lane3 w = m->w;
+    *s->found.corner[3].lane = m->id;
     float_step next = take_step(k->old, k->valid, w);
     if (next.is_inside) return test_inside(s, k, w);
     float claim = *s->query.claim.lane, high = lane3_dot(next.n, w), norm = lane3_dot(next.n, next.n);
     int gains =
         (high * high * k->square < k->height * k->height * norm) & is_clear(high, norm, claim) & (k->steps < s->most);
     if (!gains) return FLOAT_OPEN;
-    (void)replace_corner(k, next.kept, w);
+    *s->found.corner[replace_corner(k, next.kept, w)].lane = m->id;
     k->n = next.n;
     k->height = high;
     k->square = norm;
@@ -220,9 +222,10 @@ LANES_INLINE float_end search(float_gjk *s, int count) {
         float_meeting m = find_meeting(s, k.n, count);
         k.steps += 1;
         end = test_bounds(s, &k, &m);
-        if (end == FLOAT_GOES) end = advance_walk(s, &k, m.w);
+        if (end == FLOAT_GOES) end = advance_walk(s, &k, &m);
     }
     *s->steps.lane = k.steps;
+    put3(s->n, 0, k.n);
     return end;
 }
 

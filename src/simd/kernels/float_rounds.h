@@ -92,12 +92,13 @@ LANES_INLINE void add_ends(float_ends *all, const lane_mask ends[3], lane_mask g
 }
 
 // In the lanes that go on the new corner takes the place of the first that does not stay.
-LANES_INLINE void replace_corner(float_gjk *s, int at, const lane_step *step, lane3 w) {
+LANES_INLINE void replace_corner(float_gjk *s, int at, const lane_step *step, const float_meeting *m, int has_ids) {
     lane_mask taken = lane_not(step->goes);
     for (int i = 0; i < 3; i++) {
         lane_mask here = lane_and(lane_not(taken), lane_not(step->keeps[i]));
         taken = lane_or(taken, here);
-        put_some3(&s->old[3 * i], at, here, w);
+        put_some3(&s->old[3 * i], at, here, m->w);
+        if (has_ids) put_some(&s->found.corner[i], at, here, m->id);
         lane_mask stays = lane_or(here, step->keeps[i]), was = lane_sign(get(&s->is_valid[i], at));
         stays = lane_or(lane_and(step->goes, stays), lane_and(lane_not(step->goes), was));
         lane_store_mask(s->is_valid[i].lane + at, stays);
@@ -110,7 +111,7 @@ LANES_INLINE float_meeting find_meeting(const float_gjk *s, lane3 n, int at, int
     return meet(s, n, at, high_a, low_b);
 }
 
-LANES_INLINE void advance_lanes(float_gjk *s, int at, int count, float_ends *all) {
+LANES_INLINE void advance_lanes(float_gjk *s, int at, int count, float_ends *all, int has_ids) {
     lane3 n = get3(s->n, at), old[3];
     lane_mask valid[3];
     unsigned live = get_lanes(s->live, at);
@@ -139,6 +140,7 @@ LANES_INLINE void advance_lanes(float_gjk *s, int at, int count, float_ends *all
         lane depth = measure_tetrahedron(old, m.w);
         inside = lane_and(inside, lane_greater(depth, claim));
         upper = lane_select(inside, claim - depth, upper);
+        if (has_ids) put(&s->found.corner[3], at, m.id);
     }
     lane high = lane3_dot(step.n, m.w), norm = lane3_dot(step.n, step.n);
     lane_mask gains = lane_less(high * high * square, height * height * norm);
@@ -147,7 +149,7 @@ LANES_INLINE void advance_lanes(float_gjk *s, int at, int count, float_ends *all
         lane_and(gains, lane_and(lane_greater(norm, lane_set(1e-30)), lane_greater(high * high, claim * claim * norm)));
     gains = lane_and(gains, lane_less(steps, lane_set(s->most)));
     step.goes = lane_and(lane_and(goes, lane_not(step.inside)), lane_and(gains, lane_from_bits(live)));
-    replace_corner(s, at, &step, m.w);
+    replace_corner(s, at, &step, &m, has_ids);
     put_some3(s->n, at, step.goes, step.n);
     put(&s->height, at, lane_select(step.goes, high, height));
     put(&s->square, at, lane_select(step.goes, norm, square));
@@ -157,10 +159,10 @@ LANES_INLINE void advance_lanes(float_gjk *s, int at, int count, float_ends *all
     add_ends(all, (lane_mask[3]){apart, near, inside}, step.goes, live, at);
 }
 
-LANES_INLINE float_ends advance_all(float_gjk *s, int count) {
+LANES_INLINE float_ends advance_all(float_gjk *s, int count, int has_ids) {
     float_ends all = {0, 0, 0, 0};
     for (int at = 0; has_more(s->live, at); at += LANES)
-        if (get_lanes(s->live, at)) advance_lanes(s, at, count, &all);
+        if (get_lanes(s->live, at)) advance_lanes(s, at, count, &all, has_ids);
     s->live &= ~(all.apart | all.near | all.inside | all.open);
     return all;
 }
@@ -179,7 +181,13 @@ LANES_INLINE float_ends advance_all(float_gjk *s, int count) {
 #endif
 
 LANES_TARGET static float_ends run_float_advance(float_gjk *s) {
-#define RUN(count) advance_all(s, count)
+#define RUN(count) advance_all(s, count, 0)
+    FLOAT_RETURN_OF_BLOCKS(s->blocks, RUN);
+#undef RUN
+}
+
+LANES_TARGET static float_ends run_float_advance_named(float_gjk *s) {
+#define RUN(count) advance_all(s, count, 1)
     FLOAT_RETURN_OF_BLOCKS(s->blocks, RUN);
 #undef RUN
 }

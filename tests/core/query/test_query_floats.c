@@ -3,8 +3,13 @@
 // status, and within or not, of the single query; a bracket as narrow as its, and a proof that holds, of a distance;
 // the same bits from every vector width, in another order, in batches of every length. The bodies are hulls, needles,
 // plates, flat polygons and bodies far from their frames' origins, large beside small, of scales from 1e-46 to 1e46, at
-// gaps and overlaps of 1e-8 to 1 of the size, touching, and in one place.
+// gaps and overlaps of 1e-8 to 1 of the size, touching, and in one place. What a verdict rests on, of couples that are
+// added one by one: its direction and its vertices, measured in doubles.
 #include "bits.h"
+
+#include "linear/rotation.h"
+#include "pair/hull.h"
+#include "query/batch_floats.h"
 
 enum { SHAPES = 24, COUPLES = 400, LENGTHS = 36 };
 enum { COLLIDE, WITHIN, DISTANCE, QUESTIONS };
@@ -125,6 +130,104 @@ static void check_width(void) {
     check_neighbors(asked);
 }
 
+// ---- what a verdict rests on
+
+typedef struct ends {
+    ovoid_verdict verdicts[COUPLES];
+    float normals[COUPLES][3];
+    uint16_t corners[COUPLES][4][2];
+    unsigned char is_open[COUPLES];
+} ends;
+
+static long directions, tetrahedra;
+
+static void leave_open(void *self, size_t index) { ((ends *)self)->is_open[index]++; }
+
+// is_alone: none waits for another.
+static void find_ends(simd_isa isa, int is_alone, ends *found) {
+    memset(found, 0, sizeof *found);
+    static batch_floats floats;
+    ovoid_options options;
+    query_goal goal = query_goal_make_within(margin);
+    if (!CHECK(options_make(NULL, &options))) return;
+    goal.iterations = options.iterations;
+    floats.kernels = float_gjk_get_kernels_of(isa);
+    floats.alone = isa == SIMD_SCALAR ? floats.kernels : float_gjk_get_kernels(1);
+    floats.goal = &goal;
+    floats.options = &options;
+    floats.batch = NULL;
+    floats.verdicts = found->verdicts;
+    floats.normals = found->normals;
+    floats.corners = found->corners;
+    floats.leave_open = floats.pass_on = leave_open;
+    floats.search_alone = NULL;
+    floats.self = found;
+    batch_floats_begin(&floats);
+    for (int i = 0; i < COUPLES; i++) {
+        const ovoid_posed_shape *a = &bodies[2 * i], *b = a + 1;
+        if (batch_floats_fit(a->shape, b->shape))
+            batch_floats_add(&floats, (size_t)i, &(float_bodies){a->shape, b->shape, &a->pose, &b->pose});
+        else
+            leave_open(found, (size_t)i);
+        if (is_alone) batch_floats_end(&floats);
+    }
+    batch_floats_end(&floats);
+}
+
+static vec3 place_vertex(const ovoid_posed_shape *body, uint32_t i) {
+    vec3 v = vec3_at(shape_vertices(body->shape), i);
+    return vec3_add(body->pose.position, mat3_mul_vec3(quat_to_mat3(body->pose.rotation), v));
+}
+
+// The gap along the direction, of the vertices in doubles, is not below the bound.
+static void check_direction(int i, const float normal[3], double lower) {
+    const ovoid_posed_shape *a = &bodies[2 * i], *b = a + 1;
+    vec3 n = mat3_mul_vec3(quat_to_mat3(a->pose.rotation), (vec3){normal[0], normal[1], normal[2]});
+    double high = -INFINITY, low = INFINITY, norm = vec3_norm(n);
+    for (uint32_t k = 0; k < a->shape->vertex_count; k++)
+        high = fmax(high, vec3_dot(n, vec3_sub(place_vertex(a, k), a->pose.position)));
+    for (uint32_t k = 0; k < b->shape->vertex_count; k++)
+        low = fmin(low, vec3_dot(n, vec3_sub(place_vertex(b, k), a->pose.position)));
+    CHECK((low - high) / norm >= lower);
+    directions++;
+}
+
+// The differences of the vertices hold a ball as large as the bound says.
+static void check_corners(int i, const uint16_t corners[4][2], double upper) {
+    const ovoid_posed_shape *a = &bodies[2 * i], *b = a + 1;
+    vec3 w[4];
+    for (int k = 0; k < 4; k++) {
+        if (!CHECK(corners[k][0] < a->shape->vertex_count && corners[k][1] < b->shape->vertex_count)) return;
+        w[k] = vec3_sub(place_vertex(b, corners[k][1]), place_vertex(a, corners[k][0]));
+    }
+    CHECK(hull_compute_depth(w, 4, 0) >= -upper);
+    tetrahedra++;
+}
+
+static void check_ends(void) {
+    static ends truth, found;
+    find_ends(SIMD_SCALAR, 0, &truth);
+    for (int i = 0; i < COUPLES; i++) {
+        const ovoid_verdict *v = &truth.verdicts[i];
+        check_seed = (uint64_t)i;
+        CHECK(truth.is_open[i] == (v->status == OVOID_UNDECIDED));
+        CHECK(truth.is_open[i] || memcmp(v, &verdicts[i], sizeof *v) == 0);
+        if (v->status == OVOID_SEPARATED && v->stage != OVOID_STAGE_SPHERE)
+            check_direction(i, truth.normals[i], v->lower);
+        if (v->status == OVOID_OVERLAPPING && v->stage == OVOID_STAGE_GJK)
+            check_corners(i, (const uint16_t(*)[2])truth.corners[i], v->upper);
+    }
+    for (int isa = 0; isa < SIMD_ISA_COUNT; isa++) {
+        if (!float_gjk_get_kernels_of((simd_isa)isa)) continue;
+        for (int is_alone = 0; is_alone < 2; is_alone++) {
+            find_ends((simd_isa)isa, is_alone, &found);
+            CHECK(memcmp(&found, &truth, sizeof found) == 0);
+        }
+    }
+}
+
+// ---- all
+
 static void check_scale(uint64_t *s) {
     margin = 1e-3 * scale;
     for (int i = 0; i < SHAPES; i++)
@@ -139,6 +242,7 @@ static void check_scale(uint64_t *s) {
             check_beside_single(asked, i);
         }
         if (asked == DISTANCE) check_answers();
+        if (asked == WITHIN) check_ends();
         check_neighbors(asked);
         bits_run_narrower(check_width);
     }
@@ -208,6 +312,8 @@ int main(void) {
     printf("spheres %ld, outer %ld, inner %ld, supports %ld, gjk %ld, others %ld\n", stages[OVOID_STAGE_SPHERE],
            stages[OVOID_STAGE_OUTER], stages[OVOID_STAGE_INNER], stages[OVOID_STAGE_SUPPORT], stages[OVOID_STAGE_GJK],
            stages[OVOID_STAGE_EPA] + stages[OVOID_STAGE_REFINE]);
+    printf("%ld directions, %ld tetrahedra\n", directions, tetrahedra);
+    CHECK(directions > 100 && tetrahedra > 100);
     check_options(&s);
     check_plain(&s);
     return check_end();
