@@ -185,6 +185,8 @@ int robot_settle(const cli_command *command, const robot_settings *settings) {
         return args_complain(command, "%s: --hull does not go with --parts", command->name);
     if (settings->free_base && settings->fixed_base)
         return args_complain(command, "%s: --free-base does not go with --fixed-base", command->name);
+    if (settings->free_base && !settings->srdf)
+        return args_complain(command, "%s: --free-base is of the virtual joint of an SRDF: --srdf FILE", command->name);
     return -1;
 }
 
