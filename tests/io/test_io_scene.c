@@ -264,7 +264,8 @@ static const bad_input bad_scenes[] = {
     {"c_radius.json", OBJECT("\"radius\": 1,\n\"compound\": [{\"sphere\": 1}]"), 4, "\"radius\" is for the parts"},
     {"c_scale.json", OBJECT("\"compound\": [{\"sphere\": 1}],\n\"scale\": 2"), 5, "\"scale\" is for meshes and points"},
     {"c_name.json", OBJECT("\"compound\": [{\"sphere\": 1},\n{\"sphere\": 1, \"name\": \"x\"}]"), 5,
-     "object \"b\": part 1: \"name\" is not a key of parts (pose, mesh, box, sphere, capsule, cylinder, cone, ellipsoid, "
+     "object \"b\": part 1: \"name\" is not a key of parts (pose, mesh, box, sphere, capsule, cylinder, cone, "
+     "ellipsoid, "
      "points, radius, allowance, hull, parts, scale, unit)"},
     {"c_nested.json", OBJECT("\"compound\": [\n{\"compound\": [{\"sphere\": 1}]}]"), 5,
      "part 0: \"compound\" is not a key of parts"},
