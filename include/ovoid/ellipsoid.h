@@ -91,7 +91,7 @@ OVOID_API double ovoid_ellipsoid_compute_volume(const ovoid_ellipsoid *ellipsoid
 /** The ellipsoid under a pose: R Q R' and the moved centre. Rounded; not proven to contain anything. */
 OVOID_API ovoid_ellipsoid ovoid_ellipsoid_compute_posed(const ovoid_ellipsoid *ellipsoid, const ovoid_pose *pose);
 
-/** Nearest points of two ellipsoids, or of a point and one. */
+/** Nearest points of two ellipsoids, or of a point and one. Their numbers must be finite: this is not checked. */
 typedef struct ovoid_nearest {
     ovoid_vec3 point_a, point_b;
     ovoid_vec3 normal; /**< unit, from a to b; if they are apart, the direction of the largest gap */

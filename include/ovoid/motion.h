@@ -129,8 +129,8 @@ typedef struct ovoid_step_group {
 
 /** Options of queries about motions; all zero, or NULL, is the default. */
 typedef struct ovoid_motion_options {
-    double begin, end; /**< the times queried; both 0: from the later begin to the earlier end of the motions, from 0 to
-                          0 if both stand still */
+    double begin, end; /**< the times queried, which both motions must have; both 0: from the later begin to the earlier
+                          end of the motions, from 0 to 0 if both stand still */
     double tolerance;  /**< impact: of hit_at - free_until, relative to end - begin; 0 means 1e-9, for casts 1e-12.
                           approach: of upper - lower, relative to the pair's size; 0 means 1e-6 */
     uint32_t iterations;        /**< most steps and queries; 0 means 10 000 */

@@ -54,9 +54,9 @@ typedef enum ovoid_limit {
     OVOID_LIMIT_CAPACITY,   /**< the depth search filled its working memory; a cover may bring more */
     OVOID_LIMIT_POSE_A,     /**< refused: pose_a has NaN, infinity, a length out of range or a zero quaternion */
     OVOID_LIMIT_POSE_B,     /**< refused: pose_b, for the same reasons */
-    OVOID_LIMIT_OPTIONS,    /**< refused: NaN or a negative tolerance in the options */
-    OVOID_LIMIT_SHAPE_A, /**< refused: there is no shape_a (NULL); or a body has neither a shape nor a compound, or both
-                          */
+    OVOID_LIMIT_OPTIONS,    /**< refused: a tolerance, cap or margin that is NaN or negative */
+    OVOID_LIMIT_SHAPE_A, /**< refused: there is no shape_a (NULL); or a body has not exactly one of shape, compound and
+                            solid */
     OVOID_LIMIT_SHAPE_B, /**< refused: shape_b, for the same reasons */
     OVOID_LIMIT_ALLOWANCE, /**< the shapes' allowances leave the sign of d, or the margin, open; no search can narrow
                               the bracket */

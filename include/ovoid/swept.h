@@ -54,8 +54,9 @@ typedef struct ovoid_swept_pair {
 /**
  * Do the bodies have a common point? SEPARATED and OVERLAPPING are true whatever was rounded, with a bracket of the
  * signed distance around which no more is known than its sign. Undecided: a sign that rounding leaves open; numbers
- * that are not finite, a radius below 0, sizes and distances that are not between 1e-50 and 1e50. Spheres around the
- * bodies that are apart decide in any case but the last. Cost: 10 to 60 ns in closed form, of a search 40 to 200 ns.
+ * that are not finite, a radius or a half length below 0, sizes and distances that are together not between 1e-50 and
+ * 1e50. Axes are not looked at where spheres around the bodies are apart. Cost: 10 to 60 ns in closed form, of a search
+ * 40 to 200 ns.
  */
 OVOID_API ovoid_verdict ovoid_swept_collide(ovoid_swept_pair pair);
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import math
 import os
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
@@ -89,6 +90,8 @@ def draw(*items: Any, title: str | None = None, unit: str | None = None, width: 
         layers = layers or ("witness", "names", "legend", "meshes")  # ellipsoids would bury a robot
     parts, firsts = _list_parts(scene)
     x, y, z = view
+    if not (0 <= width < 2**31 and 0 <= height < 2**31 and all(map(math.isfinite, view))):
+        raise Error(f"width, height: pixels are wanted, view: a direction, not {width}, {height}, {view}", Code.ARGUMENT)
     return Picture(_ovoid._draw(parts, _list_links(scene, firsts), title, unit, width, height, (x, y, z), _read_layers(layers)))
 
 

@@ -152,7 +152,7 @@ def _refuse_bool(self: object) -> NoReturn:
 
 class StateAnswer(NamedTuple):
     """What is proven of a state: a RobotStatus; of HIT and UNDECIDED the Sides of the pair and the bracket of its
-    signed distance; of REFUSED the Code and the variable."""
+    signed distance; of REFUSED the Code and the variable; Code.EMPTY of UNDECIDED where no pair is queried."""
 
     status: RobotStatus
     a: Side | None
@@ -266,8 +266,8 @@ class Trajectory(NamedTuple):
 
 class Clearance(NamedTuple):
     """The smallest clearance of a path: lower <= the least signed distance <= upper, proven. at: where a pair, of Sides a and b,
-    is no farther apart than upper, or None. status: a RobotStatus against the margin; of REFUSED which state, Code and variable.
-    looked_at: states."""
+    is no farther apart than upper, or None. status: a RobotStatus against the margin; of REFUSED which state, Code and variable;
+    Code.EMPTY of UNDECIDED where no pair is queried. looked_at: states."""
 
     status: RobotStatus
     lower: float

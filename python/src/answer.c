@@ -88,12 +88,11 @@ int cover_room_keep(cover_room *room, kept_cover **to) {
     return failed;
 }
 
-int limit_raise(module_state *state, ovoid_limit limit) {
-    const char *what = limit == OVOID_LIMIT_POSE_A   ? "pose_a: the body would lie beyond the range of lengths, 1e50"
-                       : limit == OVOID_LIMIT_POSE_B ? "pose_b: the body would lie beyond the range of lengths, 1e50"
-                       : limit == OVOID_LIMIT_OPTIONS
-                           ? "a margin, tolerance, cap, time or ray is negative, NaN or out of range"
-                           : NULL;
+int limit_raise(module_state *state, ovoid_limit limit, const char *options) {
+    const char *what = limit == OVOID_LIMIT_POSE_A    ? "pose_a: the body would lie beyond the range of lengths, 1e50"
+                       : limit == OVOID_LIMIT_POSE_B  ? "pose_b: the body would lie beyond the range of lengths, 1e50"
+                       : limit == OVOID_LIMIT_OPTIONS ? options
+                                                      : NULL;
     if (!what) return 0;
     raise_code(state, limit == OVOID_LIMIT_OPTIONS ? OVOID_ERROR_ARGUMENT : OVOID_ERROR_RANGE, -1, "%s", what);
     return -1;

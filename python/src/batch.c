@@ -296,7 +296,7 @@ static int validate_input(module_state *state, const batch_input *in, const job 
     }
     const ovoid_options *o = &j->options;
     if (o->absolute_tolerance >= 0 && o->relative_tolerance >= 0 && o->cap >= 0 && j->margin >= 0) return 0;
-    return limit_raise(state, OVOID_LIMIT_OPTIONS);
+    return limit_raise(state, OVOID_LIMIT_OPTIONS, QUERY_REFUSED);
 }
 
 #define BATCH_NAMES QUERY_NAMES, "threads", "out", "witnesses", "proofs", "progress", NULL
@@ -338,7 +338,8 @@ static PyObject *depth_batch(PyObject *module, PyObject *arguments, PyObject *ke
     "*, " QUERY_SIGNATURE ", threads: int = 1, out: Records | None = None, witnesses: bool | Records = False, "        \
     "proofs: Records | None = None, progress: Progress | None = None) -> Any\n--\n\n"
 #define BATCH_DOC                                                                                                      \
-    " for each couple, with the same bits.\n\nbodies: Bodies. couples: integers (m, 2), which bodies; uint32 and "     \
+    " for each couple, with the same status and a true bracket, whatever couples are beside it.\n\nbodies: Bodies. "   \
+    "couples: integers (m, 2), which bodies; uint32 and "                                                              \
     "int64 are "                                                                                                       \
     "not copied. Returns an array of m records:\nstatus, stage, limit, iterations, lower, upper (ovoid.Status and "    \
     "the like "                                                                                                        \

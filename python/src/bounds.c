@@ -26,7 +26,7 @@ static PyObject *bounds(PyObject *module, PyObject *arguments, PyObject *keyword
     if (!to) return NULL;
     ovoid_answer answer = ovoid_pair_compute_bounds(&pair);
     to->of = ovoid_body_answer_make(&answer, 0, 0);
-    if (!limit_raise(state, to->of.limit)) return (PyObject *)to;
+    if (!limit_raise(state, to->of.limit, QUERY_REFUSED)) return (PyObject *)to;
     Py_DECREF((PyObject *)to);
     return NULL;
 }

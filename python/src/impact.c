@@ -5,6 +5,11 @@
 #include <math.h>
 #include <stdlib.h>
 
+#define MOTION_REFUSED                                                                                                 \
+    "a margin, tolerance or number of iterations is negative or NaN, or begin and end are not times that both "        \
+    "motions have"
+#define RAY_REFUSED "the ray is refused: NaN, too large, a direction of zero, or a negative length or radius"
+
 static ovoid_moving_body make_moving(module_state *state, PyObject *body, PyObject *motion) {
     ovoid_body of = body_make(state, body, ovoid_pose_make_identity());
     return (ovoid_moving_body){
@@ -101,7 +106,7 @@ static PyObject *find(module_state *state, moving_input *in, int what) {
         return NULL;
     }
     if (in->iterations > UINT32_MAX || !(in->margin >= 0)) {
-        limit_raise(state, OVOID_LIMIT_OPTIONS);
+        limit_raise(state, OVOID_LIMIT_OPTIONS, MOTION_REFUSED);
         return NULL;
     }
     in->options.iterations = (uint32_t)in->iterations;
@@ -116,7 +121,7 @@ static PyObject *find(module_state *state, moving_input *in, int what) {
     made->margin = in->margin;
     made->options = in->options;
     if (!find_steps(state, made, what, &in->options) &&
-        !limit_raise(state, what == APPROACH ? made->approach.limit : made->of.impact.limit))
+        !limit_raise(state, what == APPROACH ? made->approach.limit : made->of.impact.limit, MOTION_REFUSED))
         return (PyObject *)made;
     Py_DECREF((PyObject *)made);
     return NULL;
@@ -306,7 +311,7 @@ static PyObject *cast_ray(PyObject *module, PyObject *arguments, PyObject *keywo
     ray_hit_object *made = object_make(state->ray_hit);
     if (!made) return NULL;
     made->hit = ovoid_shape_cast_ray(&posed, &ray);
-    if (!limit_raise(state, made->hit.limit)) return (PyObject *)made;
+    if (!limit_raise(state, made->hit.limit, RAY_REFUSED)) return (PyObject *)made;
     Py_DECREF((PyObject *)made);
     return NULL;
 }

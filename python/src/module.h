@@ -343,8 +343,10 @@ int cover_room_grow(cover_room *room, ovoid_limit limit);
 int cover_room_keep(cover_room *room, kept_cover **to);
 /// What was kept as the library reads it, where it is; NULL where there is none, and *to shows nothing.
 const ovoid_cover *cover_unpack(const kept_cover *kept, ovoid_cover *to);
-/// Raises where an answer was refused; -1 then.
-int limit_raise(module_state *state, ovoid_limit limit);
+/// What is wrong with options that a query refuses.
+#define QUERY_REFUSED "a margin, tolerance or cap is negative or NaN"
+/// Raises where an answer was refused; -1 then. options: what is wrong with them, where it is they.
+int limit_raise(module_state *state, ovoid_limit limit, const char *options);
 /// Verifies an answer by its proof and the options of its query: OVOID_OK, or what ovoid_body_verify says.
 ovoid_code answer_verify(const answer_object *self, ovoid_error *error);
 /// Verifies an impact or an approach by its proof and the options of its query.

@@ -84,6 +84,13 @@ static int read_two(module_state *state, PyObject *from, const char *what, ovoid
 // A position alone: nothing is turned.
 static int read_position(module_state *state, PyObject *from, const char *what, ovoid_pose *pose) {
     *pose = ovoid_pose_make_identity();
+    if (PySequence_Size(from) == 7) {
+        raise_code(state, OVOID_ERROR_ARGUMENT, -1,
+                   "%s: of seven numbers say the order of the quaternion: Pose.from_xyz_wxyz or Pose.from_xyz_xyzw",
+                   what);
+        return -1;
+    }
+    PyErr_Clear();
     if (vec3_read(state, from, what, &pose->position)) return -1;
     return validate_pose(state, what, -1, pose);
 }

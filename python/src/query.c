@@ -241,7 +241,7 @@ PyObject *query_answer(module_state *state, const query_input *in) {
     if (!to) return NULL;
     to->options = in->options;
     int failed = in->pair.a.shape && in->pair.b.shape ? query_shapes(in, to) : query_bodies(in, to);
-    if (!failed && !limit_raise(state, to->of.limit)) return (PyObject *)to;
+    if (!failed && !limit_raise(state, to->of.limit, QUERY_REFUSED)) return (PyObject *)to;
     Py_DECREF(to);
     return NULL;
 }

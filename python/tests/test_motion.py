@@ -103,7 +103,7 @@ class Impacts(unittest.TestCase):
                 (lambda: ovoid.Motion.velocity(at(0), (0, 0, math.nan), (0, 0, 0), 1), ovoid.Error, ""),
                 (lambda: ovoid.find_impact(BOX, BOX, 3), TypeError, "motion_a"),
                 (lambda: ovoid.find_impact(BOX, BOX, margin=-1), ovoid.Error, "negative"),
-                (lambda: ovoid.find_impact(BOX, BOX, begin=2, end=1), ovoid.Error, ""),
+                (lambda: ovoid.find_impact(BOX, BOX, begin=2, end=1), ovoid.Error, "begin and end"),
                 (lambda: ovoid.find_approach(BOX, ovoid.Compound([BOX])), TypeError, "two Shapes"),
                 (lambda: fly((0, 0, 0), (1, 0, 0)).pose(math.nan), ovoid.Error, "NaN"),
                 (lambda: fly((0, 0, 0), (1, 0, 0)).swept(BOX, 2, 1), ovoid.Error, "begin <= end"),

@@ -194,7 +194,7 @@ class Poses(unittest.TestCase):
         self.assertEqual(pose.xyz_xyzw, (*there, *pose.xyzw))
         self.assertEqual(ovoid.Pose.from_xyz_wxyz(pose.xyz_wxyz), pose)
         self.assertEqual(ovoid.Pose.from_xyz_xyzw(list(pose.xyz_xyzw)), pose)
-        for bad, sentence in (((there, there), "3x3"), ((turn, turn), "3x3"), ((there, [[1, 0, 0]] * 3), "no rotation"),
+        for bad, sentence in ((pose.xyz_wxyz, "from_xyz_wxyz or"), ((there, there), "3x3"), ((turn, turn), "3x3"), ((there, [[1, 0, 0]] * 3), "no rotation"),
                               ((there, [[1, 0], [0, 1]]), "shape"), (([[1, 0, 0]], there), "shape")):
             with self.assertRaisesRegex((TypeError, ovoid.Error), sentence):
                 ovoid.Pose(bad)

@@ -116,6 +116,7 @@ class Clearances(unittest.TestCase):
         self.assertAlmostEqual(through.at, 0.75, delta=0.05)
         far = cell.clearance([[1.2, 0]], without_obstacles=True, without_self=True)
         self.assertEqual((far.lower, far.upper, far.a, far.at), (math.inf, math.inf, None, None))
+        self.assertEqual((far.status, far.code, through.code), ("undecided", ovoid.Code.EMPTY, None))
         few = cell.clearance([[1.2, 0], [0.4, 0]], most_states=5)
         self.assertTrue(few.looked_at <= 5 and few.lower <= least <= few.upper + 1e-12)
 

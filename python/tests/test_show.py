@@ -64,6 +64,9 @@ class Pictures(unittest.TestCase):
         self.assertEqual(names, ["body 0", "body 1", "body 2"])
         self.assertIn("body 1", find_texts(ovoid.draw(ovoid.Bodies(BOX, [(0, 0, 0), (9, 0, 0)])).svg))
         self.assertEqual(len([text for text in find_texts(ovoid.draw(BOX, layers=["names", "witness"]).svg)]), 0)
+        for sizes in {"width": -1}, {"height": 2**32 + 100}, {"view": (0, float("nan"), 1)}:
+            with self.assertRaisesRegex(ovoid.Error, "pixels"):
+                ovoid.draw(BOX, **sizes)
         # Of two answers about one body that body is drawn once.
         answers = [ovoid.distance(BOX, PILL, None, (x, 0, 0)) for x in (4, -4)]
         self.assertEqual(len([text for text in find_texts(ovoid.draw(answers).svg) if text == "2.5"]), 2)

@@ -115,6 +115,30 @@ class Steps(unittest.TestCase):
         world.set_groups(ids[0], 2, 2)
         world.set_groups(ids[1], 1, 1)
         self.assertEqual(len(world.contacts("distance", 0.3).items), 0)
+        # Bits beyond 32 would be dropped; those of -1 and ~1 are meant.
+        ball, way = ovoid.Shape.sphere(1), (1, 0, 0)
+        for bits in 2**32, -2**31 - 1, 2**70:
+            for call in (lambda: world.set_groups(ids[0], bits, 1), lambda: world.set_groups(ids[0], 1, bits),
+                         lambda: world.add(ball, group=bits), lambda: world.add(ball, mask=bits),
+                         lambda: world.add_many([ball], [way], mask=bits), lambda: world.nearest_to(ball, group=bits),
+                         lambda: world.overlaps(ball, mask=bits), lambda: world.cast_ray(way, way, mask=bits),
+                         lambda: world.cast_body(ball, way, way, mask=bits)):
+                with self.assertRaisesRegex(ValueError, "32 bits"):
+                    call()
+        world.set_groups(ids[0], -1, ~2)
+        self.assertEqual(len(world.contacts("distance", 0.3).items), 1)
+        world.set_groups(ids[1], 2, -1)
+        self.assertEqual(len(world.contacts("distance", 0.3).items), 0)
+        with self.assertRaisesRegex(TypeError, "int"):
+            world.set_groups(ids[0], "a", 1)
+
+    def test_cap(self):
+        # The margin is the cap: one beside it would have no effect.
+        world, _ = make_row()
+        with self.assertRaisesRegex(ovoid.Error, r"cap.*contacts\(\)"):
+            world.contacts("distance", 0.3, cap=0.1)
+        with self.assertRaisesRegex(ovoid.Error, r"cap.*overlaps\(\)"):
+            world.overlaps(ovoid.Shape.sphere(1), margin=0.3, cap=0.1)
 
 
 class Queries(unittest.TestCase):

@@ -171,6 +171,15 @@ static int tries_axes(const placed_query *q) {
            !small_tries_inner(q->sphere_gap, f->a->reach + f->b->reach);
 }
 
+// The witness points of one corner, which the kernel has posed: the bits of posing them again. Of rounded bodies they
+// are moved first.
+static void take_points(const pair_frame *f, const small_gjk_result *r, small_end *end) {
+    if (f->a->radius + f->b->radius > 0) return;
+    end->has_witness = 1;
+    end->point_a = vec3_add(f->world_origin, vec3_at(r->point_a, 0));
+    end->point_b = vec3_add(f->world_origin, vec3_at(r->point_b, 0));
+}
+
 int small_run(const placed_query *q, small_end *end) {
     const pair_frame *f = q->frame;
     small_gjk_result r;
@@ -179,7 +188,9 @@ int small_run(const placed_query *q, small_end *end) {
     if (tries_axes(q) && boxes_separate(q, end)) return 1;
     small_gjk_query gjk = small_make_query(f, q->goal);
     simd_run_small_gjk(&gjk, &r);
-    return small_finish(q->frame, q->goal, &r, end);
+    if (!small_finish(f, q->goal, &r, end)) return 0;
+    if (r.valid == 1) take_points(f, &r, end);
+    return 1;
 }
 
 // ---- from an earlier proof

@@ -41,4 +41,7 @@ int reject_by_normal(const pair_frame *frame, double far, const ovoid_proof *ear
 /// can build it in the place of the caller's result.
 ovoid_answer rejection_make_answer(const rejection *g, const pair_frame *f, const query_goal *goal);
 
+/// The same, of which only the verdict and the proof are wanted.
+ovoid_verdict rejection_write_proof(const rejection *g, const pair_frame *f, const query_goal *goal, ovoid_proof *to);
+
 #endif

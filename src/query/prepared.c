@@ -162,6 +162,7 @@ static inline ovoid_verdict end_at_spheres(ovoid_prepared_pair pair, const pair_
 
 static ovoid_verdict end_at_rejection(const pair_frame *f, const rejection *found, const query_goal *goal,
                                       const ovoid_evidence *out) {
+    if (out && out->proof && !out->witness && !out->answer) return rejection_write_proof(found, f, goal, out->proof);
     ovoid_answer answer = rejection_make_answer(found, f, goal);
     if (out) write_evidence(out, &answer);
     return answer_get_verdict(&answer);

@@ -10,14 +10,22 @@
 #include <string.h>
 
 // Checks a length of a primitive: finite and not negative.
-static int is_length(double length, const char *name, ovoid_error *error) {
+static int is_length_or(ovoid_code negative, double length, const char *name, ovoid_error *error) {
     if (!isfinite(length))
         error_write(error, OVOID_ERROR_NOT_FINITE, -1, "the %s is not finite", name);
     else if (length < 0)
-        error_write(error, OVOID_ERROR_ARGUMENT, -1, "the %s %g is negative", name, length);
+        error_write(error, negative, -1, "the %s %g is negative", name, length);
     else
         return 1;
     return 0;
+}
+
+static int is_length(double length, const char *name, ovoid_error *error) {
+    return is_length_or(OVOID_ERROR_ARGUMENT, length, name, error);
+}
+
+static int is_radius(double radius, ovoid_error *error) {
+    return is_length_or(OVOID_ERROR_RADIUS, radius, "radius", error);
 }
 
 static ovoid_shape *create_box(ovoid_vec3 half, const ovoid_shape_options *options, ovoid_error *error) {
@@ -42,11 +50,7 @@ static ovoid_shape *create_rounded(xyz_points given, double radius, const ovoid_
                                    ovoid_error *error) {
     ovoid_shape_options o;
     if (shape_options_make(options, &o, error) != OVOID_OK) return NULL;
-    if (!isfinite(radius) || radius < 0) {
-        error_write(error, isfinite(radius) ? OVOID_ERROR_RADIUS : OVOID_ERROR_NOT_FINITE, -1,
-                    isfinite(radius) ? "the radius %g is negative" : "the radius %g is not finite", radius);
-        return NULL;
-    }
+    if (!is_radius(radius, error)) return NULL;
     o.radius += radius;
     return ovoid_shape_create_from_points(given.xyz, given.count, &o, error);
 }
@@ -91,7 +95,7 @@ typedef struct turned {
 static ovoid_shape *create_turned(const turned *t, const ovoid_shape_options *options, ovoid_error *error) {
     double radius = t->radius, half_length = t->half_length;
     uint32_t sides = t->sides, rings = t->rings;
-    if (!is_length(radius, "radius", error) || !is_length(half_length, "half length", error)) return NULL;
+    if (!is_radius(radius, error) || !is_length(half_length, "half length", error)) return NULL;
     if (sides < 3) {
         error_write(error, OVOID_ERROR_ARGUMENT, -1, "%u sides; at least 3 are needed", sides);
         return NULL;
@@ -154,7 +158,7 @@ static ovoid_shape *create_round(const turned *t, const ovoid_shape_options *opt
     ovoid_shape_options o = {0};
     if (options) o = *options;
     double tolerance = o.tolerance;
-    if (!is_length(by.radius, "radius", error)) return NULL;
+    if (!is_radius(by.radius, error)) return NULL;
     if (!shape_tolerance_is_length(tolerance, error)) return NULL;
     by.sides = by.radius > 0 ? find_sides(tolerance > 0 ? tolerance / by.radius : 0.005) : 3;
     if (by.sides > SIDES_MAX) {
@@ -189,12 +193,14 @@ ovoid_shape *ovoid_shape_create_cone(double radius, double half_length, const ov
 
 ovoid_shape *ovoid_shape_create_prism(const ovoid_prism *prism, const ovoid_shape_options *options,
                                       ovoid_error *error) {
+    OVOID_ASSERT(prism);
     turned by = {prism->radius, prism->half_length, prism->sides, 2};
     ENVIRONMENT_RETURN(ovoid_shape *, by, create_turned(&by, options, error));
 }
 
 ovoid_shape *ovoid_shape_create_pyramid(const ovoid_prism *prism, const ovoid_shape_options *options,
                                         ovoid_error *error) {
+    OVOID_ASSERT(prism);
     turned by = {prism->radius, prism->half_length, prism->sides, 1};
     ENVIRONMENT_RETURN(ovoid_shape *, by, create_turned(&by, options, error));
 }

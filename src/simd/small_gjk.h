@@ -66,6 +66,8 @@ typedef struct small_gjk_result {
     double gap;       ///< along n, times |n|
     double weight[3]; ///< KEPT: sum 1 to rounding
     double distance;  ///< KEPT: of the weighted point from the origin
+    /// Of simd_run_small_gjk, where lane 0 alone is valid: the posed points, from A's body frame, world axes.
+    double point_a[3], point_b[3];
 } small_gjk_result;
 
 /// Runs the search. The same bits from every instruction set. Every number that comes back but OPEN's is finite; none

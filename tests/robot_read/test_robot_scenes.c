@@ -186,6 +186,10 @@ static void test_own_solids(void) {
     options.hull = 1;
     CHECK(!ovoid_obstacles_read(file_write_text("own.json", asked), &options, &error));
     CHECK(strstr(error.message, "hulls are asked for") != NULL);
+    options = (ovoid_robot_read_options){.tolerance = -1};
+    CHECK(!ovoid_obstacles_read(file_write_text("own.json", text), &options, &error));
+    CHECK_EQ((int)error.code, (int)OVOID_ERROR_ARGUMENT);
+    CHECK(strstr(error.message, "tolerance") != NULL);
 }
 
 static void test_own_scene(void) {

@@ -1,17 +1,22 @@
 // Bodies that are not convex: compounds of shapes, solids of triangles; and what is asked of pairs with one of them.
 import { OvoidError } from './memory.mjs';
 import { Answer, ANSWER, fromAnswer, PROOF, toNumber, toPose } from './values.mjs';
+import { checkFields, toIndices } from './words.mjs';
 
 /** Numbers of an answer before those that every answer has; of an exclusion: four indices, seven numbers. */
 const HEAD = 15;
 const EXCLUSION = 72;
+const PART = new Set(['shape', 'pose']);
 
 function bindCompound({ memory, calls, hold, drop, Shape }) {
   return class Compound {
     #address;
 
     constructor(parts) {
-      this.parts = Object.freeze(Array.from(parts, ({ shape, pose }) => Object.freeze({ shape, pose })));
+      this.parts = Object.freeze(Array.from(parts, (part) => {
+        checkFields(part, PART, 'a part of a compound');
+        return Object.freeze({ shape: part.shape, pose: part.pose });
+      }));
       for (const { shape } of this.parts) if (!(shape instanceof Shape)) throw new TypeError('the parts of a compound are { shape, pose }');
       const shapes = Uint32Array.from(this.parts, ({ shape }) => shape.address), poses = Float64Array.from(this.parts.flatMap(({ pose }) => toPose(pose)));
       this.#address = memory.with([shapes, poses], (s, p) => calls.compound_create(s, p, shapes.length));
@@ -47,7 +52,7 @@ function bindSolid({ memory, calls, hold, drop }) {
     }
 
     static fromTriangles(points, triangles) {
-      const xyz = Float64Array.from(points.flat ? points.flat() : points), corners = Uint32Array.from(triangles.flat ? triangles.flat() : triangles);
+      const xyz = Float64Array.from(points.flat ? points.flat() : points), corners = toIndices(triangles, 'triangles');
       if (xyz.length % 3 || corners.length % 3) throw new TypeError('points take three numbers each, triangles three indices each');
       const address = memory.with([xyz, corners], (p, t) => calls.solid_create(p, xyz.length / 3, t, corners.length / 3));
       if (!address) throw memory.error();

@@ -1,4 +1,4 @@
-// Contacts: of two shapes, and part by part of compounds.
+// Contacts: of two shapes, and part by part of compounds and of one solid.
 import { toNumber, toPose, toVector } from './values.mjs';
 import { checkFields } from './words.mjs';
 
@@ -77,7 +77,7 @@ export function bindManifolds(core, kindOf, readCover, writeCover) {
   }
 
   function findManifold(a, b, poseA, poseB, options) {
-    if (!(a instanceof Shape && b instanceof Shape)) throw new TypeError('findManifold takes two shapes; findManifolds has the contacts of compounds, part by part');
+    if (!(a instanceof Shape && b instanceof Shape)) throw new TypeError('findManifold takes two shapes; findManifolds has the contacts of compounds and solids, part by part');
     const { numbers } = begin(a, b, poseA, poseB, options, EARLIER), earlier = options?.earlier;
     writeCover(core, Manifold.coverOf(earlier));
     memory.set(earlier ? [...numbers, ...Manifold.toNumbers(earlier, names)] : numbers);

@@ -238,15 +238,15 @@ export interface Ovoid {
   batch(kind: 'collide' | 'within' | 'distance' | 'depth', bodies: readonly Body[], couples: Uint32Array | readonly (readonly [number, number])[], options?: Omit<Options, 'earlier'> & { margin?: number }): Batch;
   /** The contact of two shapes. earlier: that of a moment ago, which is moved on and measured again where it still holds: ids stay. */
   findManifold(a: Shape, b: Shape, poseA?: Pose | null, poseB?: Pose | null, options?: ManifoldOptions & { earlier?: ManifoldFields }): Manifold;
-  /** The contacts of all pairs of parts that are not proven farther apart than the margin, by their parts; of a solid none are known. */
-  findManifolds(a: Shape | Compound, b: Shape | Compound, poseA?: Pose | null, poseB?: Pose | null, options?: ManifoldOptions): Manifold[];
+  /** The contacts of all pairs of parts that are not proven farther apart than the margin, by their parts; of one Solid by its flat facets. */
+  findManifolds(a: AnyBody, b: AnyBody, poseA?: Pose | null, poseB?: Pose | null, options?: ManifoldOptions): Manifold[];
   /** Checks a contact without a search, by the options that it was found with. null: it holds; else what does not. */
-  verifyManifold(a: Shape | Compound, b: Shape | Compound, poseA: Pose | null | undefined, poseB: Pose | null | undefined, manifold: ManifoldFields, options?: ManifoldOptions): OvoidError | null;
+  verifyManifold(a: AnyBody, b: AnyBody, poseA: Pose | null | undefined, poseB: Pose | null | undefined, manifold: ManifoldFields, options?: ManifoldOptions): OvoidError | null;
   /** The whole polygon of a contact. */
   computePolygon(a: Shape | Compound, b: Shape | Compound, poseA: Pose | null | undefined, poseB: Pose | null | undefined, manifold: ManifoldFields, options?: ManifoldOptions): { points: ContactPoint[]; grown: number; inner: number; outer: number };
   /** The signed distances of both ellipsoids: outer.value <= d <= inner.value. order 1: gradients, 2: Hessians too. */
   smooth(a: Shape, b: Shape, poseA?: Pose | null, poseB?: Pose | null, order?: 0 | 1 | 2): { limit: Limit; outer: SmoothValue; inner: SmoothValue };
-  /** When two bodies that move from start to end (screw motions, time 0 to duration) first come within the margin. */
+  /** When two shapes that move from start to end (straight, and turned by a slerp; time 0 to duration) first come within the margin. */
   impact(a: Moving, b: Moving, options?: MotionOptions): Impact;
   /** How near they come, and when. */
   approach(a: Moving, b: Moving, options?: MotionOptions): Approach;

@@ -4,7 +4,7 @@ import { Answer, ANSWER, fromAnswer, fromProof, Names, PROOF, putPose, toPose, t
 import { bindRobots } from './robots.mjs';
 import { bindBodies } from './bodies.mjs';
 import { bindManifolds } from './manifolds.mjs';
-import { checkFields, checkName, Status } from './words.mjs';
+import { checkFields, checkName, checkNumbers, Status, toIndices } from './words.mjs';
 
 export { OvoidError, Status };
 
@@ -21,6 +21,10 @@ export async function load(source) {
   core.drop = (object) => collected.unregister(object);
   const Shape = bindShapes(core);
   core.Shape = Shape;
+  core.addressOf = (shape, what) => {
+    if (!(shape instanceof Shape)) throw new TypeError(`${what}: a Shape is needed`);
+    return shape.address;
+  };
   const { Compound, Solid, kindOf, ...bodies } = bindBodies(core);
   Object.assign(core, { Solid, kindOf });
   return {
@@ -59,6 +63,7 @@ function bindShapes(core) {
     static #make(options, numbers, call, known = SHAPE) {
       checkFields(options, known, 'options');
       checkFields(options?.allowance, ALLOWANCE, 'allowance');
+      checkNumbers(options, ['radius', 'gap', 'tolerance'], 'options');
       const { radius = 0, gap = 0, inner = 'maximum', allowance = {} } = options ?? {};
       const method = ['maximum', 'phases', 'lean'].indexOf(inner);
       if (method < 0) throw new TypeError(`inner: maximum, phases or lean, not ${inner}`);
@@ -80,6 +85,7 @@ function bindShapes(core) {
 
     static #create(kind, options, ...numbers) {
       for (const x of numbers) if (typeof x !== 'number') throw new TypeError(`${kind}: numbers are needed`);
+      if ((kind === 'prism' || kind === 'pyramid') && !Number.isInteger(numbers[2])) throw new TypeError(`${kind}: sides: a whole number is needed`);
       return Shape.#make(options, [...numbers, 0, 0, 0].slice(0, 4), () => calls.shape_create(KINDS.indexOf(kind)), TRUE.has(kind) ? ROUND : SHAPE);
     }
 
@@ -198,6 +204,7 @@ function writeCover({ memory, calls }, cover) {
 
 const settings = (o) => [o?.absoluteTolerance ?? 0, o?.relativeTolerance ?? 0, o?.cap ?? 0, o?.iterations ?? 0];
 
+const NUMBERS = ['absoluteTolerance', 'relativeTolerance', 'cap', 'iterations', 'margin'], POSED = new Set(['shape', 'pose']);
 const QUERY = new Set(['absoluteTolerance', 'relativeTolerance', 'cap', 'iterations', 'earlier']), BATCH = new Set([...QUERY, 'margin']);
 BATCH.delete('earlier');
 
@@ -213,6 +220,8 @@ function bindQueries(core, bodies) {
 
   function query(kind, a, b, poseA, poseB, margin, options) {
     checkFields(options, QUERY, 'options');
+    checkNumbers(options, NUMBERS, 'options');
+    if (typeof margin !== 'number') throw new TypeError('within: a margin is needed; the arguments are a, b, poseA, poseB, margin');
     const earlier = options?.earlier, arePlain = areShapes(a, b);
     const { doubles, place } = memory;
     putPose(doubles, place, poseA, 'poseA');
@@ -231,6 +240,7 @@ function bindQueries(core, bodies) {
 
   function verify(a, b, poseA, poseB, answer, options) {
     checkFields(options, QUERY, 'options');
+    if (!answer?.proof) throw new TypeError('verify: an answer with its proof is needed');
     memory.set([...toPose(poseA, 'poseA'), ...toPose(poseB, 'poseB'), ...settings(options)]);
     writeCover(core, answer.proof.cover);
     if (!areShapes(a, b)) return bodies.verify(a, b, answer);
@@ -241,9 +251,11 @@ function bindQueries(core, bodies) {
   function batch(kind, bodies, couples, options) {
     checkName(kind, QUERIES, 'query');
     checkFields(options, BATCH, 'options');
+    checkNumbers(options, NUMBERS, 'options');
+    for (const body of bodies) checkFields(body, POSED, 'a body');
     const index = QUERIES.indexOf(kind);
-    const shapes = Uint32Array.from(bodies, (b) => b.shape.address), poses = Float64Array.from(bodies.flatMap((b) => toPose(b.pose)));
-    const pairs = couples instanceof Uint32Array ? couples : Uint32Array.from(couples.flat());
+    const shapes = Uint32Array.from(bodies, (b) => core.addressOf(b.shape, 'a body')), poses = Float64Array.from(bodies.flatMap((b) => toPose(b.pose)));
+    const pairs = toIndices(couples, 'couples');
     if (pairs.length % 2) throw new TypeError('couples: two indices each are needed');
     const count = pairs.length / 2, room = [new Float64Array(2 * count), new Uint8Array(3 * count)];
     return memory.with([shapes, poses, pairs, ...room], (s, p, c, bounds, codes) => {
@@ -258,8 +270,10 @@ function bindQueries(core, bodies) {
   }
 
   function smooth(a, b, poseA, poseB, order = 0) {
+    if (![0, 1, 2].includes(order)) throw new TypeError('smooth: order: 0, 1 or 2 is needed');
+    const at = [a, b].map((shape) => core.addressOf(shape, 'smooth'));
     memory.set([...toPose(poseA, 'poseA'), ...toPose(poseB, 'poseB')]);
-    calls.smooth(a.address, b.address, order);
+    calls.smooth(...at, order);
     const size = 4 + 9 + 12 + (order === 2 ? 144 : 0), n = memory.get(1 + 2 * size);
     const side = (m) => ({
       value: m[0], error: m[1], condition: m[2], isSmooth: m[3] === 1, point_a: m.slice(4, 7), point_b: m.slice(7, 10), normal: m.slice(10, 13),
@@ -286,10 +300,11 @@ function bindMotions(core) {
 
   function ask(call, a, b, options) {
     checkFields(options, MOTION, 'options');
-    for (const moving of [a, b]) checkFields(moving, MOVING, 'a moving body');
+    checkNumbers(options, MOTION, 'options');
+    const at = [a, b].map((moving) => (checkFields(moving, MOVING, 'a moving body'), core.addressOf(moving?.shape, 'a moving body')));
     const { duration = 1, margin = 0, tolerance = 0 } = options ?? {};
     memory.set([duration, margin, tolerance, ...[a, b].flatMap((m) => [...toPose(m.start, 'start'), ...toPose(m.end ?? m.start, 'end')])]);
-    call(a.shape.address, b.shape.address);
+    call(...at);
     return memory.get(8 + 2 * ANSWER);
   }
 

@@ -49,6 +49,10 @@ export function bindRobots(core) {
 
     constructor(given) {
       const elements = (given.elements ?? []).map((e) => (e.shape instanceof Solid ? { ...e, shape: Shape.hullOf(e.shape), solid: e.shape } : e));
+      for (const { link, shape, solid } of elements) {
+        core.addressOf(shape, `an element of ${link}`);
+        if (solid && !(solid instanceof Solid)) throw new TypeError(`an element of ${link}: solid: a Solid is needed`);
+      }
       const description = { ...given, elements }, m = toModel(description);
       this.description = description;
       this.#robot = memory.with([m.counts, m.names, m.joints, m.elements, m.shapes, m.disabled], calls.robot_create);

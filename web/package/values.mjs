@@ -130,6 +130,7 @@ export class Answer {
 
   /** Whether the bodies are within the margin: true, false, or null where the bracket does not say. */
   isWithin(margin) {
+    if (typeof margin !== 'number') throw new TypeError('isWithin: a number is needed');
     return this.upper <= margin ? true : this.lower > margin ? false : null;
   }
 

@@ -32,6 +32,23 @@ export function checkFields(object, known, what) {
   for (const key of Object.keys(object)) if (!known.has(key)) throw new TypeError(`${what}: no such field: ${key.slice(0, 40)}${suggest(key, known)}`);
 }
 
+/** Throws where one of these fields is there and no number. */
+export function checkNumbers(object, fields, what) {
+  for (const field of fields) {
+    const x = object?.[field];
+    if (x !== undefined && typeof x !== 'number') throw new TypeError(`${what}: ${field}: a number is needed`);
+    if (field === 'iterations' && x !== undefined && !(Number.isInteger(x) && x >= 0 && x < 2 ** 32)) throw new TypeError(`${what}: iterations: 0 to 2^32 - 1 are needed`);
+  }
+}
+
+/** Indices as they are, or from numbers, which are whole. */
+export function toIndices(list, what) {
+  if (list instanceof Uint32Array) return list;
+  const flat = list.flat ? list.flat() : Array.from(list);
+  if (!flat.every(Number.isInteger)) throw new TypeError(`${what}: indices are whole numbers`);
+  return Uint32Array.from(flat);
+}
+
 /** Throws where a name is none of the list. */
 export function checkName(name, known, what) {
   if (!known.includes(name)) throw new TypeError(`no such ${what}: ${String(name).slice(0, 40)}${suggest(String(name), known)}`);

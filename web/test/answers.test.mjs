@@ -76,7 +76,7 @@ test('compounds and solids have the bits of the tool; their proofs hold, altered
   const bodies = [], objects = makeScene(9).map(({ name, pose: { xyz, quat_wxyz } }, i) => {
     const pose = { xyz: xyz.map((x) => x / 2), quat_wxyz };
     const parts = [0, 1, 2, 3].map((k) => ({ ...shapes[(i + k) % 6], pose: { xyz: [between(-1, 1), between(-1, 1), k], quat_wxyz: [1, between(-1, 1), between(-1, 1), 0] } }));
-    bodies.push({ body: [parts[0].shape, new Compound(parts), solid][i % 3], pose });
+    bodies.push({ body: [parts[0].shape, new Compound(parts.map(({ shape, pose }) => ({ shape, pose }))), solid][i % 3], pose });
     return { name, pose, ...[{ points: parts[0].points }, { compound: parts.map(({ points, pose }) => ({ points, pose })) }, { mesh: 'l.off' }][i % 3] };
   });
   bodies.push({ body: Solid.fromTriangles(corners.map((p) => p.map((x) => 16 * x)), faces), pose: { xyz: [9, 9, 9] } });
@@ -348,6 +348,35 @@ test('names that are none are refused with the nearest one', () => {
   refused(() => ovoid.distance(box, null, box, null), /the arguments are a, b, poseA, poseB/);
   assert.equal(Shape.box({ size: [2, 4, 6] }).volume, Shape.box({ half: [1, 2, 3] }).volume);
   assert.equal(Shape.box({ half: [1, 2, 3] }).volume, Shape.box([1, 2, 3]).volume);
+});
+
+test('what is no shape is not read as one, and what is no number not as another', () => {
+  const box = Shape.box([1, 1, 1]), refused = (call, message) => assert.throws(call, { name: 'TypeError', message });
+  const tetrahedron = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], faces = [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+  const joint = { name: 'j', type: 'fixed', parent: 'arm', child: 'leg' }, links = ['arm', 'leg'];
+  for (const other of [Solid.fromTriangles(tetrahedron, faces), new Compound([{ shape: box }]), { address: 64 }, null]) {
+    refused(() => ovoid.smooth(box, other), 'smooth: a Shape is needed');
+    refused(() => ovoid.smooth(other, box), 'smooth: a Shape is needed');
+    refused(() => ovoid.impact({ shape: box }, { shape: other }), 'a moving body: a Shape is needed');
+    refused(() => ovoid.approach({ shape: other }, { shape: box }), 'a moving body: a Shape is needed');
+    refused(() => ovoid.batch('collide', [{ shape: box }, { shape: other }], [[0, 1]]), 'a body: a Shape is needed');
+    if (!(other instanceof Solid)) refused(() => new Robot({ links, joints: [joint], elements: [{ link: 'arm', shape: other }] }), /an element of arm: a Shape is needed/);
+    if (other && !(other instanceof Solid)) refused(() => new Robot({ links, joints: [joint], elements: [{ link: 'arm', shape: box, solid: other }] }), /a Solid is needed/);
+  }
+  refused(() => ovoid.batch('collide', [{ shape: box, pos: {} }], [[0, 0]]), /a body: no such field: pos; did you mean pose/);
+  refused(() => new Compound([{ shape: box, pos: { xyz: [1, 0, 0] } }]), /a part of a compound: no such field: pos; did you mean pose/);
+  refused(() => ovoid.smooth(box, box, null, null, { order: 1 }), 'smooth: order: 0, 1 or 2 is needed');
+  refused(() => ovoid.within(box, box, null, null, { margin: 1 }), /within: a margin is needed/);
+  refused(() => ovoid.distance(box, box, null, null, { cap: '1' }), 'options: cap: a number is needed');
+  for (const iterations of [-1, 1.5, 2 ** 32]) refused(() => ovoid.distance(box, box, null, null, { iterations }), /iterations: 0 to 2\^32 - 1/);
+  refused(() => ovoid.batch('within', [{ shape: box }], [[0, 0]], { margin: '1' }), 'options: margin: a number is needed');
+  refused(() => ovoid.batch('within', [{ shape: box }], [[0, 0.5]]), 'couples: indices are whole numbers');
+  refused(() => ovoid.impact({ shape: box }, { shape: box }, { duration: '2' }), 'options: duration: a number is needed');
+  refused(() => Solid.fromTriangles(tetrahedron, [[0, 1, 2.5]]), 'triangles: indices are whole numbers');
+  refused(() => Shape.prism(1, 1, 3.5), 'prism: sides: a whole number is needed');
+  refused(() => Shape.sphere(1, { radius: '1' }), 'options: radius: a number is needed');
+  refused(() => ovoid.distance(box, box).isWithin('1'), 'isWithin: a number is needed');
+  refused(() => ovoid.verify(box, box, null, null, {}), 'verify: an answer with its proof is needed');
 });
 
 test('an answer is asked by name, and is no number', () => {

@@ -122,7 +122,8 @@ static PyObject *find_manifold(PyObject *module, PyObject *arguments, PyObject *
     made->options = in.options;
     // Another pair's manifold is of no use.
     if (earlier && (earlier->a != in.a || earlier->b != in.b)) earlier = NULL;
-    if (!find_one(made, &in.pair, earlier) && !limit_raise(state, made->of.manifold.limit)) return (PyObject *)made;
+    if (!find_one(made, &in.pair, earlier) && !limit_raise(state, made->of.manifold.limit, QUERY_REFUSED))
+        return (PyObject *)made;
     Py_DECREF((PyObject *)made);
     return NULL;
 }
@@ -206,7 +207,7 @@ static PyObject *make_list(module_state *state, const manifold_input *in, const 
         if (room.count <= room.capacity) break;
         room.capacity = room.count;
     }
-    PyObject *list = limit_raise(state, limit) ? NULL : PyList_New(0);
+    PyObject *list = limit_raise(state, limit, QUERY_REFUSED) ? NULL : PyList_New(0);
     for (size_t i = 0; list && i < room.count; i++) {
         PyObject *one = make_part(state, in, &room.items[i], earlier);
         if (!one || PyList_Append(list, one)) Py_CLEAR(list);
@@ -227,8 +228,8 @@ static PyObject *find_manifolds(PyObject *module, PyObject *arguments, PyObject 
         return NULL;
     if (in.pair.a.solid && in.pair.b.solid) {
         PyErr_SetString(PyExc_TypeError,
-                        "find_manifolds() takes at most one Solid: of the other, decompose_by_tolerance() "
-                        "makes a Compound");
+                        "find_manifolds() takes at most one Solid: Compound(solid.decompose()) makes a Compound of the "
+                        "other");
         return NULL;
     }
     earlier_list list = {.count = 0};

@@ -12,7 +12,8 @@ static PyObject *make_clearance(const cell_object *cell, const ovoid_robot_clear
     PyObject *b = has_pair ? side_make(cell, &c->b) : Py_NewRef(Py_None);
     PyObject *at = has_pair ? PyFloat_FromDouble(c->at) : Py_NewRef(Py_None);
     PyObject *refused = is_refused ? PyLong_FromSize_t(c->refused) : Py_NewRef(Py_None);
-    PyObject *code = is_refused ? enum_get(state, ENUM_CODE, c->code) : Py_NewRef(Py_None);
+    int is_empty = c->status == OVOID_ROBOT_UNDECIDED && c->code == OVOID_ERROR_EMPTY;
+    PyObject *code = is_refused || is_empty ? enum_get(state, ENUM_CODE, c->code) : Py_NewRef(Py_None);
     PyObject *variable = is_refused ? PyLong_FromUnsignedLong(c->variable) : Py_NewRef(Py_None);
     return PyObject_CallFunction(state->clearance, "NddNNNNNNI", enum_get(state, ENUM_ROBOT_STATUS, c->status),
                                  c->lower, c->upper, at, a, b, refused, code, variable, c->states);

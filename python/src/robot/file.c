@@ -320,8 +320,9 @@ PyMethodDef robot_file_functions[] = {
      "read_obstacles(path: PathLike, tolerance: float = 0, *, solids: bool = True) -> list[Obstacle]\n--\n\nThe "
      "obstacles of a scene, MoveIt's YAML or ovoid's JSON: Obstacle tuples (name, shape, pose, solid, frame, link). A "
      "solid\ncounts in the place of the shape, which is its hull. frame: the link or fixed frame in which the pose is, "
-     "None: the root's.\nlink: the link that holds it, or None. tolerance: of cylinders and cones, a length. "
-     "solids=False: meshes are their hulls."},
+     "None: the root's.\nlink: the link that holds it, or None. tolerance: of a planning scene's cylinders and cones, "
+     "a "
+     "length; ovoid's JSON says its own. solids=False: meshes are their hulls."},
     {NULL, NULL, 0, NULL}};
 
 // ---- Cell.read

@@ -40,6 +40,22 @@ int id_read(PyObject *from, void *to) {
     return 0;
 }
 
+int bits_read(PyObject *from, void *to) {
+    long long bits = PyLong_AsLongLong(from);
+    if (bits == -1 && PyErr_Occurred() && !PyErr_ExceptionMatches(PyExc_OverflowError)) return 0;
+    *(uint32_t *)to = (uint32_t)bits;
+    if (!PyErr_Occurred() && bits >= INT32_MIN && bits <= UINT32_MAX) return 1;
+    PyErr_Clear();
+    PyErr_Format(PyExc_ValueError, "group and mask have 32 bits: 0 to 2^32 - 1 is wanted, or -1 for all, not %R", from);
+    return 0;
+}
+
+int cap_refuse(module_state *state, const query_keywords *k, const char *method) {
+    if (!(k->options.cap > 0)) return 0;
+    raise_code(state, OVOID_ERROR_ARGUMENT, -1, "cap: the margin is the cap of %s(): give margin= alone", method);
+    return -1;
+}
+
 // ---- making and ending
 
 static PyObject *world_new(PyTypeObject *type, PyObject *arguments, PyObject *keywords) {
@@ -94,8 +110,8 @@ static PyObject *add(PyObject *object, PyObject *arguments, PyObject *keywords) 
     PyObject *body, *pose = NULL, *user = NULL;
     ovoid_world_body made = {0};
     ovoid_error error;
-    if (!arguments_read(arguments, keywords, "O|O$IIO!:add", names, &body, &pose, &made.groups.group, &made.groups.mask,
-                        &PyLong_Type, &user) ||
+    if (!arguments_read(arguments, keywords, "O|O$O&O&O!:add", names, &body, &pose, bits_read, &made.groups.group,
+                        bits_read, &made.groups.mask, &PyLong_Type, &user) ||
         probe_read(state, body, pose, &made))
         return NULL;
     made.user = user ? PyLong_AsUnsignedLongLong(user) : 0;
@@ -151,10 +167,11 @@ static PyObject *add_many(PyObject *object, PyObject *arguments, PyObject *keywo
     module_state *state = state_of(object);
     PyObject *given, *given_poses, *ids = NULL;
     const char *order = NULL;
-    unsigned group = 0, mask = 0;
+    uint32_t group = 0, mask = 0;
     ovoid_pose *poses;
     Py_ssize_t count;
-    if (!arguments_read(arguments, keywords, "OO|$zII:add_many", names, &given, &given_poses, &order, &group, &mask) ||
+    if (!arguments_read(arguments, keywords, "OO|$zO&O&:add_many", names, &given, &given_poses, &order, bits_read,
+                        &group, bits_read, &mask) ||
         poses_read(state, given_poses, order, &poses, &count))
         return NULL;
     PyObject *bodies = PySequence_Tuple(given);
@@ -334,9 +351,10 @@ static PyObject *get_state(PyObject *object, PyObject *ignored) {
 static PyObject *set_groups(PyObject *object, PyObject *arguments) {
     world_object *self = (world_object *)object;
     ovoid_id id;
-    unsigned group, mask;
+    uint32_t group, mask;
     ovoid_error error;
-    if (!PyArg_ParseTuple(arguments, "O&II:set_groups", id_read, &id, &group, &mask) || world_enter(self, 1))
+    if (!PyArg_ParseTuple(arguments, "O&O&O&:set_groups", id_read, &id, bits_read, &group, bits_read, &mask) ||
+        world_enter(self, 1))
         return NULL;
     ovoid_code code = ovoid_world_set_groups(self->world, id, (ovoid_groups){group, mask}, &error);
     world_leave(self, 1);
@@ -408,7 +426,8 @@ static PyObject *contacts(PyObject *object, PyObject *arguments, PyObject *keywo
     ovoid_code code;
     if (!arguments_read(arguments, keywords, "|sd$" QUERY_FORMAT ":contacts", names, &kind, &query.margin,
                         QUERY_TARGETS(k)) ||
-        read_kind(state, kind, &query.kind) || query_keywords_validate(state, &k) || world_enter(self, 1))
+        read_kind(state, kind, &query.kind) || query_keywords_validate(state, &k) ||
+        cap_refuse(state, &k, "contacts") || world_enter(self, 1))
         return NULL;
     Py_BEGIN_ALLOW_THREADS;
     code = ovoid_world_compute_contacts(self->world, &query, &found, &error);

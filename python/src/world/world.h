@@ -16,6 +16,10 @@ typedef struct world_object {
 int world_enter(world_object *self, int is_writing);
 void world_leave(world_object *self, int is_writing);
 
+/// 32 bits of a group or a mask, as a converter of PyArg_ParseTuple.
+int bits_read(PyObject *from, void *to);
+/// Raises Error where there is a cap, which the margin of that method is.
+int cap_refuse(module_state *state, const query_keywords *k, const char *method);
 /// A Shape, Compound or Solid at a pose as a body of a world.
 int probe_read(module_state *state, PyObject *body, PyObject *pose, ovoid_world_body *to);
 /// What a query that found hits was asked with.

@@ -77,8 +77,8 @@ static PyObject *nearest_to(PyObject *object, PyObject *arguments, PyObject *key
     ovoid_world_hit hit;
     ovoid_error error;
     ovoid_code code;
-    if (!arguments_read(arguments, keywords, "O|O$II" QUERY_FORMAT ":nearest_to", names, &body, &pose,
-                        &probe.groups.group, &probe.groups.mask, QUERY_TARGETS(k)) ||
+    if (!arguments_read(arguments, keywords, "O|O$O&O&" QUERY_FORMAT ":nearest_to", names, &body, &pose, bits_read,
+                        &probe.groups.group, bits_read, &probe.groups.mask, QUERY_TARGETS(k)) ||
         probe_read(state, body, pose, &probe) || query_keywords_validate(state, &k) || world_enter(self, 0))
         return NULL;
     Py_BEGIN_ALLOW_THREADS;
@@ -279,9 +279,10 @@ static PyObject *overlaps(PyObject *object, PyObject *arguments, PyObject *keywo
     PyObject *body, *pose = NULL;
     double margin = 0;
     ovoid_world_body probe = {0};
-    if (!arguments_read(arguments, keywords, "O|O$dII" QUERY_FORMAT ":overlaps", names, &body, &pose, &margin,
-                        &probe.groups.group, &probe.groups.mask, QUERY_TARGETS(k)) ||
-        probe_read(state, body, pose, &probe) || query_keywords_validate(state, &k) || world_enter(self, 0))
+    if (!arguments_read(arguments, keywords, "O|O$dO&O&" QUERY_FORMAT ":overlaps", names, &body, &pose, &margin,
+                        bits_read, &probe.groups.group, bits_read, &probe.groups.mask, QUERY_TARGETS(k)) ||
+        probe_read(state, body, pose, &probe) || query_keywords_validate(state, &k) ||
+        cap_refuse(state, &k, "overlaps") || world_enter(self, 0))
         return NULL;
     PyObject *made =
         find_overlaps(self, body, &(ovoid_world_query){.probe = &probe, .margin = margin, .options = &k.options});
@@ -309,8 +310,8 @@ static PyObject *cast_ray(PyObject *object, PyObject *arguments, PyObject *keywo
     ovoid_world_ray ray = {.ray = {.length = INFINITY}};
     ovoid_world_cast cast;
     ovoid_error error;
-    if (!arguments_read(arguments, keywords, "OO|d$dII:cast_ray", names, &origin, &direction, &ray.ray.length,
-                        &ray.ray.radius, &ray.groups.group, &ray.groups.mask) ||
+    if (!arguments_read(arguments, keywords, "OO|d$dO&O&:cast_ray", names, &origin, &direction, &ray.ray.length,
+                        &ray.ray.radius, bits_read, &ray.groups.group, bits_read, &ray.groups.mask) ||
         vec3_read(state, origin, "origin", &ray.ray.origin) ||
         vec3_read(state, direction, "direction", &ray.ray.direction) || world_enter(self, 0))
         return NULL;
@@ -329,8 +330,8 @@ static PyObject *cast_body(PyObject *object, PyObject *arguments, PyObject *keyw
     ovoid_world_cast cast;
     ovoid_error error;
     ovoid_code code;
-    if (!arguments_read(arguments, keywords, "OOO|$II:cast_body", names, &body, &pose, &way, &probe.groups.group,
-                        &probe.groups.mask) ||
+    if (!arguments_read(arguments, keywords, "OOO|$O&O&:cast_body", names, &body, &pose, &way, bits_read,
+                        &probe.groups.group, bits_read, &probe.groups.mask) ||
         probe_read(state, body, pose, &probe) || vec3_read(state, way, "displacement", &displacement) ||
         world_enter(self, 0))
         return NULL;

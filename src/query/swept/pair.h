@@ -46,15 +46,21 @@ static inline double find_reach_of_points(const swept *s) {
     return sqrt(most) + zero;
 }
 
-// How far a core reaches from its centre; NaN if a number is not finite.
+// How far a core reaches from its centre; NaN if a number is not finite or a length is below 0.
 static inline double swept_find_reach(const swept *s) {
     const double *h = s->half;
     if (s->core == OVOID_SWEPT_POINTS) return find_reach_of_points(s);
-    if (s->core <= OVOID_SWEPT_SEGMENT) return s->core == OVOID_SWEPT_POINT ? 0 : h[0];
+    if (s->core == OVOID_SWEPT_POINT) return 0;
+    if (s->core == OVOID_SWEPT_SEGMENT) return h[0] < 0 ? NAN : h[0];
+    double least = min2(h[0], h[1]);
     if (s->core == OVOID_SWEPT_ELLIPSOID)
-        return max2(h[0], max2(h[1], h[2])) + swept_show_finite((vec3){h[0], h[1], h[2]});
+        return min2(least, h[2]) < 0 ? NAN : max2(h[0], max2(h[1], h[2])) + swept_show_finite((vec3){h[0], h[1], h[2]});
     double square = h[0] * h[0] + h[1] * h[1];
-    return sqrt(s->core == OVOID_SWEPT_BOX ? square + h[2] * h[2] : square);
+    if (s->core == OVOID_SWEPT_BOX) {
+        square += h[2] * h[2];
+        least = min2(least, h[2]);
+    }
+    return least < 0 ? NAN : sqrt(square);
 }
 
 static inline swept_placed swept_place(const swept *a, const swept *b) {

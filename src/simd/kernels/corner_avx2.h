@@ -96,4 +96,15 @@ CORNER_AVX2 corner_step corner_step_avx2(vectors4 old, unsigned valid, vectors4 
 #undef PREVIOUS
 #undef NEXT
 
+/// The same from the one corner of lane 0, where all lanes hold it: the only edge or the new corner.
+CORNER_AVX2 corner_step corner_step_from_one_avx2(vectors4 old, vectors4 a) {
+    vectors4 e = {_mm256_sub_pd(old.x, a.x), _mm256_sub_pd(old.y, a.y), _mm256_sub_pd(old.z, a.z)};
+    vectors4 k = vectors4_cross(e, vectors4_cross(a, e));
+    __m256d before = vectors4_dot(a, e);
+    vectors4 p = {_mm256_blendv_pd(a.x, k.x, before), _mm256_blendv_pd(a.y, k.y, before),
+                  _mm256_blendv_pd(a.z, k.z, before)};
+    double x = _mm256_cvtsd_f64(p.x), y = _mm256_cvtsd_f64(p.y), length = _mm256_cvtsd_f64(vectors4_dot(p, p));
+    return (corner_step){x, y, _mm256_cvtsd_f64(p.z), length, mask4(before) & 1, 0, 0};
+}
+
 #endif

@@ -1,11 +1,12 @@
 // The loop of small_gjk.h. Who includes it has defined
 //   SMALL_GJK_INLINE         the attributes of its functions
-//   pose_points(p, from, blocks), move_points(p, from, blocks), measure(m, bodies, blocks, n)
+//   pose_points(p, from, blocks), move_points(p, from, blocks), measure(m, bodies, blocks, n, is_first)
 //   met                      a support: gap, point indices a and b, and the difference as the step takes it
 //   met_get(m, w), met_set(m, w)   that difference as numbers, and from numbers
 //   find_extreme_point(p, n, blocks, is_least)   the point of a body that is extreme along n, in its own frame
 //   corners                  up to four such differences
 //   corners_fill(c, m), corners_put(c, i, m), corners_store(c, at), corners_step(c, valid, m)
+//   corners_step_filled(c, m)   corners_step from lane 0 alone, after corners_fill: most of its candidates are none
 //   SMALL_GJK_CLASSES(do)    do(blocks) for the numbers of eights of points that are compiled for, in order, to 8
 // with `blocks` known to the compiler.
 #ifndef OVOID_SIMD_KERNELS_SMALL_GJK_H
@@ -22,6 +23,7 @@ typedef struct walk {
     corners at;
     uint64_t ids; // of their points, 16 bits a lane
     unsigned valid;
+    int is_filled; // all lanes are the one corner
     vec3 n;
     double height, square;
 } walk;
@@ -70,7 +72,7 @@ typedef enum step_end { STEP_ON, STEP_INSIDE, STEP_OPEN } step_end;
 
 SMALL_GJK_INLINE step_end take_step(walk *k, const met *m) {
     double w[3];
-    corner_step next = corners_step(&k->at, k->valid, m);
+    corner_step next = k->is_filled ? corners_step_filled(&k->at, m) : corners_step(&k->at, k->valid, m);
     met_get(m, w);
     double height = (next.x * w[0] + next.y * w[1]) + next.z * w[2];
     int gains = height * height * k->square < k->height * k->height * next.square && next.square > 1e-150 &&
@@ -83,6 +85,7 @@ SMALL_GJK_INLINE step_end take_step(walk *k, const met *m) {
     if (!gains || next.is_sliver) return STEP_OPEN;
     unsigned place = (unsigned)__builtin_ctz(~next.kept);
     put_corner(k, place, m);
+    k->is_filled = 0;
     k->valid = next.kept | 1u << place;
     k->n = (vec3){next.x, next.y, next.z};
     k->height = height;
@@ -183,10 +186,11 @@ SMALL_GJK_INLINE void measure_unposed(met *m, const small_gjk_query *q, uint32_t
     m->gap = (vec3_dot(vec3_at(q->offset, 0), n) + low.value) - high.value;
 }
 
-// The support along n. bodies: posed, or NULL.
-SMALL_GJK_INLINE void find_support(small_search *s, const small_gjk_bodies *bodies, uint32_t blocks, vec3 n) {
+// The support along n. bodies: posed, or NULL. is_first: what follows it is not waited for as long.
+SMALL_GJK_INLINE void find_support(small_search *s, const small_gjk_bodies *bodies, uint32_t blocks, vec3 n,
+                                   int is_first) {
     if (bodies) {
-        measure(&s->m, bodies, blocks, n);
+        measure(&s->m, bodies, blocks, n, is_first);
     } else {
         measure_unposed(&s->m, s->q, blocks, n);
         meet_points(s->q, &s->m);
@@ -201,7 +205,7 @@ SMALL_GJK_INLINE void search(small_search *s, const small_gjk_bodies *bodies, ui
     for (r->iterations = 0;; r->iterations++) {
         double scale = 1 / sqrt(k->square);
         if (!(k->height * scale > q->claim) || r->iterations >= q->iterations) return;
-        find_support(s, bodies, blocks, k->n);
+        find_support(s, bodies, blocks, k->n, 0);
         if (look(s, scale)) return;
     }
 }
@@ -237,7 +241,7 @@ SMALL_GJK_INLINE int begin(small_search *s, const small_gjk_bodies *bodies, uint
     met *m = &s->m;
     vec3 n = vec3_at(q->start, 0);
     double square = vec3_dot(n, n), scale = 1 / sqrt(square), w[3];
-    find_support(s, bodies, blocks, n);
+    find_support(s, bodies, blocks, n, 1);
     write_direction(r, n, scale, m->gap);
     r->iterations = 0;
     met_get(m, w);
@@ -254,21 +258,42 @@ SMALL_GJK_INLINE int begin(small_search *s, const small_gjk_bodies *bodies, uint
     return !(k->square > 1e-150 && k->square < 1e150);
 }
 
-// bodies: room for them, or NULL to leave them unposed.
-SMALL_GJK_INLINE void run(const small_gjk_query *q, small_gjk_bodies *bodies, uint32_t blocks, small_gjk_result *r) {
+SMALL_GJK_INLINE void write_point(double to[3], const small_gjk_body *from, uint32_t i) {
+    to[0] = from->x[i];
+    to[1] = from->y[i];
+    to[2] = from->z[i];
+}
+
+// The points behind an end at one corner.
+SMALL_GJK_INLINE void write_points(small_gjk_result *r, const small_gjk_bodies *bodies) {
+    if (r->valid != 1) return;
+    write_point(r->point_a, &bodies->a, r->a[0]);
+    write_point(r->point_b, &bodies->b, r->b[0]);
+}
+
+// bodies: posed, or NULL.
+SMALL_GJK_INLINE void run_search(const small_gjk_query *q, const small_gjk_bodies *bodies, uint32_t blocks,
+                                 small_gjk_result *r) {
     small_search s;
     s.q = q;
     s.r = r;
-    if (bodies) pose_bodies(q, bodies, blocks);
     if (begin(&s, bodies, blocks)) return;
     corners_fill(&s.k.at, &s.m);
     s.k.ids = get_id(s.m.a, s.m.b);
     s.k.valid = 1;
+    s.k.is_filled = 1;
     search(&s, bodies, blocks);
     if (r->end == SMALL_GJK_APART)
         end_at_support(r, &s.m);
     else
         write_walk(r, &s.k);
+}
+
+// bodies: room for them, or NULL to leave them unposed.
+SMALL_GJK_INLINE void run(const small_gjk_query *q, small_gjk_bodies *bodies, uint32_t blocks, small_gjk_result *r) {
+    if (bodies) pose_bodies(q, bodies, blocks);
+    run_search(q, bodies, blocks, r);
+    if (bodies && r->end != SMALL_GJK_OPEN) write_points(r, bodies);
 }
 
 // Runs RUN of the first class that has room for both bodies.

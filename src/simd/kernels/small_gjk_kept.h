@@ -90,6 +90,7 @@ SMALL_GJK_INLINE void meet_kept(const small_gjk_query *q, const small_gjk_kept *
     k->ids = 0;
     for (int i = 0; i < 4; i++) k->ids |= get_id(kept->a[i], kept->b[i]) << 16 * i;
     k->valid = (1u << kept->count) - 1;
+    k->is_filled = 0;
 }
 
 // The walk at the nearest point of the kept corners. 1: it lies between them, as before; 0: not all hold

@@ -74,6 +74,10 @@ CORNER_AVX2 corner_step corners_step(const corners *c, unsigned valid, const met
     return corner_step_avx2(*c, valid, m->w);
 }
 
+CORNER_AVX2 corner_step corners_step_filled(const corners *c, const met *m) {
+    return corner_step_from_one_avx2(*c, m->w);
+}
+
 // LANES points; the smaller body of a pair repeats its first ones: the lowest index among equals is the same.
 SMALL_GJK_INLINE void load_points(const simd_points *from, uint32_t i, lane v[3]) {
     uint32_t at = i < from->padded_count ? i : i & (8 - LANES);
@@ -143,7 +147,8 @@ SMALL_GJK_INLINE __m256d spread_point(const double *x, const lane_mask is_best[2
     return spread4(lane_or(lane_and(lane_load(x), is_best[0]), lane_and(lane_load(x + 4), is_best[1])));
 }
 
-// Of eight points the coordinates come out of the lanes by masks, sooner than they are read by the index.
+// Of eight points the coordinates come out of the lanes by masks, sooner than they are read by the index. That takes
+// more instructions, for which the first support has no time: it waits for nothing but the poses.
 SMALL_GJK_INLINE farthest find_farthest_of_eight(const small_gjk_body *p, const lane v[2]) {
     lane best = find_largest_value(v, 1);
     const lane_mask is_best[2] = {lane_at_least(v[0], best), lane_at_least(v[1], best)};
@@ -159,14 +164,16 @@ SMALL_GJK_INLINE farthest find_farthest_of_eight(const small_gjk_body *p, const 
 enum { MASKED_BLOCKS = 0 };
 #endif
 
-SMALL_GJK_INLINE farthest find_farthest(const small_gjk_body *p, const lane n[3], uint32_t blocks) {
+SMALL_GJK_INLINE farthest find_farthest(const small_gjk_body *p, const lane n[3], uint32_t blocks, int is_first) {
     lane v[SMALL_GJK_POINTS / LANES];
     for (uint32_t i = 0; i < 8 * blocks / LANES; i++) {
         uint32_t at = LANES * i;
         v[i] = dot_points((const lane[]){lane_load(p->x + at), lane_load(p->y + at), lane_load(p->z + at)}, n);
     }
 #if LANES == 4
-    if (blocks <= MASKED_BLOCKS) return find_farthest_of_eight(p, v);
+    if (blocks <= MASKED_BLOCKS && !is_first) return find_farthest_of_eight(p, v);
+#else
+    (void)is_first;
 #endif
     support_result best = find_best(v, blocks);
     uint32_t i = best.index;
@@ -186,12 +193,12 @@ SMALL_GJK_INLINE support_result find_extreme_point(const simd_points *p, vec3 n,
     return (support_result){sign * best.value, best.index};
 }
 
-SMALL_GJK_INLINE void measure(met *m, const small_gjk_bodies *bodies, uint32_t blocks, vec3 n) {
+SMALL_GJK_INLINE void measure(met *m, const small_gjk_bodies *bodies, uint32_t blocks, vec3 n, int is_first) {
     const small_gjk_body *a = &bodies->a, *b = &bodies->b;
     // The bodies are read from memory: kept in registers they would push the step's own numbers out of them.
     if (blocks <= MASKED_BLOCKS) compiler_forget(bodies);
     const lane along[3] = {lane_set(n.x), lane_set(n.y), lane_set(n.z)}, back[3] = {-along[0], -along[1], -along[2]};
-    farthest high = find_farthest(a, along, blocks), low = find_farthest(b, back, blocks);
+    farthest high = find_farthest(a, along, blocks, is_first), low = find_farthest(b, back, blocks, is_first);
     m->a = high.index;
     m->b = low.index;
     m->gap = -low.value - high.value;

@@ -45,8 +45,9 @@ SMALL_GJK_INLINE support_result find_extreme_point(const simd_points *p, vec3 n,
     return (support_result){sign * best.value, best.index};
 }
 
-SMALL_GJK_INLINE void measure(met *m, const small_gjk_bodies *bodies, uint32_t blocks, vec3 n) {
+SMALL_GJK_INLINE void measure(met *m, const small_gjk_bodies *bodies, uint32_t blocks, vec3 n, int is_first) {
     (void)blocks;
+    (void)is_first;
     const small_gjk_body *a = &bodies->a, *b = &bodies->b;
     support_result high = simd_find_support_scalar(&(simd_points){a->x, a->y, a->z, a->count}, n);
     support_result low = simd_find_support_scalar(&(simd_points){b->x, b->y, b->z, b->count}, vec3_neg(n));
@@ -88,5 +89,7 @@ SMALL_GJK_INLINE void corners_store(const corners *c, corner_lanes *at) { *at = 
 SMALL_GJK_INLINE corner_step corners_step(const corners *c, unsigned valid, const met *m) {
     return simd_step_from_corner_scalar(c, valid, vec3_at(m->w, 0));
 }
+
+SMALL_GJK_INLINE corner_step corners_step_filled(const corners *c, const met *m) { return corners_step(c, 1, m); }
 
 #endif

@@ -471,6 +471,21 @@ static void test_refused(void) {
             wrong.radius = NAN;
             check_refused(&plain[k], &wrong);
         }
+    // A length that a core has, and only that, is not below 0.
+    static const int lengths[] = {0, 1, 2, 3, 2, 3};
+    for (int core = OVOID_SWEPT_POINT; core <= OVOID_SWEPT_ELLIPSOID; core++)
+        for (int k = 0; k < 3; k++) {
+            ovoid_swept_sphere below = plain[2];
+            below.core = (ovoid_swept_core)core;
+            below.radius = 0.5;
+            below.center.x = 9;
+            below.half[k] = -1;
+            if (k < lengths[core])
+                for (int n = 0; n < 3; n++) check_refused(&plain[n], &below);
+            else
+                CHECK_EQ((int)ovoid_swept_distance((ovoid_swept_pair){&plain[1], &below}, NULL).status,
+                         (int)OVOID_SEPARATED);
+        }
     const ovoid_swept_sphere small = {{0, 0, 0}, 1e-60, OVOID_SWEPT_POINT, {0, 0, 0}, {{0, 0, 0}}, NULL, 0, NULL};
     check_refused(&small, &small);
 }

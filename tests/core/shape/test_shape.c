@@ -138,6 +138,8 @@ static void check_options(void) {
     check_refused(ovoid_shape_create_box((vec3){1, 1, 1e51}, NULL, &e), &e, OVOID_ERROR_RANGE, "point");
     check_refused(ovoid_shape_create_sphere(-1, NULL, &e), &e, OVOID_ERROR_RADIUS, "negative");
     check_refused(ovoid_shape_create_sphere(NAN, NULL, &e), &e, OVOID_ERROR_NOT_FINITE, "radius");
+    check_refused(ovoid_shape_create_cylinder(-1, 1, NULL, &e), &e, OVOID_ERROR_RADIUS, "negative");
+    check_refused(ovoid_shape_create_pyramid(&(ovoid_prism){-1, 1, 5}, NULL, &e), &e, OVOID_ERROR_RADIUS, "negative");
     check_refused(ovoid_shape_create_capsule(1, NAN, NULL, &e), &e, OVOID_ERROR_NOT_FINITE, "half length");
     check_refused(ovoid_shape_create_pyramid(&(ovoid_prism){1, 1, 2}, NULL, &e), &e, OVOID_ERROR_ARGUMENT, "sides");
     check_refused(ovoid_shape_create_prism(&(ovoid_prism){1, 1, UINT32_MAX}, NULL, &e), &e, OVOID_ERROR_LIMIT, "sides");

@@ -426,9 +426,11 @@ ovoid_obstacles *ovoid_obstacles_read(const char *path, const ovoid_robot_read_o
     message_reader r = {.path = path, .options = options ? options : &no_options, .error = error, .memory = &o->memory};
     o->path = pool_copy(&o->memory, path, strlen(path));
     int is_own = path_has_extension(path, "json") || path_has_extension(path, "ovoids");
-    ovoid_code code = !o->path ? io_fail_memory(error, path)
-                      : is_own ? read_own_scene(&r, o)
-                               : read_planning_scene(&r, o);
+    ovoid_code code = !o->path                       ? io_fail_memory(error, path)
+                      : !(r.options->tolerance >= 0) ? io_fail(error, OVOID_ERROR_ARGUMENT, (where){path, 0, -1},
+                                                               "the tolerance of cylinders is not a length >= 0")
+                      : is_own                       ? read_own_scene(&r, o)
+                                                     : read_planning_scene(&r, o);
     if (!code) return o;
     ovoid_obstacles_destroy(o);
     return NULL;
