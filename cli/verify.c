@@ -196,15 +196,10 @@ static void print_counts(const verify *v) {
     if (verdict_is_exact()) printf("\n");
 }
 
-static int is_identity(const ovoid_pose *pose) {
-    ovoid_vec3 p = pose->position;
-    return p.x == 0 && p.y == 0 && p.z == 0 && pose->rotation.w == 1;
-}
-
 /// Proofs of two bodies hold where the poses are those of the query, and the results do not say these.
 static void advise_poses(const verify *v) {
     if (v->bodies.scene || v->settings->list) return;
-    if (is_identity(&v->settings->pose_a) && is_identity(&v->settings->pose_b))
+    if (args_is_origin(&v->settings->pose_a) && args_is_origin(&v->settings->pose_b))
         message_note(
             "both bodies are at the origin: if \"ovoid distance\" had --pose-a or --pose-b, give them here too");
 }
@@ -269,6 +264,8 @@ static int validate_inputs(const cli_command *command, const verify_settings *s,
     if (is_scene && (s->read.unit != INPUTS_NO_UNIT || s->read.scale > 0))
         return args_complain(command,
                              "verify: --unit and --scale are for meshes; a scene says its own (\"unit\": \"mm\")");
+    if ((has_list || is_scene) && !(args_is_origin(&s->pose_a) && args_is_origin(&s->pose_b)))
+        return args_complain(command, "verify: --pose-a and --pose-b go with A and B");
     const solids_choice *c = &s->choice;
     if (c->parts + c->solid + (c->hull && !is_scene && !has_list) && (has_list || paths->count < 3))
         return args_complain(command, "verify: --%s goes with A and B",
@@ -286,6 +283,10 @@ static int has_path_proofs(const verify_settings *s, const cli_operands *paths) 
 
 #ifdef OVOID_HAVE_ROBOT
 static int verify_paths(const cli_command *command, verify_settings *s, const cli_operands *paths) {
+    if (s->margin >= 0 || s->tolerance > 0)
+        return args_complain(command,
+                             "verify: --%s is of results, with the bodies that they are of; path proofs have their own",
+                             s->margin >= 0 ? "margin" : "tol");
     s->paths.json = s->json;
     s->paths.partial = s->partial;
     return path_verify(command, &s->paths, paths->items[0], paths->count > 1 ? paths->items[1] : NULL);

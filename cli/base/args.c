@@ -153,6 +153,11 @@ int args_parse_pose(const char *text, ovoid_pose *pose) {
     return 1;
 }
 
+int args_is_origin(const ovoid_pose *pose) {
+    ovoid_vec3 p = pose->position;
+    return p.x == 0 && p.y == 0 && p.z == 0 && pose->rotation.w == 1;
+}
+
 static int set_pose(const cli_command *command, const cli_option *o, const char *text, ovoid_pose *pose) {
     if (!args_parse_pose(text, pose))
         return args_complain(

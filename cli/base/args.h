@@ -100,6 +100,8 @@ int args_parse_number(const char *text, double *value);
 
 /// Parses "X Y Z", followed by a quaternion, or by "rpy" or "deg" and three angles; 0 for anything else.
 int args_parse_pose(const char *text, ovoid_pose *pose);
+/// 1 for the pose at the origin, which is the default of such an option.
+int args_is_origin(const ovoid_pose *pose);
 
 /// The subcommand of that name, which is given without the command's own name, or NULL.
 const cli_command *args_find_subcommand(const cli_command *command, const char *name);

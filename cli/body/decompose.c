@@ -180,6 +180,8 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (s.check && s.parts)
         return args_complain(command,
                              "decompose: --parts is for parts that are made, --check for parts that are given");
+    if (s.proof && !s.output && !s.check)
+        return args_complain(command, "decompose: --proof is of parts that are kept: --output PARTS.obj");
     decomposed d = {.path = paths.items[0], .unit = inputs_get_unit(&s.read)};
     ovoid_read_options read = inputs_make_options(&s.read);
     progress_read(d.path);

@@ -355,6 +355,10 @@ static int run(const cli_command *command, int argc, char **argv) {
     if (is_scene && (s.read.unit != INPUTS_NO_UNIT || s.read.scale > 0))
         return args_complain(command,
                              "view: --unit and --scale are for A and B; a scene says its own (\"unit\": \"mm\")");
+    int is_moved_b = !args_is_origin(&s.pose_b);
+    if (is_scene ? is_moved_b || !args_is_origin(&s.pose_a) : is_moved_b && paths.count == 1)
+        return args_complain(command, is_scene ? "view: --pose-a and --pose-b are for A and B; a scene says its own"
+                                               : "view: --pose-b is for B, which is missing");
     cli_page page;
     if (page_open(&page, s.html)) return EXIT_INPUT;
     code = is_scene ? draw_scene(&s, paths.items[0], &page) : draw_bodies(&s, &paths, &page);

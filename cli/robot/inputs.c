@@ -129,23 +129,29 @@ static int read_file(const robot_texts *texts, const robot_settings *s, const pa
 /// Meshes that are named in a warning.
 enum { MESHES_NAMED = 3 };
 
-/// Warns in one line of meshes with objects that are not convex and were asked to count as convex parts.
-static void warn_parts(const cli_robot *robot) {
+/// Whether the hull of a mesh, or of an object of it, stands for what is not convex because it was asked for.
+static int is_replaced(const ovoid_robot_mesh *mesh, const robot_settings *settings) {
+    return mesh->convexity.kind != OVOID_MESH_HULL && (settings->hull || mesh->kind == OVOID_MESH_PARTS);
+}
+
+/// Warns in one line of the meshes of which hulls were asked for that add to them.
+static void warn_hulls(const cli_robot *robot, const robot_settings *settings) {
     size_t count = 0, size = 0;
     double mesh = 0, hull = 0;
-    char *text = NULL;
+    char *text = NULL, share[64] = "", more[40] = "";
     FILE *list = open_memstream(&text, &size);
     for (size_t i = 0; i < ovoid_robot_file_get_mesh_count(robot->file) && list; i++) {
         ovoid_robot_mesh m = ovoid_robot_file_get_mesh(robot->file, i);
-        if (m.convexity.kind == OVOID_MESH_HULL || m.kind != OVOID_MESH_PARTS) continue;
+        if (!is_replaced(&m, settings)) continue;
         if (count < MESHES_NAMED) fprintf(list, "%s%s", count ? ", " : "", m.address);
-        mesh += m.convexity.mesh_volume, hull += m.convexity.hull_volume, count++;
+        count++;
+        if (m.convexity.mesh_volume > 0) mesh += m.convexity.mesh_volume, hull += m.convexity.hull_volume;
     }
+    if (mesh > 0) snprintf(share, sizeof share, ", which add %.2g %% of volume", 100 * (hull / mesh - 1));
+    if (count > MESHES_NAMED) snprintf(more, sizeof more, " and %zu more", count - MESHES_NAMED);
     if (list && fclose(list) == 0 && count)
-        message_warning("%zu mesh%s objects that are not convex and count as their hulls (--parts), which add %.2g %% "
-                        "of volume: %s%s",
-                        count, count == 1 ? " has" : "es have", mesh > 0 ? 100 * (hull / mesh - 1) : 0.0, text,
-                        count > MESHES_NAMED ? ", ..." : "");
+        message_warning("%s that are not convex, or not closed, count as their hulls%s: %s%s",
+                        settings->parts ? "objects of meshes" : "meshes", share, text, more);
     free(text);
 }
 
@@ -179,12 +185,14 @@ int robot_settle(const cli_command *command, const robot_settings *settings) {
         return args_complain(command, "%s: --hull does not go with --parts", command->name);
     if (settings->free_base && settings->fixed_base)
         return args_complain(command, "%s: --free-base does not go with --fixed-base", command->name);
+    if (settings->free_base && !settings->srdf)
+        return args_complain(command, "%s: --free-base is of the virtual joint of an SRDF: --srdf FILE", command->name);
     return -1;
 }
 
 int robot_open(const cli_command *command, const char *urdf, const robot_settings *settings, cli_robot *robot) {
     int code = robot_open_beside(command, urdf, settings, robot);
-    if (!code) warn_parts(robot);
+    if (!code) warn_hulls(robot, settings);
     return code;
 }
 

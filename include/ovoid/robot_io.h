@@ -201,11 +201,12 @@ typedef struct ovoid_obstacle {
 
 /**
  * Reads a scene: MoveIt's planning scene (.yaml, .yml), its text (.scene, older and newer format), or ovoid's own
- * (.json: ovoid_scene_read). Meshes are hulls, solids or surfaces by their triangles, or with options->hull their
- * hulls; then a scene that asks for a solid is refused. Equal primitives share a shape. docs/robot.md describes each
- * key of a planning scene, and which have no effect; any other key, and everything that cannot be obeyed (octomaps,
- * planes, scaled links), is refused with its line. options: tolerance (of planning scenes: cylinders of ovoid's own
- * scenes have theirs there), shape, hull, note. Errors: those of ovoid_robot_file_read.
+ * (.json, .ovoids: ovoid_scene_read), in metres: another unit is refused (FORMAT). Meshes are hulls, solids or surfaces
+ * by their triangles, or with options->hull their hulls; then a scene that asks for a solid is refused. Equal
+ * primitives share a shape. docs/robot.md describes each key of a planning scene, and which have no effect; any other
+ * key, and everything that cannot be obeyed (octomaps, planes, scaled links), is refused with its line. options:
+ * tolerance (of planning scenes: cylinders of ovoid's own scenes have theirs there), shape, hull, note. Errors: those
+ * of ovoid_robot_file_read.
  */
 OVOID_API ovoid_obstacles *ovoid_obstacles_read(const char *path, const ovoid_robot_read_options *options,
                                                 ovoid_error *error);

@@ -71,7 +71,7 @@ typedef struct ovoid_shape_options {
     ovoid_inner_method inner;  /**< which inner ellipsoid */
     ovoid_allowance allowance; /**< what the true body may differ by; zero: the shape is the body */
     double tolerance; /**< of cylinders, cones and ellipsoids: the most that `outside` may be, a length; 0 means
-                         radius / 200, of ellipsoids a 13th of the largest half axis */
+                         radius / 200, of ellipsoids a 13th of the largest half axis, of flat ones a 9th */
     const ovoid_allocator *allocator; /**< NULL: malloc and free; copied into the shape */
 } ovoid_shape_options;
 

@@ -193,7 +193,8 @@ static void test_own_solids(void) {
 }
 
 static void test_own_scene(void) {
-    static const char text[] = "{\"objects\": [{\"name\": \"a\", \"box\": [1, 1, 1]}, {\"name\": \"b\", \"compound\": ["
+    static const char text[] = "{\"unit\": \"m\", \"objects\": ["
+                               "{\"name\": \"a\", \"box\": [1, 1, 1]}, {\"name\": \"b\", \"compound\": ["
                                "{\"sphere\": 1, \"pose\": {\"xyz\": [1, 0, 0]}}, {\"sphere\": 2}], "
                                "\"pose\": {\"xyz\": [0, 5, 0]}}]}";
     ovoid_obstacles *o = read_scene("own.json", text, NULL);
@@ -307,6 +308,8 @@ static const bad_input scenes[] = {
     {"half.yaml", MESH("{vertices: [[0, 0, 0]], triangles: [[0, 0, 0.5]]}"), 4, "names the vertex 0.5",
      OVOID_ERROR_INDEX},
     {"own.json", "{}", -1, "needs \"objects\""},
+    {"own.json", "{\"unit\": \"mm\", \"objects\": [{\"name\": \"a\", \"sphere\": 1}]}", -1,
+     "the scene is in mm, and a robot is in metres"},
 };
 
 static int accepts_scene(const char *path, ovoid_error *error) {

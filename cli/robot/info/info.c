@@ -58,10 +58,11 @@ const cli_command command_robot_info = {
     .usage = "[OPTION...] ROBOT.urdf",
     .description =
         "What a URDF, its meshes and perhaps an SRDF say: the variables of a state in their order, with limits; each "
-        "link with the joint above it and its convex elements; the meshes, each with its share of its hull, which is "
-        "what is queried; groups and named states; and every kind of element that has no effect here, counted.\n\n"
-        "What should be known is a warning: names of the SRDF that the URDF does not have, meshes that are not convex, "
-        "packages that were guessed. Absent meshes are all named before the command fails.",
+        "link with the joint above it and its elements; the meshes, each with its share of its hull and as what it is "
+        "queried; groups and named states; and every kind of element that has no effect here, counted.\n\n"
+        "What should be known is a warning: names of the SRDF that the URDF does not have, meshes that are not closed, "
+        "or of which --hull or --parts takes the hull though they are not convex, packages that were guessed. Absent "
+        "meshes are all named before the command fails.",
     .exits = "0 done\n"
              "2 the command line is wrong\n"
              "3 bad input, or output that could not be written",

@@ -87,8 +87,9 @@ const cli_command command_robot_matrix = {
         "are proven over the whole box of the joints between the two; \"sampled never\" and \"sampled always\" say "
         "that "
         "no random state showed otherwise; \"sometimes\" has a state in which they touch and one in which they do not. "
-        "Neighbours have no other geometry between them. A mesh counts as its hull, as everywhere. What a link holds "
-        "has no place in a matrix of links: \"ovoid robot check --attach\" finds the states in which it touches.\n\n"
+        "Neighbours have no other geometry between them. A mesh is a hull, a solid or a surface, as everywhere. What "
+        "a link holds has no place in a matrix of links: \"ovoid robot check --attach\" finds the states in which it "
+        "touches.\n\n"
         "With --srdf the pairs that the file disables are looked at like all others, and compared: those that are "
         "disabled wrongly, with a state in which they touch, and those that might be disabled and are not.",
     .exits = "0 done\n"

@@ -315,8 +315,8 @@ const cli_command command_robot_spheres = {
         "the link, all proven; where two numbers stand, the true one is between them.\n\n"
         "With states: in how many the links hit and the spheres are free (missed), and in how many the links are free "
         "and the spheres hit (invented), each proven; pairs of links (--srdf says which need not be looked at) and "
-        "obstacles are counted apart. A mesh counts as its hull unless --parts says else: spheres of a link that is "
-        "not convex are not meant to cover its hull.\n\n"
+        "obstacles are counted apart. A mesh counts as its hull, and a warning says so where it is not convex; with "
+        "--parts each of its objects does.\n\n"
         "With -o, --count or --excess spheres are found that are proven to cover, with as little volume outside as "
         "the search can do with so many, and both lists are told of.",
     .exits = "0 every link is covered, and no state is missed; of spheres found if any\n"

@@ -383,11 +383,21 @@ static ovoid_code read_planning_scene(message_reader *r, ovoid_obstacles *o) {
     return code;
 }
 
+// A robot's lengths are metres. Those of a scene in another unit would be taken for metres.
+static ovoid_code require_metres(const message_reader *r, const ovoid_scene *scene) {
+    const char *unit = ovoid_scene_get_unit(scene);
+    if (!unit[0] || strcmp(unit, "m") == 0) return OVOID_OK;
+    return io_fail(r->error, OVOID_ERROR_FORMAT, (where){r->path, 0, -1},
+                   "the scene is in %s, and a robot is in metres: write its lengths in metres, with \"unit\": \"m\"; a "
+                   "mesh may have a \"unit\" of its own",
+                   unit);
+}
+
 // Compounds are their parts; with the option hull meshes are their hulls, but where the scene says otherwise.
 static ovoid_code read_own_scene(const message_reader *r, ovoid_obstacles *o) {
     o->scene = (r->options->hull ? ovoid_scene_read_hulls : ovoid_scene_read)(r->path, r->options->shape, r->error);
     if (!o->scene) return OVOID_ERROR_FILE;
-    ovoid_code code = OVOID_OK;
+    ovoid_code code = require_metres(r, o->scene);
     for (size_t i = 0; i < ovoid_scene_get_count(o->scene) && !code; i++) {
         ovoid_scene_object object = ovoid_scene_get(o->scene, i);
         if (object.solid && r->options->hull)
