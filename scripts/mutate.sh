@@ -58,7 +58,7 @@ tests_of() {
     table) echo "test_lookup test_shape test_simd test_query" ;;
     lanes) echo "test_simd_areas test_simd_octet test_simd_gjk8 test_simd_solid8 test_query_batch test_judge_batch" ;;
     batch) echo "test_simd_nearest test_query_floats test_query_batch test_judge_batch" ;;
-    floats) echo "test_simd_float test_query_floats test_query_batch test_judge_batch" ;;
+    floats) echo "test_simd_float test_simd_given test_query_floats test_query_batch test_judge_batch" ;;
     robot) echo "test_robot_depth test_robot_model test_robot_poses test_robot_balls test_robot_hits test_robot_collide test_robot_matrix test_robot_path test_robot_path_altered test_robot_path_bounds test_robot_judge test_robot_clearance test_robot_motion" ;;
     io) echo "test_io_numbers test_io_json test_io_convexity test_io_motion test_io_scene test_io_pairs test_io_mesh test_io_limits test_io_results test_io_solid" ;;
     packed) echo "test_io_packed test_cli.sh:solid_scene" ;;

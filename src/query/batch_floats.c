@@ -3,7 +3,10 @@
 #include "query/batch_floats.h"
 
 #include "base/compiler.h"
+#include "query/batch_supports.h"
 #include "query/lane_group.h"
+
+#include <math.h>
 
 void batch_floats_begin(batch_floats *s) {
     s->few.count = s->next.count = 0;
@@ -11,7 +14,7 @@ void batch_floats_begin(batch_floats *s) {
     s->few.rows.far = s->next.rows.far = (float)(s->goal->far * (1 + 0x1p-22) + 0x1p-126);
     s->few.rows.near = s->next.rows.near = (float)(s->goal->near * (1 - 0x1p-22) - 0x1p-126);
     s->entry.count = 0;
-    for (unsigned i = 0; i < FLOAT_GJK_BLOCKS; i++) s->queues[i].count = 0;
+    for (unsigned i = 0; i < FLOAT_QUEUES; i++) s->queues[i].count = 0;
     s->group.blocks = 1;
     s->group.live = 0;
     s->group.most = (float)(s->goal->iterations < 24 ? s->goal->iterations : 24);
@@ -104,9 +107,22 @@ static void end_lanes(batch_floats *s, const float_gjk *g, const float_ends *end
 
 // ---- the search
 
+static void find_supports(batch_floats *s, const float_gjk_kernels *kernels) {
+    float_gjk *g = &s->group;
+    float_bodies bodies;
+    for (unsigned rest = g->live; rest; rest &= rest - 1) {
+        unsigned k = compiler_count_low_zeros(rest);
+        const float_couple *couple = get_couple(s, &g->query, k);
+        bodies.a[k] = couple->a;
+        bodies.b[k] = couple->b;
+    }
+    batch_supports_find(g, kernels, &bodies);
+}
+
 // Advances the group until at most `few` lanes are live.
 static void run(batch_floats *s, const float_gjk_kernels *kernels, unsigned few) {
     while (count_lanes(s->group.live) > few) {
+        if (!s->group.blocks) find_supports(s, kernels);
         float_ends ends = (s->corners ? kernels->advance_named : kernels->advance)(&s->group);
         end_lanes(s, &s->group, &ends);
     }
@@ -117,6 +133,11 @@ static unsigned find_idle(const float_gjk *g, unsigned count) {
     unsigned idle = ~g->live & FLOATS_ALL, found = 0;
     for (; count; count--, idle &= idle - 1) found |= idle & -idle;
     return found;
+}
+
+// About the angle between neighbours of a round body with as many vertices as both have.
+static float compute_tilt(const float_couple *couple) {
+    return 2 / sqrtf((float)(couple->a->vertex_count + couple->b->vertex_count));
 }
 
 static void put_points(const float_couple *couple, float_points *to, unsigned k) {
@@ -133,6 +154,13 @@ static void fill(batch_floats *s, float_queue *q) {
     unsigned any = compiler_count_low_zeros(lanes);
     float_points points;
     s->kernels->fill(q, lanes, g);
+    if (!g->blocks) {
+        for (unsigned rest = lanes; rest; rest &= rest - 1) {
+            unsigned k = compiler_count_low_zeros(rest);
+            g->given.tilt.lane[k] = compute_tilt(get_couple(s, &g->query, k));
+        }
+        return;
+    }
     for (unsigned k = 0; k < FLOATS; k++) put_points(get_couple(s, &g->query, lanes >> k & 1 ? k : any), &points, k);
     s->kernels->load(&points, lanes, g);
 }
@@ -142,8 +170,13 @@ static void search_each(batch_floats *s, float_queue *q) {
     float_points points;
     while (q->count) {
         s->alone->fill(q, 1, &s->group);
-        put_points(get_couple(s, &s->group.query, 0), &points, 0);
-        s->alone->load(&points, 1, &s->group);
+        const float_couple *couple = get_couple(s, &s->group.query, 0);
+        if (s->group.blocks) {
+            put_points(couple, &points, 0);
+            s->alone->load(&points, 1, &s->group);
+        } else {
+            s->group.given.tilt.lane[0] = compute_tilt(couple);
+        }
         run(s, s->alone, 0);
     }
 }
@@ -154,7 +187,7 @@ static unsigned get_few(uint32_t blocks) { return 2 + blocks / 2; }
 // Searches the couples of a queue until less than `least` wait and few lanes are live. The lanes of a group have bodies
 // of like sizes. To fill a group when half of it is idle took a tenth longer, as vertices are read for all lanes.
 static void search_queue(batch_floats *s, uint32_t blocks, unsigned least) {
-    float_queue *q = &s->queues[blocks - 1];
+    float_queue *q = &s->queues[blocks];
     int is_few = q->count <= get_few(blocks);
     if (s->group.blocks != blocks || is_few) run(s, s->kernels, 0);
     s->group.blocks = blocks;
@@ -182,15 +215,8 @@ static void write_bounds(batch_floats *s, const float_query *q, const float_boun
 }
 
 static uint32_t get_blocks(const float_couple *couple) {
-    uint32_t a = couple->a->padded_count, b = couple->b->padded_count;
-    return (a > b ? a : b) / 8;
-}
-
-// There is no search of so many vertices in floats: it begins where theirs would.
-static void search_alone(batch_floats *s, const float_query *q, unsigned k) {
-    const float n[3] = {q->start[0].lane[k], q->start[1].lane[k], q->start[2].lane[k]};
-    s->search_alone(s->self, get_couple(s, q, k)->index, n);
-    free_couple(s, q, k);
+    uint32_t a = couple->a->padded_count, b = couple->b->padded_count, most = (a > b ? a : b) / 8;
+    return most <= FLOAT_GJK_BLOCKS ? most : 0;
 }
 
 // Takes the lanes of a query through the ellipsoids to the queues of the search.
@@ -204,28 +230,23 @@ static void try_ellipsoids(batch_floats *s, const float_gjk_kernels *kernels, fl
         shapes.b[k] = shape_get_floats(couple->b);
     }
     kernels->ellipsoids(&shapes, lanes, query, &found);
-    unsigned ended = found.apart | found.inside, of[FLOAT_GJK_BLOCKS] = {0};
+    unsigned ended = found.apart | found.inside, of[FLOAT_QUEUES] = {0};
     for (unsigned rest = ended; rest; rest &= rest - 1) write_bounds(s, query, &found, compiler_count_low_zeros(rest));
     for (unsigned rest = lanes & ~ended; rest; rest &= rest - 1) {
         unsigned k = compiler_count_low_zeros(rest);
-        uint32_t blocks = get_blocks(get_couple(s, query, k));
-        if (blocks <= FLOAT_GJK_BLOCKS)
-            of[blocks - 1] |= 1u << k;
-        else
-            search_alone(s, query, k);
+        of[get_blocks(get_couple(s, query, k))] |= 1u << k;
     }
-    for (uint32_t i = 0; i < FLOAT_GJK_BLOCKS; i++) {
+    for (uint32_t i = 0; i < FLOAT_QUEUES; i++) {
         if (!of[i]) continue;
         kernels->append(query, of[i], &s->queues[i]);
-        if (s->queues[i].count >= FLOATS) search_queue(s, i + 1, FLOATS);
+        if (s->queues[i].count >= FLOATS) search_queue(s, i, FLOATS);
     }
 }
 
-// Takes the last couples of the entry. Of one couple the numbers may have been stored just now: a load of sixteen would
-// wait for them.
-static void try_last(batch_floats *s) {
-    float_query query;
-    float_column *columns = (float_column *)&query;
+// Takes the last couples of the entry, in the caller's room. Of one couple the numbers may have been stored just now: a
+// load of sixteen would wait for them.
+static void try_last(batch_floats *s, float_query *room) {
+    float_column *columns = (float_column *)room;
     float_queue *q = &s->entry;
     unsigned count = q->count < FLOATS ? q->count : FLOATS;
     q->count -= count;
@@ -234,7 +255,7 @@ static void try_last(batch_floats *s) {
             columns[i].lane[0] = q->columns[i][q->count];
         else
             memcpy(columns[i].lane, q->columns[i] + q->count, sizeof columns[i].lane);
-    try_ellipsoids(s, count == 1 ? s->alone : s->kernels, &query, (1u << count) - 1);
+    try_ellipsoids(s, count == 1 ? s->alone : s->kernels, room, (1u << count) - 1);
 }
 
 // ---- the spheres
@@ -280,7 +301,7 @@ static void go_on(batch_floats *s, const float_block *b, const float_spheres *fo
         return;
     }
     kernels->append(query, found->open, &s->entry);
-    if (s->entry.count >= FLOATS) try_last(s);
+    if (s->entry.count >= FLOATS) try_last(s, query);
 }
 
 static void copy_row(float_rows *to, unsigned at, const float_rows *from, unsigned k) {
@@ -383,10 +404,10 @@ void batch_floats_take(batch_floats *s, size_t first) {
 }
 
 int batch_floats_fit(const ovoid_shape *a, const ovoid_shape *b) {
-    return fits(a, b) && shape_has_columns(a) && shape_has_columns(b);
+    return fits(a, b) && a->vertex_count <= FLOAT_GJK_POINTS && b->vertex_count <= FLOAT_GJK_POINTS;
 }
 
-void batch_floats_add(batch_floats *s, size_t index, const float_bodies *bodies) {
+void batch_floats_add(batch_floats *s, size_t index, const float_posed_pair *bodies) {
     float_block *to = &s->few;
     unsigned at = to->count++;
     to->index[at] = index;
@@ -399,9 +420,10 @@ void batch_floats_add(batch_floats *s, size_t index, const float_bodies *bodies)
 }
 
 void batch_floats_end(batch_floats *s) {
+    float_query room;
     if (s->few.count) enter(s, &s->few);
-    if (s->entry.count) try_last(s);
-    for (uint32_t blocks = 1; blocks <= FLOAT_GJK_BLOCKS; blocks++)
-        if (s->queues[blocks - 1].count) search_queue(s, blocks, 1);
+    if (s->entry.count) try_last(s, &room);
+    for (uint32_t blocks = 0; blocks < FLOAT_QUEUES; blocks++)
+        if (s->queues[blocks].count) search_queue(s, blocks, 1);
     run(s, s->kernels, 0);
 }

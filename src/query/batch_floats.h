@@ -1,6 +1,7 @@
 // The yes or no of couples in single precision, sixteen at a time (simd/float_gjk.h): from the poses to the verdict.
 // Couples wait until there are sixteen for the spheres, sixteen for the ellipsoids, then sixteen of like numbers of
-// vertices for the search, whose group is filled again when few of its lanes are live. What floats leave open is left
+// vertices for the search, whose group is filled again when few of its lanes are live; supports of bodies of many
+// vertices are found one by one (batch_supports.h). What floats leave open is left
 // to the caller. A couple's bits do not depend on the others.
 #ifndef OVOID_QUERY_BATCH_FLOATS_H
 #define OVOID_QUERY_BATCH_FLOATS_H
@@ -17,7 +18,11 @@ typedef struct float_couple {
 } float_couple;
 
 /// Couples that wait, or are at work, at most.
-enum { FLOAT_WAITING = (FLOAT_GJK_BLOCKS + 1) * (FLOATS - 1) + FLOATS, FLOAT_COUPLES = FLOAT_WAITING + FLOATS };
+enum {
+    FLOAT_QUEUES = FLOAT_GJK_BLOCKS + 1,
+    FLOAT_WAITING = (FLOAT_QUEUES + 1) * (FLOATS - 1) + FLOATS,
+    FLOAT_COUPLES = FLOAT_WAITING + FLOATS
+};
 
 /// Couples on their way to the spheres.
 typedef struct float_block {
@@ -26,8 +31,14 @@ typedef struct float_block {
     unsigned count;
 } float_block;
 
-/// The state of a batch: 37 KB.
+/// The state of a batch: 40 KB.
 typedef struct batch_floats {
+    // Set by batch_floats_begin.
+    float_queue entry; ///< for the ellipsoids
+    /// For the search, by the eights of vertices of the larger body; 0: more than the columns have.
+    float_queue queues[FLOAT_QUEUES];
+    float_gjk group; ///< at work, a quarter of it at most between calls
+    // Set by the caller.
     const float_gjk_kernels *kernels, *alone;
     const query_goal *goal; ///< without the tolerance
     const ovoid_options *options;
@@ -39,19 +50,13 @@ typedef struct batch_floats {
                                ///< differences have the origin inside
     void (*leave_open)(void *self, size_t index); ///< a couple that the search leaves open
     void (*pass_on)(void *self, size_t index);    ///< a couple that is not for floats, of which nothing is known
-    /// A couple of more vertices than the search takes, open after the ellipsoids; n: their direction, in the frame of
-    /// A.
-    void (*search_alone)(void *self, size_t index, const float n[3]);
     void *self;
-    // Set by batch_floats_begin; those before, by its caller.
-    int is_wide; ///< no bracket is within the tolerance: all are wider than 2^-23 of s, what the spheres claim
+    // Set by batch_floats_begin.
     float_block next, few; ///< the next couples; those that wait for others, as not all beside them were for floats
     float_couple couples[FLOAT_COUPLES]; ///< by the columns' ids
-    uint8_t free[FLOAT_COUPLES];         ///< of the first `used` ids
     unsigned used, free_count;
-    float_queue entry;                    ///< for the ellipsoids
-    float_queue queues[FLOAT_GJK_BLOCKS]; ///< for the search, by the eights of vertices of the larger body
-    float_gjk group;                      ///< at work, a quarter of it at most between calls
+    int is_wide; ///< no bracket is within the tolerance: all are wider than 2^-23 of s, what the spheres claim
+    uint8_t free[FLOAT_COUPLES]; ///< of the first `used` ids
 } batch_floats;
 
 void batch_floats_begin(batch_floats *s);
@@ -60,17 +65,17 @@ void batch_floats_begin(batch_floats *s);
 /// answered, left open or passed on now, as may those that waited.
 void batch_floats_take(batch_floats *s, size_t first);
 
-/// 1 if a couple is for batch_floats_add.
+/// 1 if a couple is for batch_floats_add: of up to FLOAT_GJK_POINTS vertices.
 int batch_floats_fit(const ovoid_shape *a, const ovoid_shape *b);
 
 /// Where a couple's numbers are.
-typedef struct float_bodies {
+typedef struct float_posed_pair {
     const ovoid_shape *a, *b;
     const ovoid_pose *pose_a, *pose_b;
-} float_bodies;
+} float_posed_pair;
 
 /// Takes a couple that fits, in the place of those of a batch.
-void batch_floats_add(batch_floats *s, size_t index, const float_bodies *bodies);
+void batch_floats_add(batch_floats *s, size_t index, const float_posed_pair *bodies);
 
 /// Ends all that wait.
 void batch_floats_end(batch_floats *s);

@@ -8,7 +8,7 @@
 // proof that the spheres leave open.
 //
 // No lane depends on the others, so nothing depends on which couples share a group, and a batch may be cut anywhere.
-// Working memory: six lane groups on the stack, 31 KB, and what is in single precision, 37 KB; they are gone while the
+// Working memory: six lane groups on the stack, 31 KB, and what is in single precision, 40 KB; they are gone while the
 // couples that they left open are searched, which takes more.
 #include "query/batch_simd.h"
 
@@ -24,15 +24,15 @@
 typedef struct open_couple {
     size_t index;
     double lower, upper;
-    vec3 n, w; ///< the direction of `lower`; the difference of the vertices a and b
+    vec3 n; ///< the direction of `lower`, along which a and b are extreme
     uint32_t a, b;
 } open_couple;
 
 // Couples that wait when a block of FLOATS is taken: PAIR8_GROUPS groups, and less than one each of few small ones, far
-// ones, large ones and the next; in single precision less than two blocks before its search, FLOAT_COUPLES in all. The
+// ones and the next; in single precision less than two blocks before its search, FLOAT_COUPLES in all. The
 // block itself may be left open, too. What its search leaves open is queried alone.
 enum {
-    WAITING_MOST = (PAIR8_GROUPS + 4) * PAIR8 + 3 * FLOATS,
+    WAITING_MOST = (PAIR8_GROUPS + 3) * PAIR8 + 3 * FLOATS,
     OPEN_MOST = 136,
     OPEN_FULL = OPEN_MOST - WAITING_MOST,
     ALONE_MOST = OPEN_MOST + FLOAT_COUPLES,
@@ -65,7 +65,6 @@ typedef struct batch_state {
     lane_group *waiting[PAIR8_GROUPS]; ///< couples on their way to the ellipsoids
     unsigned waiting_count;
     few_couples few, far;
-    few_couples large;      // in the group of `few`: one of them is empty
     batch_floats *floats;   ///< of a yes or no without evidence; else NULL
     batch_nearest *nearest; ///< of a distance without a cap; else NULL
     open_list *open;
@@ -209,13 +208,14 @@ static void end_small(void *self, size_t index, const placed_query *q, const sma
 // The supports left it open: the exact search goes on from their corner, later.
 static void leave_open(const batch_state *c, group_lane at, uint32_t a, uint32_t b) {
     const pair8 *o = at.e->lanes;
-    c->open->items[c->open->count++] = (open_couple){
-        at.e->index[at.k], o->lower.lane[at.k], o->upper.lane[at.k], get3(o->n, at.k), get3(o->w, at.k), a, b};
+    c->open->items[c->open->count++] =
+        (open_couple){at.e->index[at.k], o->lower.lane[at.k], o->upper.lane[at.k], get3(o->n, at.k), a, b};
 }
 
 // What is known after the supports.
 static void take_supports(search *s, const open_couple *couple, simplex *start) {
-    *start = (simplex){.p = {{couple->w, couple->a, couple->b}}, .weight = {1}, .count = 1};
+    vec3 w = frame_difference(s->frame, couple->a, couple->b);
+    *start = (simplex){.p = {{w, couple->a, couple->b}}, .weight = {1}, .count = 1};
     s->stage = OVOID_STAGE_SUPPORT;
     s->lower = couple->lower;
     s->normal = couple->n;
@@ -239,8 +239,7 @@ static void end_at_support(const batch_state *c, group_lane at, uint32_t a, uint
     } else {
         pair_frame frame;
         search s = get_search(c, at, OVOID_STAGE_SUPPORT, &frame);
-        open_couple couple = {
-            .lower = lower, .upper = upper, .n = get3(at.e->lanes->n, at.k), .w = get3(at.e->lanes->w, at.k), a, b};
+        open_couple couple = {.lower = lower, .upper = upper, .n = get3(at.e->lanes->n, at.k), .a = a, .b = b};
         simplex start;
         take_supports(&s, &couple, &start);
         end_search(c->batch, 1, at.e->index[at.k], &s);
@@ -374,17 +373,6 @@ static void search_few(batch_state *c, few_couples *few) {
     search_lanes(c, &few->group, some, few->is_far);
 }
 
-// The supports of the large couples that wait, along the directions that floats found.
-static void meet_large(batch_state *c) {
-    lane_group *e = c->large.group;
-    unsigned some = (1u << c->large.count) - 1;
-    fill(e, c->large.count);
-    place_again(c, e);
-    c->large.count = 0;
-    c->kernels->relate(&c->numbers, e->lanes);
-    meet(c, e, some);
-}
-
 // Fewer lanes of a group do not pay for its search.
 enum { FEW = 6 };
 
@@ -395,7 +383,6 @@ static void search_or_wait(batch_state *c, lane_group **place, unsigned some, fe
         search_lanes(c, place, some, few->is_far);
         return;
     }
-    if (c->large.count) meet_large(c);
     for (; some; some &= some - 1) {
         unsigned k = compiler_count_low_zeros(some);
         if (c->goal->far < INFINITY) put3(few->group->lanes->n, few->count, get3(e->lanes->n, k));
@@ -660,17 +647,6 @@ static void take(batch_state *c, size_t index) {
 static void leave_float_open(void *self, size_t index) { leave_alone(self, index); }
 static void take_float_odd(void *self, size_t index) { take(self, index); }
 
-static void take_large(void *self, size_t index, const float n[3]) {
-    batch_state *c = self;
-    lane_group *e = c->large.group;
-    if (c->few.count) search_few(c, &c->few);
-    unsigned k = c->large.count++;
-    (void)put_place(c->batch, index, e, k);
-    e->is_placed = 0;
-    put3(e->lanes->n, k, (vec3){(double)n[0], (double)n[1], (double)n[2]});
-    if (c->large.count == PAIR8) meet_large(c);
-}
-
 // A yes or no of which only the verdicts are wanted.
 static int wants_floats(const batch_state *c) {
     return !c->wants_evidence && c->batch->verdicts && c->goal->far < INFINITY &&
@@ -688,7 +664,6 @@ static void begin_floats(batch_state *c, batch_floats *floats) {
     floats->corners = NULL;
     floats->leave_open = leave_float_open;
     floats->pass_on = take_float_odd;
-    floats->search_alone = take_large;
     floats->self = c;
     batch_floats_begin(floats);
     c->floats = floats;
@@ -721,7 +696,7 @@ COMPILER_NOINLINE static size_t run_lanes(batch_state *c, size_t first) {
     for (unsigned i = 0; i < PAIR8_GROUPS + 2; i++) groups[i].lanes = &lanes[i];
     for (unsigned i = 0; i < PAIR8_GROUPS; i++) c->waiting[i] = next++;
     c->own = next++;
-    c->few = c->large = (few_couples){next, 0, 0};
+    c->few = (few_couples){next, 0, 0};
     c->far = (few_couples){&room.nearest.far, 0, 1};
     c->waiting_count = c->next_count = 0;
     const group_search task = get_search_task(c);
@@ -734,7 +709,6 @@ COMPILER_NOINLINE static size_t run_lanes(batch_state *c, size_t first) {
         else
             take_some(c, first);
     if (c->floats) batch_floats_end(c->floats);
-    if (c->large.count) meet_large(c);
     if (c->next_count) take_next(c);
     if (c->waiting_count) settle(c);
     search_few(c, &c->far);

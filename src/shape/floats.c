@@ -9,7 +9,7 @@
 
 uint64_t shape_floats_get_size(uint32_t vertex_count) {
     uint64_t column = simd_get_padded(vertex_count) * sizeof(float);
-    uint64_t size = sizeof(float_shape) + (vertex_count <= FLOAT_GJK_POINTS ? 3 * column : 0);
+    uint64_t size = sizeof(float_shape) + (vertex_count <= FLOAT_COLUMN_POINTS ? 3 * column : 0);
     return (size + 63) / 64 * 64;
 }
 

@@ -1,6 +1,6 @@
-// A shape in single precision, for the lanes of simd/float_gjk.h: ellipsoids and, of shapes of at most FLOAT_GJK_POINTS
-// vertices, columns of these, around the centre of the enclosing sphere. They stand behind the header of each block,
-// where they are found without reading it.
+// A shape in single precision, for the lanes of simd/float_gjk.h: ellipsoids and, of shapes of at most
+// FLOAT_COLUMN_POINTS vertices, columns of these, around the centre of the enclosing sphere. They stand behind the
+// header of each block, where they are found without reading it.
 #ifndef OVOID_SHAPE_FLOATS_H
 #define OVOID_SHAPE_FLOATS_H
 
@@ -11,7 +11,7 @@
 enum { SHAPE_FLOATS = (sizeof(ovoid_shape) + 63) / 64 * 64 };
 
 /// 1 if there are columns of the vertices.
-static inline int shape_has_columns(const ovoid_shape *s) { return s->vertex_count <= FLOAT_GJK_POINTS; }
+static inline int shape_has_columns(const ovoid_shape *s) { return s->vertex_count <= FLOAT_COLUMN_POINTS; }
 static inline const float_shape *shape_get_floats(const ovoid_shape *s) {
     return (const float_shape *)((const char *)s + SHAPE_FLOATS);
 }

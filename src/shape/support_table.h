@@ -31,12 +31,11 @@ ovoid_code support_table_create(const ovoid_polytope *polytope, const ovoid_allo
 /// Fills `count` cells from the blocks and the coordinates of the vertices, x y z of each.
 void support_table_fill(const double *vertices, const support_block *blocks, uint32_t count, simd_cell *cells);
 
-/// The vertex extreme along n, with the bits of simd_find_support over all vertices. Returns 0 without a result if n is
-/// zero, not finite or of extreme length.
-static inline int support_table_find(const support_table *t, const simd_cell *cells, vec3 n, simd_extreme *found) {
+/// The cell of a direction; NULL if n is zero, not finite or of extreme length.
+static inline const simd_cell *support_table_find_cell(const support_table *t, const simd_cell *cells, vec3 n) {
     vec3 v = sym3_mul_vec3(t->root, n);
     double m = vec3_max_abs(v);
-    if (!(m > 1e-90 && m < 1e90)) return 0;
+    if (!(m > 1e-90 && m < 1e90)) return NULL;
     // The cube's face, and the two other coordinates in units of its cells.
     uint32_t axis = (uint32_t)vec3_find_largest(vec3_abs(v));
     double p[3] = {v.x, v.y, v.z}, first = axis == 0 ? v.y : v.x, second = axis == 2 ? v.y : v.z;
@@ -53,6 +52,14 @@ static inline int support_table_find(const support_table *t, const simd_cell *ce
         column = c >= 1;
         cell = &cells[cell->next + 2 * row + column];
     }
+    return cell;
+}
+
+/// The vertex extreme along n, with the bits of simd_find_support over all vertices. Returns 0 without a result if n
+/// has no cell.
+static inline int support_table_find(const support_table *t, const simd_cell *cells, vec3 n, simd_extreme *found) {
+    const simd_cell *cell = support_table_find_cell(t, cells, n);
+    if (!cell) return 0;
     *found = simd_find_in_cell(cell, &cells[cell->next], cell->count, &n);
     return 1;
 }

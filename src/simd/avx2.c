@@ -50,7 +50,7 @@ LANES_TARGET int gauss_find_avx2(const gauss_query *query, gauss_plane *out) { r
 const group_gjk_kernels group_gjk_avx2 = {run_group_begin,   run_group_support, run_group_start,
                                           run_group_advance, run_group_finish,  run_group_measure};
 const kept8_kernels kept8_avx2 = {run_compare, run_gaps, run_depths};
-const pair8_kernels pair8_avx2 = {run_spheres, run_inner, run_ellipsoids, run_relate, run_supports, run_floats};
+const pair8_kernels pair8_avx2 = {run_spheres, run_inner, run_ellipsoids, run_supports, run_floats};
 const patch_kernels patch_avx2 = {run_place, run_measure};
 const solid8_kernels solid8_avx2 = {run_boxes, run_triangles};
 

@@ -36,7 +36,7 @@ LANES_TARGET int gauss_find_avx512(const gauss_query *query, gauss_plane *out) {
 const group_gjk_kernels group_gjk_avx512 = {run_group_begin,   run_group_support, run_group_start,
                                             run_group_advance, run_group_finish,  run_group_measure};
 const kept8_kernels kept8_avx512 = {run_compare, run_gaps, run_depths};
-const pair8_kernels pair8_avx512 = {run_spheres, run_inner, run_ellipsoids, run_relate, run_supports, run_floats};
+const pair8_kernels pair8_avx512 = {run_spheres, run_inner, run_ellipsoids, run_supports, run_floats};
 const solid8_kernels solid8_avx512 = {run_boxes, run_triangles};
 
 LANES_TARGET void small_gjk_run_avx512(const small_gjk_query *query, small_gjk_result *result) {

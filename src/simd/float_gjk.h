@@ -1,6 +1,7 @@
 // Bodies in single precision, sixteen couples side by side. A yes or no: spheres, ellipsoids, then GJK of small bodies,
 // which ends each couple proven apart, proven within the margin, proven to overlap, or open. The vertices are columns
-// too, so a support is a maximum over them without an index: no gather, no load that waits for an index.
+// too, so a support is a maximum over them without an index: no gather, no load that waits for an index. Of bodies of
+// more vertices the caller finds the supports, step by step, for the lanes at work alone.
 //
 // Nearest points: GJK that proves nothing, but counts which vertices its corners are of. Each couple ends near, at a
 // simplex whose support is one of its own corners or is no nearer; with the origin inside of four corners; or open. The
@@ -27,6 +28,9 @@ enum { FLOATS = 16, FLOATS_ALL = 0xffff };
 
 /// Most vertices of a body, and most eights of them.
 enum { FLOAT_GJK_POINTS = 32, FLOAT_GJK_BLOCKS = FLOAT_GJK_POINTS / 8 };
+
+/// Most vertices of a shape that has columns of its own: from some number on a table of supports is faster.
+enum { FLOAT_COLUMN_POINTS = 96 };
 
 /// The error of all bounds, of z.
 #define FLOAT_CLAIM (32 * 0x1p-24)
@@ -116,18 +120,36 @@ typedef struct float_found {
     float_column corner[4], count, steps; ///< steps: the corners that were found after the first, and taken
 } float_found;
 
+/// The vertices: x of 8 blocks, then y, then z.
+typedef struct float_columns {
+    float_column a[3 * FLOAT_GJK_POINTS], b[3 * FLOAT_GJK_POINTS];
+} float_columns;
+
+/// A search whose caller finds the supports. The second and the third are near the first one's direction.
+typedef struct float_given {
+    float_column a[3], b[3];  ///< the vertices; b: before, the directions in the axes of B
+    float_column heading[3];  ///< of the simplex; n may be another direction
+    float_column other[3];    ///< the direction of the third support
+    float_column waits, tilt; ///< how many of these two are to come; their angle from n, set by the caller
+} float_given;
+
 /// Sixteen searches, each at a step of its own.
 typedef struct float_gjk {
     float_query query;
     float_column old[9], is_valid[3]; ///< the simplex's differences; its truth values in the sign bits
-    float_column n[3], height, square;
-    float_column steps;        ///< the supports after the first
-    float_column lower, upper; ///< the bounds of lanes that ended; lower not of those that overlap
-    float_found found;         ///< by `approach`
-    float_column a[3 * FLOAT_GJK_POINTS], b[3 * FLOAT_GJK_POINTS]; ///< vertices: x of 8 blocks, then y, then z
-    uint32_t blocks; ///< of both bodies of all couples, 1 to FLOAT_GJK_BLOCKS: set by the caller
-    unsigned live;   ///< lanes that are at work
-    float most;      ///< steps; set by the caller
+    float_column n[3];                ///< the direction of the next support
+    float_column height, square;      ///< the simplex's nearest point is at height / |heading| along its heading: n
+    float_column steps;               ///< the supports after the first
+    float_column lower, upper;        ///< the bounds of lanes that ended; lower not of those that overlap
+    float_found found;                ///< by `approach`
+    union {
+        float_columns columns;
+        float_given given;
+    };
+    /// Of both bodies of all couples, 1 to FLOAT_GJK_BLOCKS; 0: supports are given. Set by the caller.
+    uint32_t blocks;
+    unsigned live; ///< lanes that are at work
+    float most;    ///< steps; set by the caller
 } float_gjk;
 
 /// How lanes ended; the others go on.
@@ -136,7 +158,7 @@ typedef struct float_ends {
 } float_ends;
 
 /// Kernels of one instruction set; `lanes` is a mask. Lanes cost nothing where a whole vector of them is idle. Those
-/// for one couple have its lane 0 alone, and `advance` searches it to its end.
+/// for one couple have its lane 0 alone, and `advance` searches it to its end where there are blocks.
 typedef struct float_gjk_kernels {
     unsigned width; ///< so many lanes are read at once, whichever of them are at work
     /// The enclosing spheres of the lanes, first those around the frames' origins, which need no rotation; of lanes
@@ -150,7 +172,14 @@ typedef struct float_gjk_kernels {
     void (*fill)(float_queue *from, unsigned lanes, float_gjk *to);
     /// Reads the vertices of the lanes. The rows of the others are of some body.
     void (*load)(const float_points *from, unsigned lanes, float_gjk *to);
-    /// A support and a step of all lanes at work. Lanes that end are idle.
+    /// The directions of the supports of B, in its axes, of the lanes at work, where these are given.
+    void (*turn)(float_gjk *s);
+    /// The vertex of one body extreme along n: the lowest index of equal ones. columns: of `count`, a multiple of 8,
+    /// from 8 to FLOAT_COLUMN_POINTS.
+    uint32_t (*find)(const float *columns, uint32_t count, const float n[3]);
+    /// A support and a step of all lanes at work. Lanes that end are idle. Without blocks the supports are
+    /// given: a vertex extreme along n, and one along what `turn` found, the other way; this is one step of couples
+    /// alone, too.
     float_ends (*advance)(float_gjk *s);
     /// Searches the lanes for nearest points, from the line of centres to the end: near, inside or open. Of their
     /// queries only the rotation, translation and claim are read.

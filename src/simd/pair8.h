@@ -38,7 +38,6 @@ typedef struct pair8 {
     // Set by the caller before `supports`.
     lane_column high_value, low_value;    ///< of A along n, of B along `low`
     lane_column vertex_a[3], vertex_b[3]; ///< the vertices, body frames
-    lane_column w[3];                     ///< their difference, written by `supports`
     // The bounds of the latest stage.
     lane_column lower, upper;
     unsigned count; ///< set by the caller: the lanes in use are the first so many, 1 to 8
@@ -106,8 +105,6 @@ typedef struct pair8_kernels {
     /// B in the frame of A, inner and outer ellipsoids: lower and upper where these decide, the direction for the other
     /// lanes. For `count` lane groups, at most PAIR8_GROUPS: together they are faster.
     void (*ellipsoids)(pair8_group *groups, unsigned count, const pair8_query *query);
-    /// B in the frame of A, after `spheres`, and the directions n, which are given with lengths near 1.
-    void (*relate)(const pair8_query *query, pair8 *o);
     /// The bounds of the supports' gap and of their difference w.
     void (*supports)(pair8 *o);
     /// The pairs in single precision, after `spheres`. The mask of those whose lengths allow it.

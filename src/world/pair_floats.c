@@ -48,7 +48,7 @@ static void add(floats_asking *asking, uint32_t place) {
     const ovoid_body *a = &w->bodies[p->a].body, *b = &w->bodies[p->b].body;
     asking->verdicts[place].status = OVOID_UNDECIDED;
     if (a->shape && b->shape && batch_floats_fit(a->shape, b->shape))
-        batch_floats_add(&asking->floats, place, &(float_bodies){a->shape, b->shape, &a->pose, &b->pose});
+        batch_floats_add(&asking->floats, place, &(float_posed_pair){a->shape, b->shape, &a->pose, &b->pose});
     else
         leave_open(asking, place);
 }
@@ -115,7 +115,6 @@ static void begin(floats_asking *asking, const ovoid_options *options, const que
     s->normals = asking->normals;
     s->corners = asking->corners;
     s->leave_open = s->pass_on = leave_open;
-    s->search_alone = NULL;
     s->self = asking;
     asking->open_count = 0;
     batch_floats_begin(s);

@@ -5,13 +5,14 @@
 
 #define LANES_ARE_FLOATS
 #define LANES 16
+#include "simd/floats/float_support.h"
 #include "simd/kernels/float_ellipsoids.h"
 #include "simd/kernels/float_rounds.h"
 #include "simd/kernels/float_spheres.h"
 
 const float_gjk_kernels float_gjk_avx512 = {
-    LANES,          run_float_spheres, run_float_ellipsoids, run_float_append,       run_float_fill,
-    run_float_load, run_float_advance, run_float_approach,   run_float_advance_named};
+    LANES,          run_float_spheres, run_float_ellipsoids, run_float_append,   run_float_fill,         run_float_load,
+    run_float_turn, run_float_find,    run_float_advance,    run_float_approach, run_float_advance_named};
 
 #else
 #include "simd/kernels/sets.h"

@@ -18,8 +18,8 @@ LANES_INLINE void load_body(const float *from, uint32_t own, float factor, float
 // `lanes` is one lane.
 LANES_TARGET static void run_float_load(const float_points *from, unsigned lanes, float_gjk *to) {
     int k = __builtin_ctz(lanes);
-    load_body(from->a[k], from->blocks_a[k], to->query.factor_a.lane[k], to->a->lane, to->blocks);
-    load_body(from->b[k], from->blocks_b[k], to->query.factor_b.lane[k], to->b->lane, to->blocks);
+    load_body(from->a[k], from->blocks_a[k], to->query.factor_a.lane[k], to->columns.a->lane, to->blocks);
+    load_body(from->b[k], from->blocks_b[k], to->query.factor_b.lane[k], to->columns.b->lane, to->blocks);
 }
 
 // ---- supports
@@ -147,17 +147,17 @@ LANES_INLINE void get_corners(const float_walk *k, lane3 old[3], lane_mask valid
     }
 }
 
-// What the bounds say that a support along the heading shows.
-LANES_INLINE float_end test_bounds(float_gjk *s, const float_walk *k, const float_meeting *m) {
+// What the bounds say that a support shows; scale: one through its direction's length.
+LANES_INLINE float_end test_bounds(float_gjk *s, const float_walk *k, const float_meeting *m, float scale) {
     const float_query *q = &s->query;
-    float claim = *q->claim.lane, near_to = *q->near.lane, scale = 1 / sqrtf(k->square);
+    float claim = *q->claim.lane, near_to = *q->near.lane;
     float lower = m->gap * scale - claim, upper = lane3_norm(m->w) + claim;
     *s->lower.lane = lower;
     *s->upper.lane = upper;
     if (lower > *q->far.lane) return FLOAT_APART;
     if (!(lower > 0)) return FLOAT_GOES;
     if (upper <= near_to) return FLOAT_NEAR;
-    if (!(k->height * scale + claim <= near_to)) return FLOAT_GOES;
+    if (!(k->height * (1 / sqrtf(k->square)) + claim <= near_to)) return FLOAT_GOES;
     lane3 old[3];
     lane_mask valid[3];
     get_corners(k, old, valid);
@@ -209,8 +209,15 @@ LANES_INLINE float_end advance_walk(float_gjk *s, float_walk *k, const float_mee
 }
 
 LANES_INLINE float_meeting find_meeting(const float_gjk *s, lane3 n, int count) {
-    const float *a = s->a->lane, *b = s->b->lane;
+    const float *a = s->columns.a->lane, *b = s->columns.b->lane;
     return meet(s, n, 0, find_extreme(a, count, n, 0), find_extreme(b, count, turn_to_b(s, n, 0), 1));
+}
+
+// Takes a support, and the step to it.
+LANES_INLINE float_end take_meeting(float_gjk *s, float_walk *k, const float_meeting *m, float scale) {
+    k->steps += 1;
+    float_end end = test_bounds(s, k, m, scale);
+    return end == FLOAT_GOES ? advance_walk(s, k, m) : end;
 }
 
 LANES_INLINE float_end search(float_gjk *s, int count) {
@@ -220,23 +227,60 @@ LANES_INLINE float_end search(float_gjk *s, int count) {
     float_end end = FLOAT_GOES;
     while (end == FLOAT_GOES) {
         float_meeting m = find_meeting(s, k.n, count);
-        k.steps += 1;
-        end = test_bounds(s, &k, &m);
-        if (end == FLOAT_GOES) end = advance_walk(s, &k, &m);
+        end = take_meeting(s, &k, &m, 1 / sqrtf(k.square));
     }
     *s->steps.lane = k.steps;
     put3(s->n, 0, k.n);
     return end;
 }
 
+// The search between two supports that the caller finds, as it is kept in lane 0.
+LANES_INLINE float_walk get_walk(const float_gjk *s) {
+    __m128 zero = _mm_setzero_ps();
+    float_walk k = {{zero, zero, zero}, 0, get3(s->given.heading, 0), *s->height.lane, *s->square.lane, *s->steps.lane};
+    for (unsigned i = 0; i < 3; i++) {
+        put_corner(&k.old, i, get3(&s->old[3 * i], 0));
+        k.valid |= lane_sign(get(&s->is_valid[i], 0)) << i;
+    }
+    return k;
+}
+
+LANES_INLINE void put_walk(float_gjk *s, const float_walk *k) {
+    lane3 old[3];
+    lane_mask valid[3];
+    get_corners(k, old, valid);
+    for (int i = 0; i < 3; i++) {
+        put3(&s->old[3 * i], 0, old[i]);
+        lane_store_mask(s->is_valid[i].lane, valid[i]);
+    }
+    put3(s->given.heading, 0, k->n);
+    *s->height.lane = k->height;
+    *s->square.lane = k->square;
+    *s->steps.lane = k->steps;
+}
+
+LANES_TARGET static void run_float_turn(float_gjk *s) { put3(s->given.b, 0, turn_to_b(s, get3(s->n, 0), 0)); }
+
+// A step to the given support.
+LANES_INLINE float_end take_given(float_gjk *s) {
+    float_walk k = get_walk(s);
+    lane3 a = get3(s->given.a, 0), b = get3(s->given.b, 0), n = get3(s->n, 0), in_b = turn_to_b(s, n, 0);
+    float_meeting m = meet(s, n, 0, (float_support){lane3_dot(a, n), a, 0}, (float_support){lane3_dot(b, in_b), b, 0});
+    float_end end = take_meeting(s, &k, &m, 1 / sqrtf(lane3_dot(n, n)));
+    put_walk(s, &k);
+    if (end != FLOAT_GOES && end != FLOAT_OPEN) return end;
+    return choose_direction(s, 0, end == FLOAT_GOES, 1, m.w) ? FLOAT_GOES : FLOAT_OPEN;
+}
+
 LANES_INLINE float_ends end_walk(float_gjk *s, float_end end) {
-    s->live = 0;
+    s->live = end == FLOAT_GOES;
     return (float_ends){end == FLOAT_APART, end == FLOAT_NEAR, end == FLOAT_INSIDE, end == FLOAT_OPEN};
 }
 
-// Searches the couple of lane 0 to its end.
+// Searches the couple of lane 0 to its end, or by a step.
 LANES_TARGET static float_ends run_float_advance(float_gjk *s) {
     switch (s->blocks) {
+    case 0: return end_walk(s, take_given(s));
     case 1: return end_walk(s, search(s, 8));
     case 2: return end_walk(s, search(s, 16));
     case 3: return end_walk(s, search(s, 24));

@@ -81,6 +81,10 @@ LANES_TARGET static void run_float_fill(float_queue *from, unsigned lanes, float
         next += count_bits(some);
         lane3 n = get3(to->query.start, at);
         put_new3(to->n, at, &places, n);
+        if (!to->blocks) {
+            put_new3(to->given.heading, at, &places, n);
+            put_new(&to->given.waits, at, &places, zero);
+        }
         put_new(&to->square, at, &places, lane3_dot(n, n));
         put_new(&to->height, at, &places, lane_set(INFINITY));
         put_new(&to->steps, at, &places, lane_set(-1));
@@ -144,7 +148,57 @@ LANES_INLINE void put_found(float_found *to, int at, const lane_mask valid[3], c
     put(&to->count, at, count);
 }
 
+// ---- directions
+
+// The directions of the second and the third support, of the lanes `some`. From one corner w, met along n, GJK would
+// look along w itself, which near contact is almost orthogonal to n: it meets a corner far away on the other side. Two
+// directions near n, to either side of w's offset from it, make a triangle with w around the nearest point.
+typedef struct float_sides {
+    lane_mask some;
+    lane3 next, other;
+} float_sides;
+
+LANES_INLINE float_sides find_sides(const float_gjk *s, lane3 n, lane3 w, int at) {
+    lane tilt = get(&s->given.tilt, at), zero = lane_set(0);
+    lane3 unit = lane3_scale(n, lane_set(1) / lane_sqrt(lane3_dot(n, n)));
+    lane height = lane3_dot(w, unit);
+    lane3 off = lane3_add_scaled(w, unit, zero - height);
+    lane length = lane3_norm(off), part = tilt / length;
+    // Far apart, or where w itself is tilted less, w is the better direction.
+    lane_mask is_aside = lane_greater(length, tilt * lane_max(height, zero) + get(&s->query.claim, at));
+    lane_mask is_close = lane_less(lane_set(8) * height, get(&s->query.size, at));
+    lane3 along = lane3_add_scaled(unit, off, part), side = lane3_scale(lane3_cross(unit, off), part);
+    return (float_sides){lane_and(is_aside, is_close), lane3_add(along, side), lane3_sub(along, side)};
+}
+
+// The directions of the next supports, where they may be tilted. took: the lanes with a new heading; on: those that
+// have not ended. Lanes whose tilted direction showed nothing new keep their heading. Returns the lanes that go on.
+LANES_INLINE lane_mask choose_direction(float_gjk *s, int at, lane_mask took, lane_mask on, lane3 w) {
+    lane waits = get(&s->given.waits, at), one = lane_set(1);
+    lane_mask waited = lane_and(on, lane_at_least(waits, one)), goes = lane_or(took, waited);
+    // With few steps none is left for these.
+    lane_mask is_first = s->most > 2 ? lane_and(took, lane_less(get(&s->steps, at), one)) : lane_none();
+    lane3 n = get3(s->n, at),
+          next = lane3_select(lane_greater(waits, one), get3(s->given.other, at), get3(s->given.heading, at));
+    waits = lane_select(waited, waits - one, waits);
+    if (lane_bits(is_first)) {
+        float_sides sides = find_sides(s, n, w, at);
+        lane_mask some = lane_and(sides.some, is_first);
+        next = lane3_select(some, sides.next, next);
+        put_some3(s->given.other, at, some, sides.other);
+        waits = lane_select(some, lane_set(2), waits);
+    }
+    put(&s->given.waits, at, waits);
+    put_some3(s->n, at, goes, next);
+    return goes;
+}
+
 // ---- the answers
+
+typedef struct float_simplex {
+    lane3 old[3];
+    lane_mask valid[3];
+} float_simplex;
 
 // The norm of the simplex's point nearest to the origin. Weights below zero by rounding are cut off before they are
 // normalised, so that it is a point of the hull whatever they were. NaN or infinity where their sum underflows.

@@ -47,8 +47,8 @@ LANES_INLINE void load_body(float_side *side, const float_column *factors, float
 
 LANES_TARGET static void run_float_load(const float_points *from, unsigned lanes, float_gjk *to) {
     float_side a = {lane_set(0), from->a, from->blocks_a, 0}, b = {lane_set(0), from->b, from->blocks_b, 0};
-    load_body(&a, &to->query.factor_a, to->a, to, lanes);
-    load_body(&b, &to->query.factor_b, to->b, to, lanes);
+    load_body(&a, &to->query.factor_a, to->columns.a, to, lanes);
+    load_body(&b, &to->query.factor_b, to->columns.b, to, lanes);
 }
 
 // ---- supports
@@ -71,7 +71,9 @@ LANES_INLINE float_support measure(const float_column *p, int count, int i, lane
 
 // The greatest of `count` vertices, or the least. Two chains, as each comparison waits for the one before.
 LANES_INLINE float_support find_extreme(const float_column *p, int count, lane3 n, int at, int is_least) {
-    float_support even = measure(p, count, 0, n, at), odd = measure(p, count, 1, n, at);
+    float_support even = measure(p, count, 0, n, at);
+    if (count == 1) return even;
+    float_support odd = measure(p, count, 1, n, at);
     for (int i = 2; i < count; i += 2) {
         take_better(&even, measure(p, count, i, n, at), is_least);
         take_better(&odd, measure(p, count, i + 1, n, at), is_least);
@@ -106,63 +108,90 @@ LANES_INLINE void replace_corner(float_gjk *s, int at, const lane_step *step, co
 }
 
 LANES_INLINE float_meeting find_meeting(const float_gjk *s, lane3 n, int at, int count) {
-    float_support high_a = find_extreme(s->a, count, n, at, 0);
-    float_support low_b = find_extreme(s->b, count, turn_to_b(s, n, at), at, 1);
+    const float_column *a = count == 1 ? s->given.a : s->columns.a, *b = count == 1 ? s->given.b : s->columns.b;
+    float_support high_a = find_extreme(a, count, n, at, 0);
+    float_support low_b = find_extreme(b, count, turn_to_b(s, n, at), at, 1);
     return meet(s, n, at, high_a, low_b);
 }
 
-LANES_INLINE void advance_lanes(float_gjk *s, int at, int count, float_ends *all, int has_ids) {
-    lane3 n = get3(s->n, at), old[3];
-    lane_mask valid[3];
+// What a support shows: the bounds, and the lanes that end by them.
+typedef struct lane_bounds {
+    lane lower, upper;
+    lane_mask apart, near;
+} lane_bounds;
+
+// scale: one through the length of the support's direction; distance: of the simplex.
+LANES_INLINE lane_bounds test_bounds(const float_gjk *s, int at, const float_meeting *m, const float_simplex *k,
+                                     lane scale, lane distance) {
+    lane claim = get(&s->query.claim, at), near_to = get(&s->query.near, at);
+    lane_bounds b = {.lower = m->gap * scale - claim, .upper = lane3_norm(m->w) + claim};
+    b.apart = lane_greater(b.lower, get(&s->query.far, at));
+    lane_mask positive = lane_and(lane_greater(b.lower, lane_set(0)), lane_not(b.apart));
+    lane_mask near = lane_at_most(b.upper, near_to);
+    lane_mask nearer = lane_and(lane_at_most(distance + claim, near_to), lane_not(near));
+    b.near = lane_and(positive, near);
+    nearer = lane_and(positive, nearer);
+    if (lane_bits(nearer) & get_lanes(s->live, at)) {
+        lane norm = compute_norm(k->old, k->valid) + claim;
+        nearer = lane_and(nearer, lane_at_most(norm, near_to));
+        b.near = lane_or(b.near, nearer);
+        b.upper = lane_select(nearer, norm, b.upper);
+    }
+    return b;
+}
+
+LANES_INLINE float_simplex get_simplex(const float_gjk *s, int at) {
+    float_simplex k;
+    for (int i = 0; i < 3; i++) {
+        k.old[i] = get3(&s->old[3 * i], at);
+        k.valid[i] = lane_sign(get(&s->is_valid[i], at));
+    }
+    return k;
+}
+
+// Of a search. Tilted: supports may be along other directions than the simplex's. Named: the corners' numbers are kept.
+typedef enum float_kind { FLOAT_PLAIN, FLOAT_TILTED, FLOAT_NAMED } float_kind;
+
+LANES_INLINE void advance_lanes(float_gjk *s, int at, int count, float_kind kind, float_ends *all) {
+    lane3 n = get3(s->n, at);
     unsigned live = get_lanes(s->live, at);
     float_meeting m = find_meeting(s, n, at, count);
-    for (int i = 0; i < 3; i++) {
-        old[i] = get3(&s->old[3 * i], at);
-        valid[i] = lane_sign(get(&s->is_valid[i], at));
-    }
-    lane claim = get(&s->query.claim, at), near_to = get(&s->query.near, at), zero = lane_set(0);
-    lane square = get(&s->square, at), height = get(&s->height, at), scale = lane_set(1) / lane_sqrt(square);
-    lane lower = m.gap * scale - claim, upper = lane3_norm(m.w) + claim, steps = get(&s->steps, at) + lane_set(1);
-    lane_mask apart = lane_greater(lower, get(&s->query.far, at));
-    lane_mask positive = lane_and(lane_greater(lower, zero), lane_not(apart)), near = lane_at_most(upper, near_to);
-    lane_mask nearer = lane_and(lane_at_most(height * scale + claim, near_to), lane_not(near));
-    near = lane_and(positive, near);
-    nearer = lane_and(positive, nearer);
-    if (lane_bits(nearer) & live) {
-        lane norm = compute_norm(old, valid) + claim;
-        nearer = lane_and(nearer, lane_at_most(norm, near_to));
-        near = lane_or(near, nearer);
-        upper = lane_select(nearer, norm, upper);
-    }
-    lane_step step = step_lanes(old, valid, m.w);
-    lane_mask goes = lane_not(lane_or(apart, near)), inside = lane_and(goes, step.inside);
+    float_simplex k = get_simplex(s, at);
+    lane claim = get(&s->query.claim, at), steps = get(&s->steps, at) + lane_set(1);
+    lane square = get(&s->square, at), height = get(&s->height, at), inverse = lane_set(1) / lane_sqrt(square);
+    lane scale = inverse;
+    if (kind == FLOAT_TILTED) scale = lane_set(1) / lane_sqrt(lane3_dot(n, n));
+    lane_bounds b = test_bounds(s, at, &m, &k, scale, height * inverse);
+    lane_step step = step_lanes(k.old, k.valid, m.w);
+    lane_mask goes = lane_not(lane_or(b.apart, b.near)), inside = lane_and(goes, step.inside);
     if (lane_bits(inside) & live) {
-        lane depth = measure_tetrahedron(old, m.w);
+        lane depth = measure_tetrahedron(k.old, m.w);
         inside = lane_and(inside, lane_greater(depth, claim));
-        upper = lane_select(inside, claim - depth, upper);
-        if (has_ids) put(&s->found.corner[3], at, m.id);
+        b.upper = lane_select(inside, claim - depth, b.upper);
+        if (kind == FLOAT_NAMED) put(&s->found.corner[3], at, m.id);
     }
     lane high = lane3_dot(step.n, m.w), norm = lane3_dot(step.n, step.n);
     lane_mask gains = lane_less(high * high * square, height * height * norm);
     // A support that is a corner again gains nothing. A height within the error says nothing of the sign.
-    gains =
-        lane_and(gains, lane_and(lane_greater(norm, lane_set(1e-30)), lane_greater(high * high, claim * claim * norm)));
+    gains = lane_and(gains, is_clear(high, norm, claim));
     gains = lane_and(gains, lane_less(steps, lane_set(s->most)));
-    step.goes = lane_and(lane_and(goes, lane_not(step.inside)), lane_and(gains, lane_from_bits(live)));
-    replace_corner(s, at, &step, &m, has_ids);
-    put_some3(s->n, at, step.goes, step.n);
+    goes = lane_and(goes, lane_from_bits(live));
+    step.goes = lane_and(lane_and(goes, lane_not(step.inside)), gains);
+    replace_corner(s, at, &step, &m, kind == FLOAT_NAMED);
+    put_some3(kind == FLOAT_TILTED ? s->given.heading : s->n, at, step.goes, step.n);
     put(&s->height, at, lane_select(step.goes, high, height));
     put(&s->square, at, lane_select(step.goes, norm, square));
     put(&s->steps, at, steps);
-    put(&s->lower, at, lower);
-    put(&s->upper, at, upper);
-    add_ends(all, (lane_mask[3]){apart, near, inside}, step.goes, live, at);
+    put(&s->lower, at, b.lower);
+    put(&s->upper, at, b.upper);
+    if (kind == FLOAT_TILTED) step.goes = choose_direction(s, at, step.goes, lane_and(goes, lane_not(inside)), m.w);
+    add_ends(all, (lane_mask[3]){b.apart, b.near, inside}, step.goes, live, at);
 }
 
-LANES_INLINE float_ends advance_all(float_gjk *s, int count, int has_ids) {
+LANES_INLINE float_ends advance_all(float_gjk *s, int count, float_kind kind) {
     float_ends all = {0, 0, 0, 0};
     for (int at = 0; has_more(s->live, at); at += LANES)
-        if (get_lanes(s->live, at)) advance_lanes(s, at, count, &all, has_ids);
+        if (get_lanes(s->live, at)) advance_lanes(s, at, count, kind, &all);
     s->live &= ~(all.apart | all.near | all.inside | all.open);
     return all;
 }
@@ -180,14 +209,20 @@ LANES_INLINE float_ends advance_all(float_gjk *s, int count, int has_ids) {
 #define FLOAT_RETURN_OF_BLOCKS(blocks, RUN) return RUN(8 * (int)(blocks))
 #endif
 
+LANES_TARGET static void run_float_turn(float_gjk *s) {
+    for (int at = 0; has_more(s->live, at); at += LANES)
+        if (get_lanes(s->live, at)) put3(s->given.b, at, turn_to_b(s, get3(s->n, at), at));
+}
+
 LANES_TARGET static float_ends run_float_advance(float_gjk *s) {
-#define RUN(count) advance_all(s, count, 0)
+    if (!s->blocks) return advance_all(s, 1, FLOAT_TILTED);
+#define RUN(count) advance_all(s, count, FLOAT_PLAIN)
     FLOAT_RETURN_OF_BLOCKS(s->blocks, RUN);
 #undef RUN
 }
 
 LANES_TARGET static float_ends run_float_advance_named(float_gjk *s) {
-#define RUN(count) advance_all(s, count, 1)
+#define RUN(count) advance_all(s, count, FLOAT_NAMED)
     FLOAT_RETURN_OF_BLOCKS(s->blocks, RUN);
 #undef RUN
 }

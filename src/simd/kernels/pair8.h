@@ -493,22 +493,11 @@ LANES_TARGET static void run_ellipsoids(pair8_group *groups, unsigned count, con
 
 // ---- supports
 
-LANES_TARGET static void run_relate(const pair8_query *query, pair8 *o) {
-    for (int at = 0; at < get_end(o); at += LANES) {
-        related f = make_related(query, o, at);
-        lane_mask good = lane_none();
-        lane3 n = lane3_unit(get3(o->n, at), &good);
-        put3(o->n, at, n);
-        put3(o->low, at, lane3_neg(lane9_mul3_transposed(f.rotation, n)));
-    }
-}
-
 // stage_support: the gap along n, and the length of the difference.
 LANES_INLINE void compute_supports(pair8 *o, int at) {
     related f = get_related(o, at);
     lane gap = lane3_dot(get3(o->n, at), f.translation) - get(&o->low_value, at) - get(&o->high_value, at);
     lane3 w = lane3_sub(get_b(&f, get3(o->vertex_b, at)), get3(o->vertex_a, at));
-    put3(o->w, at, w);
     put(&o->lower, at, gap - f.radii - f.claim);
     put(&o->upper, at, lane3_norm(w) - f.radii + f.claim);
 }

@@ -79,10 +79,10 @@ static void fill(uint64_t *s, float_gjk *g) {
         if (asks_near) g->query.near.lane[k] = (float)(0.999 * vec3_norm(w));
         g->steps.lane[k] = (float)(random_next(s) % 4);
         for (int j = 0; j < 8; j++) {
-            for (int d = 0; d < 3; d++) g->a[8 * d + j].lane[k] = 0;
-            g->b[j].lane[k] = (float)w.x;
-            g->b[8 + j].lane[k] = (float)w.y;
-            g->b[16 + j].lane[k] = (float)w.z;
+            for (int d = 0; d < 3; d++) g->columns.a[8 * d + j].lane[k] = 0;
+            g->columns.b[j].lane[k] = (float)w.x;
+            g->columns.b[8 + j].lane[k] = (float)w.y;
+            g->columns.b[16 + j].lane[k] = (float)w.z;
         }
     }
 }
@@ -125,7 +125,7 @@ static void check_inside(const float_gjk *before, const float_gjk *after, unsign
     vec3 c[4] = {get_old(before, 0, k),
                  get_old(before, 1, k),
                  get_old(before, 2, k),
-                 {before->b[0].lane[k], before->b[8].lane[k], before->b[16].lane[k]}};
+                 {before->columns.b[0].lane[k], before->columns.b[8].lane[k], before->columns.b[16].lane[k]}};
     double depth = -(double)after->upper.lane[k], least = INFINITY;
     for (int i = 0; i < 4; i++)
         least = fmin(least, measure_inside(c[i], c[(i + 1) % 4], c[(i + 2) % 4], c[(i + 3) % 4]));
@@ -138,7 +138,7 @@ static int is_truth(const float_gjk *g, const float_column *c) { return c >= g->
 
 static void check_same(const float_gjk *g, unsigned live) {
     CHECK(g->live == truth.live);
-    for (const float_column *a = truth.old, *b = g->old; a < truth.a; a++, b++)
+    for (const float_column *a = truth.old, *b = g->old; a < truth.columns.a; a++, b++)
         for (unsigned k = 0; k < FLOATS; k++) {
             if (!(live >> k & 1)) continue;
             if (is_truth(&truth, a))
