@@ -163,18 +163,11 @@ static uint32_t list_visible(builder *b, uint32_t p) {
 
 // ---- adding a point ----
 
-static void make_simplex(builder *b, const uint32_t given[4]) {
-    uint32_t c[4] = {given[0], given[1], given[2], given[3]};
-    // The fourth corner below the first three.
-    if (orient3d_sign(get_point(b, c[0]), get_point(b, c[1]), get_point(b, c[2]), get_point(b, c[3])) < 0) {
-        c[1] = given[2];
-        c[2] = given[1];
-    }
-    static const uint8_t corners[4][3] = {{0, 1, 2}, {1, 0, 3}, {2, 1, 3}, {0, 2, 3}};
-    static const uint8_t across[4][3] = {{4, 8, 12}, {0, 14, 9}, {1, 6, 13}, {2, 10, 5}};
+static void make_simplex(builder *b, const uint32_t corner[4]) {
+    const simplex s = simplex_make(b->grid, corner);
     for (uint32_t f = 0; f < 4; f++) {
-        set_facet(b, f, (uint32_t[]){c[corners[f][0]], c[corners[f][1]], c[corners[f][2]]});
-        for (int k = 0; k < 3; k++) b->across[f][k] = across[f][k];
+        set_facet(b, f, s.triangles[f]);
+        for (int k = 0; k < 3; k++) b->across[f][k] = (uint16_t)s.across[f][k];
     }
     b->used = 4;
 }

@@ -331,22 +331,31 @@ static void queue_facets(builder *b, facet *const *facets, uint32_t count) {
         if (has_above(b, facets[i])) queue_facet(b, facets[i]);
 }
 
-static void make_simplex(builder *b, uint32_t count, const uint32_t given[4]) {
-    uint32_t c[4] = {given[0], given[1], given[2], given[3]};
+simplex simplex_make(const double *grid, const uint32_t corner[4]) {
+    static const uint8_t triangles[4][3] = {{0, 1, 2}, {1, 0, 3}, {2, 1, 3}, {0, 2, 3}};
+    static const uint8_t across[4][3] = {{4, 8, 12}, {0, 14, 9}, {1, 6, 13}, {2, 10, 5}};
+    vec3 p[4];
+    simplex s;
+    for (int i = 0; i < 4; i++) p[i] = vec3_at(grid, corner[i]);
     // The fourth corner below the first three.
-    if (orient3d_sign(get_point(b, c[0]), get_point(b, c[1]), get_point(b, c[2]), get_point(b, c[3])) < 0) {
-        c[1] = given[2];
-        c[2] = given[1];
-    }
-    static const int corners[4][3] = {{0, 1, 2}, {1, 0, 3}, {2, 1, 3}, {0, 2, 3}};
-    static const uint32_t across[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-    static const uint32_t back[4][3] = {{0, 0, 0}, {0, 2, 1}, {1, 2, 1}, {2, 2, 1}};
+    int is_turned = orient3d_sign(p[0], p[1], p[2], p[3]) < 0;
+    const uint32_t c[4] = {corner[0], corner[is_turned ? 2 : 1], corner[is_turned ? 1 : 2], corner[3]};
+    for (int t = 0; t < 4; t++)
+        for (int k = 0; k < 3; k++) {
+            s.triangles[t][k] = c[triangles[t][k]];
+            s.across[t][k] = across[t][k];
+        }
+    return s;
+}
+
+static void make_simplex(builder *b, uint32_t count, const uint32_t c[4]) {
+    const simplex s = simplex_make(b->grid, c);
     // The first facets of all, which are numbered from 0 and whose memory there is.
     facet *f[4];
     for (uint32_t i = 0; i < 4; i++) {
-        (void)add_facet(b, c[corners[i][0]], c[corners[i][1]], c[corners[i][2]]);
+        (void)add_facet(b, s.triangles[i][0], s.triangles[i][1], s.triangles[i][2]);
         f[i] = get_facet(b, i);
-        for (int k = 0; k < 3; k++) f[i]->across[k] = make_side(across[i][k], back[i][k]);
+        for (int k = 0; k < 3; k++) f[i]->across[k] = s.across[i][k];
     }
     for (uint32_t p = 0; p < count; p++) {
         b->state[p] = POINT_EXTREME;

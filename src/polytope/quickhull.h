@@ -39,6 +39,12 @@ ovoid_code incremental_find(const points *p, const ovoid_allocator *allocator, s
 /// Sets the rank and the corners of the surface, as quickhull_create does, and nothing else. Cost: linear.
 void simplex_find(const points *p, surface *s);
 
+/// The surface of the tetrahedron that four points span, with the members of `surface`.
+typedef struct simplex {
+    uint32_t triangles[4][3], across[4][3];
+} simplex;
+simplex simplex_make(const double *grid, const uint32_t corner[4]);
+
 /// The triangle beyond edge k of a triangle.
 static inline uint32_t surface_get_across(const surface *s, uint32_t triangle, uint32_t k) {
     return s->across[3 * (size_t)triangle + k] / 4;

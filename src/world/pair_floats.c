@@ -78,12 +78,7 @@ static void cache_floats(const floats_asking *asking, const world_pair *p, uint3
     pair_cache *cache = &asking->w->pair_cache[p->slot];
     int has_normal = verdict->status == OVOID_SEPARATED && verdict->stage != OVOID_STAGE_SPHERE;
     int has_corners = verdict->status == OVOID_OVERLAPPING && verdict->stage == OVOID_STAGE_GJK;
-    cache->lower = verdict->lower;
-    cache->upper = verdict->upper;
-    cache->status = (uint8_t)verdict->status;
-    cache->stage = (uint8_t)verdict->stage;
-    cache->limit = (uint8_t)verdict->limit;
-    cache->iterations = verdict->iterations;
+    pair_cache_verdict(cache, verdict);
     cache->normal = (vec3){0, 0, 0};
     if (has_normal) cache->normal = turn_normal(&asking->w->bodies[p->a].body.pose, asking->normals[place]);
     cache->proof = has_corners ? OVOID_PROOF_HULL : OVOID_PROOF_NONE;

@@ -169,12 +169,8 @@ static void query_shapes(const ovoid_world *w, const world_pair *p, ovoid_cover 
 }
 
 static void cache_answer(ovoid_world *w, const world_pair *p, pair_cache *cache, const ovoid_answer *answer) {
-    cache->lower = answer->lower;
-    cache->upper = answer->upper;
-    cache->status = (uint8_t)answer->status;
-    cache->stage = (uint8_t)answer->stage;
-    cache->limit = (uint8_t)answer->limit;
-    cache->iterations = answer->iterations;
+    const ovoid_verdict verdict = answer_get_verdict(answer);
+    pair_cache_verdict(cache, &verdict);
     cache_proof(cache, &answer->proof);
     if (world_has_witnesses(w))
         w->witnesses[p->slot] = (ovoid_witness){answer->point_a, answer->point_b, answer->normal};

@@ -19,6 +19,16 @@ void pair_update_with(ovoid_world *w, world_pair *p, ovoid_cover *cover);
 /// Answers the pair from its revalidated proof or by a query (pair_update_with).
 void pair_update(ovoid_world *w, world_pair *p);
 
+/// Caches what an answer says without its proof.
+static inline void pair_cache_verdict(pair_cache *cache, const ovoid_verdict *verdict) {
+    cache->lower = verdict->lower;
+    cache->upper = verdict->upper;
+    cache->status = (uint8_t)verdict->status;
+    cache->stage = (uint8_t)verdict->stage;
+    cache->limit = (uint8_t)verdict->limit;
+    cache->iterations = verdict->iterations;
+}
+
 /// Notes that the cached bounds are those at the present poses, and sets their age.
 void pair_renew(const ovoid_world *w, world_pair *p, pair_cache *cache);
 
